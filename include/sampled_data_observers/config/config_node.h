@@ -1,0 +1,52 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sampled_data_observers {
+
+/// A fault in the configuration. The message names the file and line or the parameter, the path of
+/// the key, what was expected and what was found.
+class ConfigError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+
+  /// @param origin    file and line, or "parameter"
+  /// @param path      keys joined by '/'
+  /// @param expected  completes "expected ..."
+  /// @param found     completes "found ..."
+  ConfigError(const std::string& origin, const std::string& path, const std::string& expected,
+              const std::string& found)
+      : std::runtime_error(origin + ": " + (path.empty() ? "" : path + ": ") + "expected " +
+                           expected + ", found " + found) {}
+};
+
+/// One node of a configuration tree, whether it was read from a YAML file or from the ROS parameter
+/// server. Scalars are kept as text and converted strictly where they are used.
+struct ConfigNode {
+  enum class Kind { kEmpty, kScalar, kSequence, kMap };
+
+  Kind kind = Kind::kEmpty;
+  /// Where it stands: "file.yaml:12" or "parameter /observer/gains/L".
+  std::string origin;
+  std::string scalar;
+  std::vector<ConfigNode> items;
+  /// In order of appearance; keys are unique.
+  std::vector<std::pair<std::string, ConfigNode>> entries;
+
+  const ConfigNode* find(const std::string& key) const;
+
+  /// What it is, for "found ...": "the text 'abc'", "a list of 3", "nothing", ...
+  std::string describe() const;
+};
+
+/// One tree from several: maps are joined key by key.
+/// @throws ConfigError for a key that has a value in two of them.
+ConfigNode merge(const std::vector<ConfigNode>& trees);
+
+/// One tree from two: what `overriding` says replaces what `base` says, key by key.
+ConfigNode override_with(ConfigNode base, const ConfigNode& overriding);
+
+}  // namespace sampled_data_observers

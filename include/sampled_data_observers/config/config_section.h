@@ -1,0 +1,72 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "sampled_data_observers/config/config_node.h"
+
+namespace sampled_data_observers {
+
+/// A map of the configuration while it is read: strict conversions, and a record of the keys asked
+/// for, so that finish() finds those that mean nothing.
+///
+/// Every reader throws a ConfigError when the key is missing (unless it has a fallback) or its
+/// value is not what was asked for.
+class ConfigSection {
+ public:
+  /// @throws ConfigError when `node` is not a map.
+  ConfigSection(const ConfigNode& node, std::string path);
+
+  bool has(const std::string& key);
+
+  /// A finite number.
+  double number(const std::string& key);
+  double number(const std::string& key, double fallback);
+  /// A finite number in [low, high].
+  double number_in(const std::string& key, double low, double high, std::optional<double> fallback);
+  /// A whole number in [low, high].
+  std::size_t count(const std::string& key, std::size_t low, std::size_t high,
+                    std::size_t fallback);
+
+  std::string text(const std::string& key);
+  std::string text(const std::string& key, const std::string& fallback);
+  /// One of `choices`.
+  std::string choice(const std::string& key, const std::vector<std::string>& choices,
+                     std::optional<std::string> fallback);
+  std::vector<std::string> texts(const std::string& key);
+  std::vector<std::string> texts(const std::string& key, std::size_t size);
+  std::vector<bool> flags(const std::string& key, std::size_t size);
+
+  /// A matrix as nested lists, row by row. A negative size is free.
+  Eigen::MatrixXd matrix(const std::string& key, Eigen::Index rows, Eigen::Index cols);
+  /// A list of `size` finite numbers.
+  Eigen::VectorXd vector(const std::string& key, Eigen::Index size);
+
+  ConfigSection section(const std::string& key);
+  /// A map whose keys are names that the user chose.
+  std::vector<std::string> keys() const;
+  bool is_map(const std::string& key);
+
+  /// @throws ConfigError for a key that was never asked for.
+  void finish() const;
+
+  const std::string& path() const { return path_; }
+  const std::string& origin() const { return node_.origin; }
+  std::string path_of(const std::string& key) const;
+
+  /// A ConfigError at a key of this section.
+  ConfigError error(const std::string& key, const std::string& expected,
+                    const std::string& found) const;
+
+ private:
+  const ConfigNode& required(const std::string& key, const std::string& expected);
+
+  const ConfigNode& node_;
+  std::string path_;
+  std::set<std::string> asked_;
+};
+
+}  // namespace sampled_data_observers

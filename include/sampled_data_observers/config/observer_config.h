@@ -1,0 +1,57 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sampled_data_observers/config/config_node.h"
+#include "sampled_data_observers/observer/estimator.h"
+#include "sampled_data_observers/observer/observer_law.h"
+#include "sampled_data_observers/plant/linear_plant.h"
+
+namespace sampled_data_observers {
+
+/// Where the values of events come from.
+struct TopicSource {
+  /// Name of the topic, relative or absolute.
+  std::string topic;
+  /// Message type, such as "geometry_msgs/PoseStamped".
+  std::string type;
+  /// One field path per value, such as "pose.position.x"; empty for types that carry the values in
+  /// order themselves.
+  std::vector<std::string> fields;
+  /// Number of values.
+  std::size_t size = 0;
+  /// Where the configuration says so, for messages about it.
+  std::string origin;
+  std::string path;
+};
+
+/// Everything that a configuration says, checked. doc/configuration.md describes each key.
+struct ObserverConfig {
+  /// Observer type, such as "ConstantGainObserver".
+  std::string type;
+  std::shared_ptr<const LinearPlant> plant;
+  std::shared_ptr<const ObserverLaw> law;
+  Estimator::Options options;
+  /// Period of the published estimates, and how long after its stamp each is computed [ns].
+  Duration period = 0;
+  Duration publish_delay = 0;
+  std::string frame_id;
+  /// One per sensor, in the order of the plant's sensors.
+  std::vector<TopicSource> sensors;
+  /// Set when the plant has inputs.
+  std::optional<TopicSource> input;
+  /// Set when the plant has a jump map.
+  std::optional<TopicSource> jumps;
+};
+
+/// Reads and checks a whole configuration tree.
+/// @throws ConfigError for the first fault found.
+ObserverConfig read_observer_config(const ConfigNode& root);
+
+/// The same from YAML files, which are merged; a key may stand in one of them only.
+ObserverConfig read_observer_config(const std::vector<std::string>& files);
+
+}  // namespace sampled_data_observers

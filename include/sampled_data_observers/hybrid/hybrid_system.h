@@ -1,0 +1,45 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "sampled_data_observers/hybrid/event.h"
+#include "sampled_data_observers/hybrid/time.h"
+
+namespace sampled_data_observers {
+
+using StateRef = Eigen::Ref<Eigen::VectorXd>;
+using ConstStateRef = Eigen::Ref<const Eigen::VectorXd>;
+
+/// A hybrid system whose jumps are driven by events: it flows between them and is reset at them.
+///
+/// Immutable once built; the state is the caller's. The maps allocate nothing and throw nothing:
+/// what they need beside the state they find in `workspace`, whose content means nothing between
+/// calls. A map may leave non-finite numbers in the state; the Timeline handles that.
+class HybridSystem {
+ public:
+  virtual ~HybridSystem() = default;
+
+  /// Number of entries of the state.
+  virtual Eigen::Index state_size() const = 0;
+
+  /// Number of entries that the maps need in `workspace`.
+  virtual Eigen::Index workspace_size() const = 0;
+
+  /// Number of values that an event of this kind and channel carries; -1 where there is no such
+  /// channel.
+  virtual Eigen::Index event_size(EventKind kind, int channel) const = 0;
+
+  /// Largest event_size() of all channels.
+  virtual Eigen::Index max_event_size() const = 0;
+
+  /// The state before the first event.
+  virtual void initialize(StateRef state) const = 0;
+
+  /// Flow map: carries the state over `duration` >= 0.
+  virtual void flow(Duration duration, StateRef state, StateRef workspace) const = 0;
+
+  /// Reset map of an event that event_size() accepts.
+  virtual void reset(const Event& event, StateRef state, StateRef workspace) const = 0;
+};
+
+}  // namespace sampled_data_observers

@@ -1,0 +1,143 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "sampled_data_observers/hybrid/hybrid_system.h"
+
+namespace sampled_data_observers {
+
+/// What a state rests on, counted since the start (or the last restart).
+struct EventCounts {
+  std::uint64_t events = 0;
+  std::uint64_t samples = 0;
+  std::uint64_t jumps = 0;
+  /// Stamp of the newest sample among them.
+  std::optional<Stamp> last_sample;
+};
+
+/// A bounded log of events in stamp order, each with the state after it, over one HybridSystem.
+///
+/// The state at time t is a pure function of the system, of the limits and of the set of events
+/// with stamp <= t that were taken in: an event that comes late, but inside the history window, is
+/// put where it belongs and the later ones are applied again. Equal stamps are ordered by
+/// compare(Event, Event). Queries change nothing.
+///
+/// Before its first event the system is in its initial state; the first event's stamp is therefore
+/// the earliest time at which there is a state. The window reaches `history` back from the newest
+/// event, or less when more than `max_events` events lie in it.
+///
+/// A flow or reset whose result is not finite is skipped: the last finite state is held. That, too,
+/// is a function of the events alone.
+///
+/// Everything is allocated by the constructor; afterwards nothing is.
+class Timeline {
+ public:
+  struct Limits {
+    /// Length of the history window [ns], > 0.
+    Duration history = 0;
+    /// Number of events kept, >= 1.
+    std::size_t max_events = 0;
+  };
+
+  enum class Insertion {
+    kAppended,      ///< newest of all
+    kRewound,       ///< put before `rewound` later events, which were applied again
+    kDuplicate,     ///< the same event is there already; nothing changed
+    kBeforeWindow,  ///< older than the history window; nothing changed
+  };
+
+  struct InsertReport {
+    Insertion insertion = Insertion::kAppended;
+    std::size_t rewound = 0;
+    /// False when the flow to the event or its reset was skipped as not finite.
+    bool finite = true;
+    /// Stamp of the newest sample before the event's stamp.
+    std::optional<Stamp> previous_sample;
+  };
+
+  enum class Query {
+    kOk,
+    kHeld,         ///< the flow to this stamp is not finite: the last finite state
+    kNoEvent,      ///< nothing was taken in yet
+    kBeforeStart,  ///< before the first event or the restart
+    kBeforeWindow  ///< older than the history window
+  };
+
+  /// @throws std::invalid_argument for a limit out of range.
+  Timeline(std::shared_ptr<const HybridSystem> system, Limits limits);
+
+  /// Takes in one event. The values are copied.
+  /// @pre event.size == system.event_size(event.kind, event.channel); all values finite
+  InsertReport insert(const Event& event);
+
+  /// The state at `stamp` from all events with a stamp up to and including it.
+  /// `state` (system.state_size() entries) and `counts` are written for kOk and kHeld only.
+  Query state_at(Stamp stamp, StateRef state, EventCounts& counts) const;
+
+  /// Forgets all events; `state` holds at `stamp`, and events up to `stamp` are before the window.
+  void restart(Stamp stamp, ConstStateRef state);
+
+  /// The earliest stamp at which there is a state now.
+  std::optional<Stamp> earliest() const;
+
+  /// Stamp of the newest event taken in.
+  std::optional<Stamp> newest() const;
+
+  /// Number of events in the log now.
+  std::size_t size() const { return size_; }
+
+  const Limits& limits() const { return limits_; }
+
+ private:
+  struct Slot {
+    Event event;
+    EventCounts counts;
+  };
+
+  std::size_t& order(std::size_t position) { return order_[(first_ + position) % order_.size()]; }
+  std::size_t order(std::size_t position) const {
+    return order_[(first_ + position) % order_.size()];
+  }
+  const Slot& slot(std::size_t position) const { return slots_[order(position)]; }
+
+  std::size_t position_after(const Event& event) const;
+  bool is_before_window(Stamp stamp) const;
+  void open_position(std::size_t position, const Event& event);
+  bool apply(std::size_t position);
+  void forget_oldest();
+  std::optional<Stamp> last_sample_before(std::size_t position, Stamp stamp) const;
+  auto state_after(std::size_t position) {
+    return states_.col(static_cast<Eigen::Index>(order(position)));
+  }
+  auto state_after(std::size_t position) const {
+    return states_.col(static_cast<Eigen::Index>(order(position)));
+  }
+
+  std::shared_ptr<const HybridSystem> system_;
+  Limits limits_;
+
+  /// One slot, one column of values and one column of states an event; `order_` is a ring of slot
+  /// numbers in the order of the events, followed by the free ones.
+  std::vector<Slot> slots_;
+  Eigen::MatrixXd values_;
+  Eigen::MatrixXd states_;
+  std::vector<std::size_t> order_;
+  std::size_t first_ = 0;
+  std::size_t size_ = 0;
+
+  /// The state before the oldest event of the log, once events were forgotten or after a restart.
+  std::optional<Stamp> base_stamp_;
+  bool base_is_restart_ = false;
+  EventCounts base_counts_;
+  Eigen::VectorXd base_state_;
+
+  /// Scratch of the maps; it makes even queries a matter of one thread at a time.
+  mutable Eigen::VectorXd workspace_;
+};
+
+}  // namespace sampled_data_observers

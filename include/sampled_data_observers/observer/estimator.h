@@ -1,0 +1,106 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "sampled_data_observers/hybrid/timeline.h"
+#include "sampled_data_observers/observer/observer_law.h"
+
+namespace sampled_data_observers {
+
+/// What became of a received event.
+enum class EventOutcome : std::uint8_t {
+  kUsed = 0,          ///< taken in as the newest event
+  kUsedLate = 1,      ///< taken in before events already there, which were applied again
+  kDuplicate = 2,     ///< the same event was taken in before
+  kTooOld = 3,        ///< before the history window, the start or the last reset
+  kInFuture = 4,      ///< stamped later than now plus the tolerance
+  kNoStamp = 5,       ///< the stamp is zero
+  kWrongSize = 6,     ///< another number of values than the channel has
+  kNotFinite = 7,     ///< a value is NaN or infinite
+  kWouldOverflow = 8  ///< taken in, but its effect is not finite and was skipped
+};
+
+/// How the time since the previous sample compares with the configured bounds.
+enum class IntervalCheck : std::uint8_t {
+  kNone = 0,    ///< not a sample that was used, or the first one
+  kWithin = 1,  ///< in [T1, T2]
+  kShort = 2,   ///< below T1
+  kLong = 3     ///< above T2
+};
+
+struct EventReport {
+  EventOutcome outcome = EventOutcome::kUsed;
+  /// Number of later events that were applied again.
+  std::size_t rewound = 0;
+  /// Time since the newest sample (of any sensor) with an earlier stamp; used samples only.
+  std::optional<Duration> interval;
+  IntervalCheck interval_check = IntervalCheck::kNone;
+
+  bool used() const { return outcome == EventOutcome::kUsed || outcome == EventOutcome::kUsedLate; }
+};
+
+/// The bounds T1 <= T2 on the time between samples for which the gains were designed [ns].
+struct SamplingBounds {
+  Duration T1 = 0;
+  Duration T2 = 0;
+};
+
+/// An estimate and what it rests on.
+struct Estimate {
+  Stamp stamp = 0;
+  /// The whole state of the law; its first law.estimate_size() entries are the estimate.
+  Eigen::VectorXd state;
+  EventCounts counts;
+  /// Whether the last finite state is given because the flow to `stamp` is not finite.
+  bool held = false;
+};
+
+/// One observer at work: admits events, keeps them in a Timeline and answers for any time in its
+/// window. It knows time only from its arguments, so it does the same live and from a bag.
+/// To be used by one thread at a time. Allocates nothing after construction.
+class Estimator {
+ public:
+  struct Options {
+    Timeline::Limits history;
+    SamplingBounds sampling;
+    /// How far a stamp may lie after the time of its arrival [ns], >= 0.
+    Duration future_tolerance = 0;
+  };
+
+  /// @throws std::invalid_argument for options out of range.
+  Estimator(std::shared_ptr<const ObserverLaw> law, const Options& options);
+
+  const ObserverLaw& law() const { return *law_; }
+
+  /// Admits an event that arrived at `now`. Whatever it holds, the estimate stays finite.
+  /// @pre the channel exists: law().event_size(event.kind, event.channel) >= 0
+  EventReport submit(const Event& event, Stamp now);
+
+  /// The estimate at `stamp` from all events taken in; `estimate` is written for kOk and kHeld.
+  /// @pre estimate.state.size() == law().state_size()
+  Timeline::Query estimate_at(Stamp stamp, Estimate& estimate) const;
+
+  /// An Estimate of the right size.
+  Estimate make_estimate() const;
+
+  /// Forgets all events and starts again at `stamp` from the configured initial estimate.
+  void restart(Stamp stamp);
+
+  /// The same from a given estimate (law().estimate_size() entries, finite).
+  void restart(Stamp stamp, ConstStateRef estimate);
+
+  const Timeline& timeline() const { return timeline_; }
+
+ private:
+  std::optional<EventOutcome> objection(const Event& event, Stamp now) const;
+
+  std::shared_ptr<const ObserverLaw> law_;
+  Options options_;
+  Timeline timeline_;
+  Eigen::VectorXd scratch_;
+};
+
+}  // namespace sampled_data_observers

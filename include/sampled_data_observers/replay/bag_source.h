@@ -1,0 +1,46 @@
+#pragma once
+
+#include <rosbag/bag.h>
+#include <rosbag/message_instance.h>
+
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "sampled_data_observers/ros/observer_runtime.h"
+
+namespace sampled_data_observers {
+
+/// A fault of a bag or of what was asked of it; the message says which and what to do.
+class ReplayError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Opens a bag for reading. @throws ReplayError when it can't be read.
+void open_for_reading(rosbag::Bag& bag, const std::string& path);
+
+/// Opens a bag for writing. @throws ReplayError when it can't be written.
+void open_for_writing(rosbag::Bag& bag, const std::string& path);
+
+/// Datatypes by topic, for all topics of a bag.
+std::vector<std::pair<std::string, std::string>> bag_topics(const rosbag::Bag& bag);
+
+/// A channel of the observer bound to a topic of a bag.
+struct BagChannel {
+  EventChannel channel;
+  /// Absolute name of the topic in the bag.
+  std::string topic;
+  /// Reads the message into the event; its values live until the next message is read.
+  /// @throws ReplayError when the message can't be read as the configured type.
+  std::function<void(const rosbag::MessageInstance&, Event&)> read;
+};
+
+/// Binds all channels of a configuration. Relative topic names are resolved, and remapped, as ROS
+/// does it.
+/// @throws ReplayError when a sensor's topic is not in the bag, or of another type.
+/// @throws ConfigError for a source that no message type fits.
+std::vector<BagChannel> bind_channels(const ObserverConfig& config, const rosbag::Bag& bag);
+
+}  // namespace sampled_data_observers

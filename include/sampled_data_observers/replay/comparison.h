@@ -1,0 +1,69 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sampled_data_observers/hybrid/time.h"
+#include "sampled_data_observers/plant/linear_plant.h"
+
+namespace sampled_data_observers {
+
+/// A number of the plant that is compared with the truth: row · x.
+struct Quantity {
+  std::string name;
+  Eigen::VectorXd row;  ///< n
+  bool angular = false;
+};
+
+/// The state called `name` as a quantity; nothing where there is none.
+std::optional<Quantity> state_quantity(const LinearPlant& plant, const std::string& name);
+
+/// An output of a sensor as a quantity, named after the state that it measures, or
+/// "sensor[output]".
+Quantity output_quantity(const LinearPlant& plant, std::size_t sensor, Eigen::Index output);
+
+/// Errors of the estimate and of holding the last sample, against the truth, on the same stamps.
+class Comparison {
+ public:
+  Comparison(std::vector<Quantity> quantities, const LinearPlant& plant);
+
+  const std::vector<Quantity>& quantities() const { return quantities_; }
+
+  /// Takes in the values of a sample that the observer used.
+  void add_sample(std::size_t sensor, Stamp stamp, const double* values);
+
+  /// Compares at one stamp. @param truth one value per quantity @param x the estimate, n entries
+  /// Does nothing before each quantity that a sensor measures directly was sampled once.
+  void add_truth(const std::vector<double>& truth, const double* x);
+
+  /// Number of stamps compared.
+  std::size_t size() const { return size_; }
+
+  /// Root mean squares, one per quantity; nothing where no stamp was compared or, for the held
+  /// sample, no sensor measures the quantity directly.
+  std::vector<std::optional<double>> rmse() const;
+  std::vector<std::optional<double>> hold_rmse() const;
+
+  /// Root of the sum of the squares of all of rmse() or hold_rmse(); nothing where one is missing.
+  static std::optional<double> norm(const std::vector<std::optional<double>>& values);
+
+ private:
+  struct Held {
+    std::size_t sensor;
+    Eigen::Index output;
+    std::optional<double> value;
+    Stamp stamp = 0;
+  };
+
+  std::vector<Quantity> quantities_;
+  /// The sensor output that measures each quantity, where one does.
+  std::vector<std::optional<Held>> held_;
+  std::vector<double> squares_;
+  std::vector<double> hold_squares_;
+  std::size_t size_ = 0;
+};
+
+}  // namespace sampled_data_observers

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+
+namespace sampled_data_observers {
+
+/// A line on standard error that fills up; nothing where standard error is no terminal.
+class ProgressBar {
+ public:
+  explicit ProgressBar(std::size_t total);
+  ~ProgressBar();
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
+
+  void advance();
+
+ private:
+  std::size_t total_;
+  std::size_t done_ = 0;
+  bool shown_;
+  std::chrono::steady_clock::time_point next_draw_;
+};
+
+}  // namespace sampled_data_observers

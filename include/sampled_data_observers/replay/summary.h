@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <ostream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sampled_data_observers {
+
+/// One curve or cloud of a picture: times [s since the first truth, or estimate] and values.
+struct Series {
+  std::vector<double> times;
+  std::vector<double> values;
+};
+
+/// What a picture shows of one quantity.
+struct QuantityPlot {
+  std::string name;
+  Series truth;
+  Series samples;
+  Series estimate;
+};
+
+/// What a replay found.
+struct ReplaySummary {
+  std::string bag;
+  std::string observer;
+
+  std::size_t samples_used = 0;
+  std::size_t samples_withheld = 0;  ///< by thinning
+  std::size_t samples_late = 0;      ///< of those used: before later events
+  /// Number of rejected events by reason; samples alone and all events.
+  std::map<std::string, std::size_t> rejected;
+  std::size_t samples_rejected = 0;
+  std::size_t events_used = 0;
+
+  /// Of the time between used samples [s].
+  double interval_min = 0.0;
+  double interval_mean = 0.0;
+  double interval_max = 0.0;
+  std::size_t intervals = 0;
+  std::size_t intervals_short = 0;
+  std::size_t intervals_long = 0;
+
+  std::size_t estimates = 0;
+  /// The last estimate.
+  double final_stamp = 0.0;  ///< s
+  std::vector<std::pair<std::string, double>> final_state;
+
+  std::size_t compared_stamps = 0;
+  std::vector<std::string> compared;
+  std::vector<std::optional<double>> rmse;
+  std::vector<std::optional<double>> hold_rmse;
+  std::optional<double> rmse_norm;
+  std::optional<double> hold_rmse_norm;
+
+  double bag_seconds = 0.0;
+  double wall_seconds = 0.0;
+
+  std::vector<QuantityPlot> plots;
+};
+
+/// The summary as a table for people.
+void print_table(const ReplaySummary& summary, std::ostream& out);
+
+/// The summary for machines, as JSON; what does not exist is null.
+void write_json(const ReplaySummary& summary, const std::string& path);
+
+}  // namespace sampled_data_observers

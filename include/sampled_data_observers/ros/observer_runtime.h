@@ -1,0 +1,68 @@
+#pragma once
+
+#include <sampled_data_observers/EventStatus.h>
+#include <sampled_data_observers/StateEstimate.h>
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sampled_data_observers/config/observer_config.h"
+#include "sampled_data_observers/hybrid/publication_grid.h"
+#include "sampled_data_observers/observer/estimator.h"
+
+namespace sampled_data_observers {
+
+/// One place where events enter: a topic, and what its messages mean.
+struct EventChannel {
+  EventKind kind = EventKind::kSample;
+  int channel = 0;
+  /// Name in EventStatus: the sensor's, "input" or "jumps".
+  std::string name;
+  TopicSource source;
+};
+
+/// All channels of a configuration: the sensors in order, then input and jumps where there are any.
+std::vector<EventChannel> event_channels(const ObserverConfig& config);
+
+/// What a nodelet and a replay do alike: events in, their statuses and the estimates that are due
+/// out. Only where messages come from and go to, and what time it is, differs.
+/// To be used by one thread at a time.
+class ObserverRuntime {
+ public:
+  explicit ObserverRuntime(const ObserverConfig& config);
+
+  /// Takes in an event that arrived at `now` and writes what became of it into `status`.
+  EventReport receive(const EventChannel& channel, const Event& event, Stamp now,
+                      EventStatus& status);
+
+  /// The next estimate due at `now`, if any: to be called until there is none.
+  const Estimate* next_due(Stamp now);
+
+  /// The time at which the estimate after those due at `now` becomes due.
+  Stamp next_due_time(Stamp now) const { return grid_.next_due_time(now); }
+
+  /// The estimate at any stamp; nothing, and why in `reason`, where there is none.
+  const Estimate* estimate_at(Stamp stamp, std::string& reason);
+
+  /// Starts again at `now`: from the configured initial estimate where `estimate` is empty.
+  /// Returns why nothing was changed, or an empty text.
+  std::string restart(Stamp now, const std::vector<double>& estimate);
+
+  /// Writes an estimate into a message. Allocates nothing when the message held one before.
+  void write(const Estimate& estimate, StateEstimate& message) const;
+
+  const Estimator& estimator() const { return estimator_; }
+
+ private:
+  const ObserverConfig config_;
+  Estimator estimator_;
+  PublicationGrid grid_;
+  Estimate estimate_;
+};
+
+/// The outcome in a few words.
+const char* describe(EventOutcome outcome);
+
+}  // namespace sampled_data_observers

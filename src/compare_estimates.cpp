@@ -1,0 +1,43 @@
+// rosrun sampled_data_observers compare_estimates A.bag B.bag
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+
+#include "sampled_data_observers/replay/estimate_comparison.h"
+
+int main(int argc, char** argv) {
+  CLI::App app{
+      "Compares the estimates of two bags, say of a live run and of its replay. Where both rest on "
+      "the same number of events they must be identical, bit for bit."};
+  std::string first;
+  std::string second;
+  std::string topic = "/estimate";
+  double at_least = 0.0;
+  app.add_option("first", first, "A bag")->required()->type_name("BAG");
+  app.add_option("second", second, "Another")->required()->type_name("BAG");
+  app.add_option("--topic", topic, "Topic of the estimates (default /estimate)");
+  app.add_option("--at-least", at_least,
+                 "Percentage of all stamps that must be in both, on the same events (default 0)");
+  app.footer("Exit status: 0 they agree, 1 they do not or can't be read, else wrong usage.");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    const sampled_data_observers::EstimateComparison result =
+        sampled_data_observers::compare_estimates(first, second, topic);
+    const double share = 100.0 * static_cast<double>(result.identical) /
+                         static_cast<double>(std::max(result.first, result.second));
+    std::printf("%zu and %zu estimates, %zu stamps in both\n", result.first, result.second,
+                result.common);
+    std::printf(
+        "identical bit for bit on %zu of %zu that rest on the same events: %.1f %% of all\n",
+        result.identical, result.same_events, share);
+    if (result.repeated_stamps) std::printf("a bag has estimates with repeated stamps\n");
+    const bool agree = result.identical == result.same_events && result.same_events > 0 &&
+                       share >= at_least && !result.repeated_stamps;
+    if (!agree) std::printf("they do not agree\n");
+    return agree ? 0 : 1;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "compare_estimates: %s\n", error.what());
+    return 1;
+  }
+}

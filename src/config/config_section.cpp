@@ -1,0 +1,241 @@
+#include "sampled_data_observers/config/config_section.h"
+
+#include <cmath>
+#include <locale>
+#include <regex>
+#include <sstream>
+#include <utility>
+
+namespace sampled_data_observers {
+namespace {
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+std::string shown(double value) {
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out << value;
+  return out.str();
+}
+
+/// Nothing where the node is not a finite decimal number. Leading zeros are refused: ROS' parameter
+/// loader reads 010 as eight, other readers as ten.
+std::optional<double> as_number(const ConfigNode& node) {
+  static const std::regex kNumber(R"([-+]?((0|[1-9]\d*)(\.\d*)?|\.\d+)([eE][-+]?\d+)?)");
+  if (node.kind != ConfigNode::Kind::kScalar || node.scalar.size() > 64 ||
+      !std::regex_match(node.scalar, kNumber)) {
+    return std::nullopt;
+  }
+  std::istringstream in(node.scalar[0] == '+' ? node.scalar.substr(1) : node.scalar);
+  in.imbue(std::locale::classic());
+  double value = 0.0;
+  in >> value;
+  // Overflow sets failbit; underflow gives the nearest number.
+  if (!std::isfinite(value) || (in.fail() && std::abs(value) > 1.0)) return std::nullopt;
+  return value;
+}
+
+std::string sized(Eigen::Index size, const char* free_name) {
+  return size < 0 ? free_name : std::to_string(size);
+}
+
+}  // namespace
+
+ConfigSection::ConfigSection(const ConfigNode& node, std::string path)
+    : node_(node), path_(std::move(path)) {
+  if (node.kind != ConfigNode::Kind::kMap) {
+    throw ConfigError(node.origin, path_, "a map of keys", node.describe());
+  }
+}
+
+std::string ConfigSection::path_of(const std::string& key) const {
+  return path_.empty() ? key : path_ + "/" + key;
+}
+
+ConfigError ConfigSection::error(const std::string& key, const std::string& expected,
+                                 const std::string& found) const {
+  const ConfigNode* node = node_.find(key);
+  return ConfigError(node != nullptr ? node->origin : node_.origin, path_of(key), expected, found);
+}
+
+const ConfigNode& ConfigSection::required(const std::string& key, const std::string& expected) {
+  if (!has(key)) throw error(key, expected, "nothing (the key is missing)");
+  return *node_.find(key);
+}
+
+bool ConfigSection::has(const std::string& key) {
+  asked_.insert(key);
+  return node_.find(key) != nullptr;
+}
+
+bool ConfigSection::is_map(const std::string& key) {
+  return has(key) && node_.find(key)->kind == ConfigNode::Kind::kMap;
+}
+
+double ConfigSection::number(const std::string& key) {
+  const ConfigNode& node = required(key, "a finite number");
+  const std::optional<double> value = as_number(node);
+  if (!value) throw error(key, "a finite number", node.describe());
+  return *value;
+}
+
+double ConfigSection::number(const std::string& key, double fallback) {
+  return has(key) ? number(key) : fallback;
+}
+
+double ConfigSection::number_in(const std::string& key, double low, double high,
+                                std::optional<double> fallback) {
+  if (fallback && !has(key)) return *fallback;
+  const double value = number(key);
+  if (value < low || value > high) {
+    throw error(key, "a number from " + shown(low) + " to " + shown(high), shown(value));
+  }
+  return value;
+}
+
+std::size_t ConfigSection::count(const std::string& key, std::size_t low, std::size_t high,
+                                 std::size_t fallback) {
+  const double value = number_in(key, static_cast<double>(low), static_cast<double>(high),
+                                 static_cast<double>(fallback));
+  if (value != std::floor(value)) throw error(key, "a whole number", shown(value));
+  return static_cast<std::size_t>(value);
+}
+
+std::string ConfigSection::text(const std::string& key) {
+  const ConfigNode& node = required(key, "a text");
+  if (node.kind != ConfigNode::Kind::kScalar || node.scalar.empty()) {
+    throw error(key, "a text that is not empty", node.describe());
+  }
+  return node.scalar;
+}
+
+std::string ConfigSection::text(const std::string& key, const std::string& fallback) {
+  return has(key) ? text(key) : fallback;
+}
+
+std::string ConfigSection::choice(const std::string& key, const std::vector<std::string>& choices,
+                                  std::optional<std::string> fallback) {
+  if (fallback && !has(key)) return *fallback;
+  const std::string value = text(key);
+  for (const std::string& choice : choices) {
+    if (value == choice) return value;
+  }
+  throw error(key, "one of " + joined(choices), "'" + value + "'");
+}
+
+std::vector<std::string> ConfigSection::texts(const std::string& key) {
+  const ConfigNode& node = required(key, "a list of names");
+  if (node.kind != ConfigNode::Kind::kSequence) {
+    throw error(key, "a list of names", node.describe());
+  }
+  std::vector<std::string> result;
+  for (const ConfigNode& item : node.items) {
+    if (item.kind != ConfigNode::Kind::kScalar) throw error(key, "names in it", item.describe());
+    result.push_back(item.scalar);
+  }
+  return result;
+}
+
+std::vector<std::string> ConfigSection::texts(const std::string& key, std::size_t size) {
+  std::vector<std::string> result = texts(key);
+  if (result.size() != size) {
+    throw error(key, "a list of " + std::to_string(size),
+                "one of " + std::to_string(result.size()));
+  }
+  return result;
+}
+
+std::vector<bool> ConfigSection::flags(const std::string& key, std::size_t size) {
+  const std::string expected = "a list of " + std::to_string(size) + " of true and false";
+  std::vector<bool> result;
+  const ConfigNode& node = required(key, expected);
+  if (node.kind != ConfigNode::Kind::kSequence || node.items.size() != size) {
+    throw error(key, expected, node.describe());
+  }
+  for (const ConfigNode& item : node.items) {
+    if (item.scalar != "true" && item.scalar != "false")
+      throw error(key, expected, item.describe());
+    result.push_back(item.scalar == "true");
+  }
+  return result;
+}
+
+Eigen::MatrixXd ConfigSection::matrix(const std::string& key, Eigen::Index rows,
+                                      Eigen::Index cols) {
+  const std::string expected = "a " + sized(rows, "n") + " x " + sized(cols, "m") +
+                               " matrix of finite numbers as a list of rows, each a list";
+  const ConfigNode& node = required(key, expected);
+  if (node.kind != ConfigNode::Kind::kSequence || node.items.empty()) {
+    throw error(key, expected, node.describe());
+  }
+  const auto found_rows = static_cast<Eigen::Index>(node.items.size());
+  const auto found_cols = static_cast<Eigen::Index>(node.items.front().items.size());
+  Eigen::MatrixXd result(found_rows, found_cols);
+  for (Eigen::Index i = 0; i < found_rows; ++i) {
+    const ConfigNode& row = node.items[static_cast<std::size_t>(i)];
+    const std::string where = "row " + std::to_string(i + 1);
+    if (row.kind != ConfigNode::Kind::kSequence) {
+      throw error(key, expected, row.describe() + " as " + where);
+    }
+    if (static_cast<Eigen::Index>(row.items.size()) != found_cols) {
+      throw error(key, expected, where + " of another length than row 1");
+    }
+    for (Eigen::Index j = 0; j < found_cols; ++j) {
+      const ConfigNode& item = row.items[static_cast<std::size_t>(j)];
+      const std::optional<double> value = as_number(item);
+      if (!value) {
+        throw error(key, expected,
+                    item.describe() + " in " + where + ", column " + std::to_string(j + 1));
+      }
+      result(i, j) = *value;
+    }
+  }
+  if ((rows >= 0 && found_rows != rows) || (cols >= 0 && found_cols != cols) || found_cols == 0) {
+    throw error(key, expected,
+                "a " + std::to_string(found_rows) + " x " + std::to_string(found_cols) + " matrix");
+  }
+  return result;
+}
+
+Eigen::VectorXd ConfigSection::vector(const std::string& key, Eigen::Index size) {
+  const std::string expected = "a list of " + std::to_string(size) + " finite numbers";
+  const ConfigNode& node = required(key, expected);
+  if (node.kind != ConfigNode::Kind::kSequence ||
+      static_cast<Eigen::Index>(node.items.size()) != size) {
+    throw error(key, expected, node.describe());
+  }
+  Eigen::VectorXd result(size);
+  for (Eigen::Index i = 0; i < size; ++i) {
+    const ConfigNode& item = node.items[static_cast<std::size_t>(i)];
+    const std::optional<double> value = as_number(item);
+    if (!value) throw error(key, expected, item.describe());
+    result(i) = *value;
+  }
+  return result;
+}
+
+ConfigSection ConfigSection::section(const std::string& key) {
+  return ConfigSection(required(key, "a map of keys"), path_of(key));
+}
+
+std::vector<std::string> ConfigSection::keys() const {
+  std::vector<std::string> result;
+  for (const auto& entry : node_.entries) result.push_back(entry.first);
+  return result;
+}
+
+void ConfigSection::finish() const {
+  for (const auto& [key, node] : node_.entries) {
+    if (asked_.count(key) != 0) continue;
+    throw ConfigError(
+        node.origin, path_of(key),
+        "one of the keys " + joined(std::vector<std::string>(asked_.begin(), asked_.end())),
+        "the unknown key '" + key + "'");
+  }
+}
+
+}  // namespace sampled_data_observers

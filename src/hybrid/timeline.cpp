@@ -1,0 +1,188 @@
+#include "sampled_data_observers/hybrid/timeline.h"
+
+#include <algorithm>
+#include <numeric>
+#include <stdexcept>
+#include <utility>
+
+namespace sampled_data_observers {
+namespace {
+
+Timeline::Limits checked(Timeline::Limits limits) {
+  if (limits.history <= 0) throw std::invalid_argument("Timeline: history must be positive");
+  if (limits.max_events == 0) throw std::invalid_argument("Timeline: max_events must be positive");
+  return limits;
+}
+
+void count(const Event& event, EventCounts& counts) {
+  ++counts.events;
+  if (event.kind == EventKind::kJump) ++counts.jumps;
+  if (event.kind == EventKind::kSample) {
+    ++counts.samples;
+    counts.last_sample = event.stamp;
+  }
+}
+
+}  // namespace
+
+Timeline::Timeline(std::shared_ptr<const HybridSystem> system, Limits limits)
+    : system_(std::move(system)),
+      limits_(checked(limits)),
+      // One slot more than events kept: a new event is put in order before the oldest goes.
+      slots_(limits.max_events + 1),
+      values_(system_->max_event_size(), static_cast<Eigen::Index>(slots_.size())),
+      states_(system_->state_size(), static_cast<Eigen::Index>(slots_.size())),
+      order_(slots_.size()),
+      base_state_(system_->state_size()),
+      workspace_(system_->workspace_size()) {
+  std::iota(order_.begin(), order_.end(), std::size_t{0});
+  for (std::size_t i = 0; i < slots_.size(); ++i) {
+    slots_[i].event.values = values_.col(static_cast<Eigen::Index>(i)).data();
+  }
+  system_->initialize(base_state_);
+}
+
+Timeline::InsertReport Timeline::insert(const Event& event) {
+  InsertReport report;
+  const std::size_t position = position_after(event);
+  report.previous_sample = last_sample_before(position, event.stamp);
+  if (position > 0 && compare(slot(position - 1).event, event) == 0) {
+    report.insertion = Insertion::kDuplicate;
+    return report;
+  }
+  if (is_before_window(event.stamp)) {
+    report.insertion = Insertion::kBeforeWindow;
+    return report;
+  }
+  report.rewound = size_ - position;
+  report.insertion = report.rewound == 0 ? Insertion::kAppended : Insertion::kRewound;
+  open_position(position, event);
+  report.finite = apply(position);
+  for (std::size_t later = position + 1; later < size_; ++later) apply(later);
+
+  const Stamp horizon = slot(size_ - 1).event.stamp - limits_.history;
+  while (size_ > limits_.max_events || slot(0).event.stamp < horizon) forget_oldest();
+  return report;
+}
+
+Timeline::Query Timeline::state_at(Stamp stamp, StateRef state, EventCounts& counts) const {
+  std::size_t position = size_;
+  while (position > 0 && slot(position - 1).event.stamp > stamp) --position;
+
+  Stamp from = stamp;
+  if (position > 0) {
+    from = slot(position - 1).event.stamp;
+    state = state_after(position - 1);
+    counts = slot(position - 1).counts;
+  } else if (!base_stamp_) {
+    return size_ == 0 ? Query::kNoEvent : Query::kBeforeStart;
+  } else if (*base_stamp_ > stamp) {
+    return base_is_restart_ ? Query::kBeforeStart : Query::kBeforeWindow;
+  } else {
+    from = *base_stamp_;
+    state = base_state_;
+    counts = base_counts_;
+  }
+  system_->flow(stamp - from, state, workspace_);
+  if (state.allFinite()) return Query::kOk;
+  if (position > 0) {
+    state = state_after(position - 1);
+  } else {
+    state = base_state_;
+  }
+  return Query::kHeld;
+}
+
+void Timeline::restart(Stamp stamp, ConstStateRef state) {
+  first_ = 0;
+  size_ = 0;
+  base_stamp_ = stamp;
+  base_is_restart_ = true;
+  base_counts_ = EventCounts{};
+  base_state_ = state;
+}
+
+std::optional<Stamp> Timeline::earliest() const {
+  if (base_stamp_) return base_stamp_;
+  if (size_ > 0) return slot(0).event.stamp;
+  return std::nullopt;
+}
+
+std::optional<Stamp> Timeline::newest() const {
+  if (size_ > 0) return slot(size_ - 1).event.stamp;
+  return std::nullopt;
+}
+
+/// The position behind all events that come before `event` or equal it.
+std::size_t Timeline::position_after(const Event& event) const {
+  // Most events are the newest or nearly so: a search from the end beats a bisection.
+  std::size_t position = size_;
+  while (position > 0 && compare(slot(position - 1).event, event) > 0) --position;
+  return position;
+}
+
+bool Timeline::is_before_window(Stamp stamp) const {
+  if (base_stamp_ && stamp <= *base_stamp_) return true;
+  return size_ > 0 && stamp < slot(size_ - 1).event.stamp - limits_.history;
+}
+
+void Timeline::open_position(std::size_t position, const Event& event) {
+  const std::size_t free_slot = order(size_);
+  for (std::size_t i = size_; i > position; --i) order(i) = order(i - 1);
+  order(position) = free_slot;
+  ++size_;
+  const double* values = slots_[free_slot].event.values;
+  values_.col(static_cast<Eigen::Index>(free_slot)).head(event.size) = event.vector();
+  slots_[free_slot].event = event;
+  slots_[free_slot].event.values = values;
+}
+
+/// Computes the state after the event at `position` from what stands before it.
+/// Returns false when a non-finite flow or reset was skipped.
+bool Timeline::apply(std::size_t position) {
+  Slot& current = slots_[order(position)];
+  auto state = state_after(position);
+  const bool is_first = position == 0;
+  const Stamp now = current.event.stamp;
+  Stamp from = now;
+  if (!is_first) {
+    from = slot(position - 1).event.stamp;
+  } else if (base_stamp_) {
+    from = *base_stamp_;
+  }
+  const auto restore = [&] {
+    if (is_first) {
+      state = base_state_;
+    } else {
+      state = state_after(position - 1);
+    }
+  };
+  current.counts = is_first ? base_counts_ : slot(position - 1).counts;
+  count(current.event, current.counts);
+
+  restore();
+  system_->flow(now - from, state, workspace_);
+  const bool flow_is_finite = state.allFinite();
+  if (!flow_is_finite) restore();
+  system_->reset(current.event, state, workspace_);
+  if (state.allFinite()) return flow_is_finite;
+  restore();
+  if (flow_is_finite) system_->flow(now - from, state, workspace_);
+  return false;
+}
+
+void Timeline::forget_oldest() {
+  base_stamp_ = slot(0).event.stamp;
+  base_is_restart_ = false;
+  base_counts_ = slot(0).counts;
+  base_state_ = state_after(0);
+  first_ = (first_ + 1) % order_.size();
+  --size_;
+}
+
+std::optional<Stamp> Timeline::last_sample_before(std::size_t position, Stamp stamp) const {
+  while (position > 0 && slot(position - 1).event.stamp == stamp) --position;
+  return position > 0 ? slot(position - 1).counts.last_sample : base_counts_.last_sample;
+}
+
+}  // namespace sampled_data_observers

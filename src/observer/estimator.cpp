@@ -1,0 +1,93 @@
+#include "sampled_data_observers/observer/estimator.h"
+
+#include <stdexcept>
+#include <utility>
+
+namespace sampled_data_observers {
+namespace {
+
+IntervalCheck check(Duration interval, const SamplingBounds& bounds) {
+  if (interval < bounds.T1) return IntervalCheck::kShort;
+  if (interval > bounds.T2) return IntervalCheck::kLong;
+  return IntervalCheck::kWithin;
+}
+
+EventOutcome outcome_of(const Timeline::InsertReport& report) {
+  switch (report.insertion) {
+    case Timeline::Insertion::kDuplicate:
+      return EventOutcome::kDuplicate;
+    case Timeline::Insertion::kBeforeWindow:
+      return EventOutcome::kTooOld;
+    case Timeline::Insertion::kAppended:
+    case Timeline::Insertion::kRewound:
+      break;
+  }
+  if (!report.finite) return EventOutcome::kWouldOverflow;
+  return report.insertion == Timeline::Insertion::kAppended ? EventOutcome::kUsed
+                                                            : EventOutcome::kUsedLate;
+}
+
+}  // namespace
+
+Estimator::Estimator(std::shared_ptr<const ObserverLaw> law, const Options& options)
+    : law_(std::move(law)),
+      options_(options),
+      timeline_(law_, options.history),
+      scratch_(law_->state_size()) {
+  if (options_.sampling.T1 <= 0 || options_.sampling.T1 > options_.sampling.T2) {
+    throw std::invalid_argument("Estimator: 0 < T1 <= T2 must hold");
+  }
+  if (options_.future_tolerance < 0) {
+    throw std::invalid_argument("Estimator: future_tolerance must not be negative");
+  }
+}
+
+std::optional<EventOutcome> Estimator::objection(const Event& event, Stamp now) const {
+  if (event.stamp <= 0) return EventOutcome::kNoStamp;
+  if (event.size != law_->event_size(event.kind, event.channel)) return EventOutcome::kWrongSize;
+  if (!event.vector().allFinite()) return EventOutcome::kNotFinite;
+  if (event.stamp - now > options_.future_tolerance) return EventOutcome::kInFuture;
+  return std::nullopt;
+}
+
+EventReport Estimator::submit(const Event& event, Stamp now) {
+  EventReport report;
+  if (const std::optional<EventOutcome> outcome = objection(event, now)) {
+    report.outcome = *outcome;
+    return report;
+  }
+  const Timeline::InsertReport inserted = timeline_.insert(event);
+  report.outcome = outcome_of(inserted);
+  report.rewound = inserted.rewound;
+  if (report.used() && event.kind == EventKind::kSample && inserted.previous_sample) {
+    report.interval = event.stamp - *inserted.previous_sample;
+    report.interval_check = check(*report.interval, options_.sampling);
+  }
+  return report;
+}
+
+Timeline::Query Estimator::estimate_at(Stamp stamp, Estimate& estimate) const {
+  const Timeline::Query query = timeline_.state_at(stamp, estimate.state, estimate.counts);
+  estimate.stamp = stamp;
+  estimate.held = query == Timeline::Query::kHeld;
+  return query;
+}
+
+Estimate Estimator::make_estimate() const {
+  Estimate estimate;
+  estimate.state = Eigen::VectorXd::Zero(law_->state_size());
+  return estimate;
+}
+
+void Estimator::restart(Stamp stamp) {
+  law_->initialize(scratch_);
+  timeline_.restart(stamp, scratch_);
+}
+
+void Estimator::restart(Stamp stamp, ConstStateRef estimate) {
+  law_->initialize(scratch_);
+  scratch_.head(law_->estimate_size()) = estimate;
+  timeline_.restart(stamp, scratch_);
+}
+
+}  // namespace sampled_data_observers

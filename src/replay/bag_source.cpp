@@ -1,0 +1,92 @@
+#include "sampled_data_observers/replay/bag_source.h"
+
+#include <ros/names.h>
+#include <rosbag/view.h>
+
+#include <algorithm>
+#include <map>
+#include <memory>
+
+#include "sampled_data_observers/ros/message_types.h"
+#include "sampled_data_observers/ros/value_reader.h"
+
+namespace sampled_data_observers {
+namespace {
+
+std::string listed(const std::vector<std::pair<std::string, std::string>>& topics) {
+  std::string text;
+  for (const auto& [topic, type] : topics) text += "\n  " + topic + " (" + type + ")";
+  return text.empty() ? "\n  nothing" : text;
+}
+
+}  // namespace
+
+void open_for_reading(rosbag::Bag& bag, const std::string& path) {
+  try {
+    bag.open(path, rosbag::bagmode::Read);
+  } catch (const rosbag::BagUnindexedException&) {
+    throw ReplayError(path +
+                      ": the bag has no index (its recording was cut off, or the file is "
+                      "damaged); try: rosbag reindex " +
+                      path);
+  } catch (const std::exception& error) {
+    throw ReplayError(path + ": can't be read as a bag: " + error.what());
+  }
+}
+
+void open_for_writing(rosbag::Bag& bag, const std::string& path) {
+  try {
+    bag.open(path, rosbag::bagmode::Write);
+  } catch (const std::exception& error) {
+    throw ReplayError(path + ": can't be written: " + error.what());
+  }
+}
+
+std::vector<std::pair<std::string, std::string>> bag_topics(const rosbag::Bag& bag) {
+  rosbag::View view(bag);
+  std::map<std::string, std::string> topics;
+  for (const rosbag::ConnectionInfo* connection : view.getConnections()) {
+    topics[connection->topic] = connection->datatype;
+  }
+  return {topics.begin(), topics.end()};
+}
+
+std::vector<BagChannel> bind_channels(const ObserverConfig& config, const rosbag::Bag& bag) {
+  const auto topics = bag_topics(bag);
+  std::vector<BagChannel> result;
+  for (const EventChannel& channel : event_channels(config)) {
+    BagChannel bound;
+    bound.channel = channel;
+    bound.topic = ros::names::resolve(channel.source.topic);
+    bound.read = visit_message_type(channel.source, [&](auto tag) {
+      using M = typename decltype(tag)::type;
+      auto reader = std::make_shared<ValueReader<M>>(channel.source);
+      auto keep_alive = std::make_shared<boost::shared_ptr<const M>>();
+      return std::function<void(const rosbag::MessageInstance&, Event&)>(
+          [reader, keep_alive](const rosbag::MessageInstance& instance, Event& event) {
+            *keep_alive = instance.instantiate<M>();
+            if (!*keep_alive) {
+              throw ReplayError(instance.getTopic() + ": its " + instance.getDataType() +
+                                " was recorded with another definition than this one's");
+            }
+            reader->read(**keep_alive, event);
+          });
+    });
+    const auto found = std::find_if(topics.begin(), topics.end(),
+                                    [&](const auto& topic) { return topic.first == bound.topic; });
+    // Inputs and jumps may never have happened; a sensor without a single sample is a mistake.
+    if (found == topics.end() && channel.kind == EventKind::kSample) {
+      throw ReplayError(channel.source.origin + ": " + channel.source.path +
+                        ": the bag has no topic " + bound.topic + "; it has" + listed(topics));
+    }
+    if (found != topics.end() && found->second != channel.source.type) {
+      throw ReplayError(channel.source.origin + ": " + channel.source.path + ": expected " +
+                        channel.source.type + " on " + bound.topic + ", found " + found->second +
+                        " in the bag");
+    }
+    result.push_back(std::move(bound));
+  }
+  return result;
+}
+
+}  // namespace sampled_data_observers

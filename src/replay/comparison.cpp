@@ -1,0 +1,109 @@
+#include "sampled_data_observers/replay/comparison.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace sampled_data_observers {
+namespace {
+
+double difference(const Quantity& quantity, double a, double b) {
+  return quantity.angular ? wrap_angle(a - b) : a - b;
+}
+
+std::optional<double> root_mean(double squares, std::size_t size) {
+  if (size == 0) return std::nullopt;
+  return std::sqrt(squares / static_cast<double>(size));
+}
+
+}  // namespace
+
+std::optional<Quantity> state_quantity(const LinearPlant& plant, const std::string& name) {
+  const std::vector<std::string>& names = plant.description().state_names;
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) return std::nullopt;
+  Quantity quantity{name, Eigen::VectorXd::Zero(plant.states()), false};
+  quantity.row(found - names.begin()) = 1.0;
+  for (const Sensor& sensor : plant.sensors()) {
+    for (Eigen::Index output = 0; output < sensor.C.rows(); ++output) {
+      if (sensor.C.row(output).transpose() == quantity.row) {
+        quantity.angular = quantity.angular || sensor.angular[static_cast<std::size_t>(output)];
+      }
+    }
+  }
+  return quantity;
+}
+
+Quantity output_quantity(const LinearPlant& plant, std::size_t sensor, Eigen::Index output) {
+  const Sensor& description = plant.sensors()[sensor];
+  for (const std::string& state : plant.description().state_names) {
+    const std::optional<Quantity> quantity = state_quantity(plant, state);
+    if (quantity->row == description.C.row(output).transpose()) return *quantity;
+  }
+  return {description.name + "[" + std::to_string(output) + "]",
+          description.C.row(output).transpose(),
+          description.angular[static_cast<std::size_t>(output)]};
+}
+
+Comparison::Comparison(std::vector<Quantity> quantities, const LinearPlant& plant)
+    : quantities_(std::move(quantities)),
+      held_(quantities_.size()),
+      squares_(quantities_.size(), 0.0),
+      hold_squares_(quantities_.size(), 0.0) {
+  for (std::size_t i = 0; i < quantities_.size(); ++i) {
+    for (std::size_t sensor = 0; sensor < plant.sensors().size(); ++sensor) {
+      const Eigen::MatrixXd& C = plant.sensors()[sensor].C;
+      for (Eigen::Index output = 0; output < C.rows(); ++output) {
+        if (C.row(output).transpose() == quantities_[i].row) held_[i] = Held{sensor, output, {}, 0};
+      }
+    }
+  }
+}
+
+void Comparison::add_sample(std::size_t sensor, Stamp stamp, const double* values) {
+  for (std::optional<Held>& held : held_) {
+    if (!held || held->sensor != sensor || (held->value && stamp < held->stamp)) continue;
+    held->value = values[held->output];
+    held->stamp = stamp;
+  }
+}
+
+void Comparison::add_truth(const std::vector<double>& truth, const double* x) {
+  for (const std::optional<Held>& held : held_) {
+    if (held && !held->value) return;
+  }
+  for (std::size_t i = 0; i < quantities_.size(); ++i) {
+    const Eigen::VectorXd& row = quantities_[i].row;
+    const double estimate = row.dot(Eigen::Map<const Eigen::VectorXd>(x, row.size()));
+    squares_[i] += std::pow(difference(quantities_[i], estimate, truth[i]), 2);
+    if (held_[i]) {
+      hold_squares_[i] += std::pow(difference(quantities_[i], *held_[i]->value, truth[i]), 2);
+    }
+  }
+  ++size_;
+}
+
+std::vector<std::optional<double>> Comparison::rmse() const {
+  std::vector<std::optional<double>> result;
+  for (const double squares : squares_) result.push_back(root_mean(squares, size_));
+  return result;
+}
+
+std::vector<std::optional<double>> Comparison::hold_rmse() const {
+  std::vector<std::optional<double>> result;
+  for (std::size_t i = 0; i < held_.size(); ++i) {
+    result.push_back(held_[i] ? root_mean(hold_squares_[i], size_) : std::nullopt);
+  }
+  return result;
+}
+
+std::optional<double> Comparison::norm(const std::vector<std::optional<double>>& values) {
+  double squares = 0.0;
+  for (const std::optional<double>& value : values) {
+    if (!value) return std::nullopt;
+    squares += *value * *value;
+  }
+  return values.empty() ? std::nullopt : std::optional<double>(std::sqrt(squares));
+}
+
+}  // namespace sampled_data_observers

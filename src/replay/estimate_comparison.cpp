@@ -1,0 +1,56 @@
+#include "sampled_data_observers/replay/estimate_comparison.h"
+
+#include <rosbag/view.h>
+#include <sampled_data_observers/StateEstimate.h>
+
+#include <cstring>
+#include <map>
+
+#include "sampled_data_observers/replay/bag_source.h"
+#include "sampled_data_observers/ros/time_conversion.h"
+
+namespace sampled_data_observers {
+namespace {
+
+using Estimates = std::map<Stamp, StateEstimate::ConstPtr>;
+
+Estimates read(const std::string& path, const std::string& topic, bool& repeated) {
+  rosbag::Bag bag;
+  open_for_reading(bag, path);
+  rosbag::View view(bag, rosbag::TopicQuery(topic));
+  Estimates estimates;
+  for (const rosbag::MessageInstance& instance : view) {
+    const StateEstimate::ConstPtr estimate = instance.instantiate<StateEstimate>();
+    if (!estimate) throw ReplayError(path + ": " + topic + " holds no StateEstimate");
+    if (!estimates.emplace(to_stamp(estimate->header.stamp), estimate).second) repeated = true;
+  }
+  if (estimates.empty()) throw ReplayError(path + ": no estimates on " + topic);
+  return estimates;
+}
+
+bool identical(const StateEstimate& a, const StateEstimate& b) {
+  return a.state.size() == b.state.size() && a.samples == b.samples && a.jumps == b.jumps &&
+         std::memcmp(a.state.data(), b.state.data(), a.state.size() * sizeof(double)) == 0;
+}
+
+}  // namespace
+
+EstimateComparison compare_estimates(const std::string& first_bag, const std::string& second_bag,
+                                     const std::string& topic) {
+  EstimateComparison result;
+  const Estimates first = read(first_bag, topic, result.repeated_stamps);
+  const Estimates second = read(second_bag, topic, result.repeated_stamps);
+  result.first = first.size();
+  result.second = second.size();
+  for (const auto& [stamp, estimate] : first) {
+    const auto other = second.find(stamp);
+    if (other == second.end()) continue;
+    ++result.common;
+    if (estimate->events != other->second->events) continue;
+    ++result.same_events;
+    if (identical(*estimate, *other->second)) ++result.identical;
+  }
+  return result;
+}
+
+}  // namespace sampled_data_observers

@@ -1,0 +1,106 @@
+#include "sampled_data_observers/replay/summary.h"
+
+#include <fstream>
+#include <iomanip>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "sampled_data_observers/replay/bag_source.h"
+
+namespace sampled_data_observers {
+namespace {
+
+std::string shown(const std::optional<double>& value) {
+  if (!value) return "-";
+  std::ostringstream out;
+  out << std::setprecision(4) << *value;
+  return out.str();
+}
+
+void print_comparison(const ReplaySummary& summary, std::ostream& out) {
+  if (summary.compared.empty()) return;
+  out << "\nagainst the truth at " << summary.compared_stamps << " stamps\n";
+  const auto row = [&](const std::string& name, const std::string& estimate,
+                       const std::string& hold, const std::string& ratio) {
+    out << "  " << std::left << std::setw(16) << name << std::right << std::setw(14) << estimate
+        << std::setw(18) << hold << std::setw(10) << ratio << "\n";
+  };
+  const auto ratio = [](const std::optional<double>& estimate, const std::optional<double>& hold) {
+    if (!estimate || !hold || *hold == 0.0) return std::string("-");
+    return shown(*estimate / *hold);
+  };
+  row("", "RMSE", "holding the last", "ratio");
+  for (std::size_t i = 0; i < summary.compared.size(); ++i) {
+    row(summary.compared[i], shown(summary.rmse[i]), shown(summary.hold_rmse[i]),
+        ratio(summary.rmse[i], summary.hold_rmse[i]));
+  }
+  row("norm", shown(summary.rmse_norm), shown(summary.hold_rmse_norm),
+      ratio(summary.rmse_norm, summary.hold_rmse_norm));
+}
+
+nlohmann::json number(const std::optional<double>& value) {
+  return value ? nlohmann::json(*value) : nlohmann::json();
+}
+
+nlohmann::json by_name(const std::vector<std::string>& names,
+                       const std::vector<std::optional<double>>& values) {
+  nlohmann::json result = nlohmann::json::object();
+  for (std::size_t i = 0; i < names.size(); ++i) result[names[i]] = number(values[i]);
+  return result;
+}
+
+}  // namespace
+
+void print_table(const ReplaySummary& summary, std::ostream& out) {
+  out << summary.observer << " on " << summary.bag << " (" << shown(summary.bag_seconds)
+      << " s of it in " << shown(summary.wall_seconds) << " s)\n\n";
+  out << "samples     " << summary.samples_used << " used (" << summary.samples_late << " late), "
+      << summary.samples_rejected << " rejected";
+  if (summary.samples_withheld > 0) out << ", " << summary.samples_withheld << " withheld";
+  out << "\n";
+  for (const auto& [reason, count] : summary.rejected) {
+    out << "            " << count << " x " << reason << "\n";
+  }
+  if (summary.intervals > 0) {
+    out << "intervals   " << shown(summary.interval_min) << " to " << shown(summary.interval_max)
+        << " s, mean " << shown(summary.interval_mean) << " s; " << summary.intervals_short
+        << " below T1, " << summary.intervals_long << " above T2\n";
+  }
+  out << "estimates   " << summary.estimates << ", the last";
+  for (const auto& [name, value] : summary.final_state) out << " " << name << "=" << shown(value);
+  out << "\n";
+  print_comparison(summary, out);
+}
+
+void write_json(const ReplaySummary& summary, const std::string& path) {
+  nlohmann::json json;
+  json["bag"] = summary.bag;
+  json["observer"] = summary.observer;
+  json["samples_used"] = summary.samples_used;
+  json["samples_late"] = summary.samples_late;
+  json["samples_rejected"] = summary.samples_rejected;
+  json["samples_withheld"] = summary.samples_withheld;
+  json["rejected"] = summary.rejected;
+  json["events_used"] = summary.events_used;
+  json["intervals"] = {{"count", summary.intervals},          {"min", summary.interval_min},
+                       {"mean", summary.interval_mean},       {"max", summary.interval_max},
+                       {"below_T1", summary.intervals_short}, {"above_T2", summary.intervals_long}};
+  json["estimates"] = summary.estimates;
+  json["compared_stamps"] = summary.compared_stamps;
+  json["rmse"] = by_name(summary.compared, summary.rmse);
+  json["rmse_norm"] = number(summary.rmse_norm);
+  json["hold_rmse"] = by_name(summary.compared, summary.hold_rmse);
+  json["hold_rmse_norm"] = number(summary.hold_rmse_norm);
+  json["final_stamp"] = summary.final_stamp;
+  json["final_state"] = nlohmann::json::object();
+  for (const auto& [name, value] : summary.final_state) json["final_state"][name] = value;
+  json["bag_seconds"] = summary.bag_seconds;
+  json["wall_seconds"] = summary.wall_seconds;
+
+  std::ofstream file(path);
+  file << std::setw(2) << json << "\n";
+  file.close();
+  if (!file) throw ReplayError(path + ": can't be written");
+}
+
+}  // namespace sampled_data_observers

@@ -1,0 +1,36 @@
+#include "sampled_data_observers/replay/thinning.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <numeric>
+#include <random>
+
+namespace sampled_data_observers {
+
+std::vector<bool> thin(const std::vector<Stamp>& stamps, Duration T1, Duration T2,
+                       std::uint64_t seed) {
+  std::vector<std::size_t> order(stamps.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return stamps[a] < stamps[b]; });
+
+  std::vector<bool> kept(stamps.size(), false);
+  std::mt19937_64 generator(seed);
+  for (std::size_t i = 0; i < order.size();) {
+    const Stamp last = stamps[order[i]];
+    kept[order[i]] = true;
+    // Not std::uniform_real_distribution, whose results differ between libraries.
+    const double fraction = static_cast<double>(generator() >> 11) * 0x1.0p-53;
+    const Stamp target = last + T1 + static_cast<Duration>(fraction * static_cast<double>(T2 - T1));
+    std::size_t next = i + 1;
+    while (next < order.size() && stamps[order[next]] < last + T1) ++next;
+    const auto distance = [&](std::size_t k) { return std::abs(stamps[order[k]] - target); };
+    for (std::size_t k = next + 1; k < order.size() && stamps[order[k]] <= last + T2; ++k) {
+      if (distance(k) < distance(next)) next = k;
+    }
+    i = next;
+  }
+  return kept;
+}
+
+}  // namespace sampled_data_observers

@@ -1,0 +1,129 @@
+#include "sampled_data_observers/replay/truth.h"
+
+#include <ros/names.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "sampled_data_observers/ros/message_types.h"
+#include "sampled_data_observers/ros/time_conversion.h"
+#include "sampled_data_observers/ros/value_reader.h"
+
+namespace sampled_data_observers {
+namespace {
+
+Quantity quantity_of(const LinearPlant& plant, const std::string& state) {
+  const std::optional<Quantity> quantity = state_quantity(plant, state);
+  if (quantity) return *quantity;
+  std::string known;
+  for (const std::string& name : plant.description().state_names) known += " " + name;
+  throw ReplayError("--compare: expected states of the plant (" + known.substr(1) + "), found '" +
+                    state + "'");
+}
+
+Truth truth_from_states(const LinearPlant& plant,
+                        const std::map<std::string, std::string>& fields) {
+  Truth truth;
+  std::vector<std::string> sources;
+  if (fields.empty()) {
+    for (const std::string& state : plant.description().state_names) {
+      truth.quantities.push_back(quantity_of(plant, state));
+      sources.push_back(state);
+    }
+  }
+  for (const auto& [state, field] : fields) {
+    truth.quantities.push_back(quantity_of(plant, state));
+    sources.push_back(field);
+  }
+  truth.read = [sources](const rosbag::MessageInstance& instance, Stamp& stamp,
+                         std::vector<double>& values) {
+    const auto message = instance.instantiate<StateEstimate>();
+    if (!message) throw ReplayError(instance.getTopic() + ": StateEstimate of another definition");
+    stamp = to_stamp(message->header.stamp);
+    values.clear();
+    for (const std::string& source : sources) {
+      const auto found = std::find(message->names.begin(), message->names.end(), source);
+      const auto index = static_cast<std::size_t>(found - message->names.begin());
+      if (index >= message->state.size()) {
+        throw ReplayError(instance.getTopic() + ": has no state called '" + source + "'");
+      }
+      values.push_back(message->state[index]);
+    }
+    return true;
+  };
+  return truth;
+}
+
+Truth truth_from_fields(const LinearPlant& plant, const std::string& type,
+                        const std::map<std::string, std::string>& fields) {
+  Truth truth;
+  TopicSource source;
+  source.type = type;
+  source.origin = "--truth, --compare";
+  source.path = "truth";
+  source.size = fields.size();
+  for (const auto& [state, field] : fields) {
+    truth.quantities.push_back(quantity_of(plant, state));
+    source.fields.push_back(field);
+  }
+  if (fields.empty()) {
+    throw ReplayError("--compare: expected STATE=FIELD for a truth of type " + type +
+                      ", found nothing");
+  }
+  visit_message_type(source, [&](auto tag) {
+    using M = typename decltype(tag)::type;
+    auto reader = std::make_shared<ValueReader<M>>(source);
+    truth.read = [reader](const rosbag::MessageInstance& instance, Stamp& stamp,
+                          std::vector<double>& values) {
+      const auto message = instance.instantiate<M>();
+      if (!message) throw ReplayError(instance.getTopic() + ": message of another definition");
+      Event event;
+      reader->read(*message, event);
+      stamp = event.stamp;
+      values.assign(event.values, event.values + event.size);
+      return true;
+    };
+  });
+  return truth;
+}
+
+}  // namespace
+
+Truth truth_from_topic(const ObserverConfig& config, const rosbag::Bag& bag,
+                       const std::string& topic, const std::map<std::string, std::string>& fields) {
+  const std::string name = ros::names::resolve(topic);
+  std::string type;
+  for (const auto& [bag_topic, datatype] : bag_topics(bag)) {
+    if (bag_topic == name) type = datatype;
+  }
+  if (type.empty()) throw ReplayError("--truth: the bag has no topic " + name);
+  Truth truth = type == "sampled_data_observers/StateEstimate"
+                    ? truth_from_states(*config.plant, fields)
+                    : truth_from_fields(*config.plant, type, fields);
+  truth.topics = {name};
+  return truth;
+}
+
+Truth truth_from_samples(const ObserverConfig& config, const std::vector<BagChannel>& channels) {
+  if (config.sensors.size() != 1) {
+    throw ReplayError("several sensors can't be each other's truth: name a topic with --truth");
+  }
+  const BagChannel& bound = channels.front();
+  Truth truth;
+  truth.topics = {bound.topic};
+  for (Eigen::Index output = 0; output < config.plant->sensors().front().C.rows(); ++output) {
+    truth.quantities.push_back(output_quantity(*config.plant, 0, output));
+  }
+  truth.read = [read = bound.read, size = truth.quantities.size()](
+                   const rosbag::MessageInstance& instance, Stamp& stamp,
+                   std::vector<double>& values) {
+    Event event;
+    read(instance, event);
+    stamp = event.stamp;
+    values.assign(event.values, event.values + event.size);
+    return values.size() == size;
+  };
+  return truth;
+}
+
+}  // namespace sampled_data_observers

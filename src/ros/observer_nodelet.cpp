@@ -1,0 +1,129 @@
+#include "sampled_data_observers/ros/observer_nodelet.h"
+
+#include "sampled_data_observers/ros/message_types.h"
+#include "sampled_data_observers/ros/parameter_tree.h"
+#include "sampled_data_observers/ros/time_conversion.h"
+#include "sampled_data_observers/ros/value_reader.h"
+
+namespace sampled_data_observers {
+namespace {
+
+// Long enough for a burst after a stall of seconds: a lost event changes all later estimates.
+constexpr std::uint32_t kQueueLength = 2000;
+constexpr std::size_t kPoolSize = 16;
+
+}  // namespace
+
+void ObserverNodelet::onInit() {
+  try {
+    const ObserverConfig config = read_observer_config(read_parameter_tree(getPrivateNodeHandle()));
+    if (config.type != type_) {
+      throw ConfigError("parameter " + getPrivateNodeHandle().getNamespace(), "observer",
+                        type_ + " (this nodelet's type)", config.type);
+    }
+    start(config);
+  } catch (const std::exception& error) {
+    NODELET_FATAL("not started: %s", error.what());
+    throw;
+  }
+}
+
+void ObserverNodelet::start(const ObserverConfig& config) {
+  runtime_ = std::make_unique<ObserverRuntime>(config);
+
+  StateEstimate estimate;
+  runtime_->write(runtime_->estimator().make_estimate(), estimate);
+  estimates_ = std::make_unique<MessagePool<StateEstimate>>(estimate, kPoolSize);
+  EventStatus status;
+  status.source = status.reason = std::string(64, ' ');  // room, so that writing allocates nothing
+  statuses_ = std::make_unique<MessagePool<EventStatus>>(status, kPoolSize);
+
+  ros::NodeHandle& handle = getNodeHandle();
+  estimate_publisher_ = handle.advertise<StateEstimate>("estimate", kQueueLength);
+  status_publisher_ = handle.advertise<EventStatus>("events", kQueueLength);
+  for (const EventChannel& channel : event_channels(config)) subscribe(channel);
+  services_.push_back(handle.advertiseService("reset", &ObserverNodelet::reset, this));
+  services_.push_back(
+      handle.advertiseService("get_estimate", &ObserverNodelet::get_estimate, this));
+  timer_ = handle.createTimer(ros::Duration().fromNSec(config.period),
+                              &ObserverNodelet::publish_due, this);
+  NODELET_INFO("%s: %zu states, estimates at %.6g Hz on %s", type_.c_str(),
+               config.law->estimate_names().size(), 1.0 / to_seconds(config.period),
+               estimate_publisher_.getTopic().c_str());
+}
+
+void ObserverNodelet::subscribe(const EventChannel& channel) {
+  visit_message_type(channel.source, [&](auto tag) {
+    using M = typename decltype(tag)::type;
+    auto reader = std::make_shared<ValueReader<M>>(channel.source);
+    const boost::function<void(const boost::shared_ptr<const M>&)> callback =
+        [this, reader, channel](const boost::shared_ptr<const M>& message) {
+          Event event;
+          event.kind = channel.kind;
+          event.channel = channel.channel;
+          reader->read(*message, event);
+          receive(channel, event);
+        };
+    subscribers_.push_back(getNodeHandle().subscribe<M>(channel.source.topic, kQueueLength,
+                                                        callback, ros::VoidConstPtr(),
+                                                        ros::TransportHints().tcpNoDelay()));
+  });
+  NODELET_INFO("%s from %s (%s)", channel.name.c_str(), subscribers_.back().getTopic().c_str(),
+               channel.source.type.c_str());
+}
+
+void ObserverNodelet::receive(const EventChannel& channel, const Event& event) {
+  const Stamp clock = to_stamp(ros::Time::now());
+  watch_clock(clock);
+  // Before the first message of a simulated clock the time of arrival is not known.
+  const Stamp now = clock == 0 ? event.stamp : clock;
+  const boost::shared_ptr<EventStatus>& status = statuses_->take();
+  const EventReport report = runtime_->receive(channel, event, now, *status);
+  if (!report.used()) {
+    NODELET_WARN_THROTTLE(5.0, "event from %s rejected: %s (stamp %.9f s, %.6f s before arrival)",
+                          channel.name.c_str(), describe(report.outcome), to_seconds(event.stamp),
+                          to_seconds(now - event.stamp));
+  }
+  status_publisher_.publish(status);
+}
+
+void ObserverNodelet::publish_due(const ros::TimerEvent&) {
+  const Stamp now = to_stamp(ros::Time::now());
+  watch_clock(now);
+  while (const Estimate* estimate = runtime_->next_due(now)) {
+    const boost::shared_ptr<StateEstimate>& message = estimates_->take();
+    runtime_->write(*estimate, *message);
+    estimate_publisher_.publish(message);
+  }
+  // Aimed at the next stamp, so that estimates go out when they are due and not up to a period
+  // late.
+  timer_.setPeriod(ros::Duration().fromNSec(runtime_->next_due_time(now) - now));
+}
+
+void ObserverNodelet::watch_clock(Stamp now) {
+  if (now < last_now_) {
+    NODELET_WARN(
+        "time went back by %.6f s: events before the history window are rejected and no "
+        "stamp is published twice; call %s to start again",
+        to_seconds(last_now_ - now), services_.front().getService().c_str());
+  }
+  last_now_ = now;
+}
+
+bool ObserverNodelet::reset(Reset::Request& request, Reset::Response& response) {
+  const Stamp now = to_stamp(ros::Time::now());
+  response.message = now == 0 ? "there is no time yet: the clock was not published"
+                              : runtime_->restart(now, request.state);
+  response.success = response.message.empty() ? 1 : 0;
+  return true;
+}
+
+bool ObserverNodelet::get_estimate(GetEstimate::Request& request, GetEstimate::Response& response) {
+  const ros::Time stamp = request.stamp.isZero() ? ros::Time::now() : request.stamp;
+  const Estimate* estimate = runtime_->estimate_at(to_stamp(stamp), response.message);
+  response.success = estimate != nullptr ? 1 : 0;
+  if (estimate != nullptr) runtime_->write(*estimate, response.estimate);
+  return true;
+}
+
+}  // namespace sampled_data_observers

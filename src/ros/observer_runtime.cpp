@@ -1,0 +1,153 @@
+#include "sampled_data_observers/ros/observer_runtime.h"
+
+#include <cmath>
+#include <limits>
+
+#include "sampled_data_observers/ros/time_conversion.h"
+
+namespace sampled_data_observers {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace
+
+static_assert(EventStatus::INPUT == static_cast<int>(EventKind::kInput));
+static_assert(EventStatus::JUMP == static_cast<int>(EventKind::kJump));
+static_assert(EventStatus::SAMPLE == static_cast<int>(EventKind::kSample));
+static_assert(EventStatus::USED == static_cast<int>(EventOutcome::kUsed));
+static_assert(EventStatus::USED_LATE == static_cast<int>(EventOutcome::kUsedLate));
+static_assert(EventStatus::DUPLICATE == static_cast<int>(EventOutcome::kDuplicate));
+static_assert(EventStatus::TOO_OLD == static_cast<int>(EventOutcome::kTooOld));
+static_assert(EventStatus::IN_FUTURE == static_cast<int>(EventOutcome::kInFuture));
+static_assert(EventStatus::NO_STAMP == static_cast<int>(EventOutcome::kNoStamp));
+static_assert(EventStatus::WRONG_SIZE == static_cast<int>(EventOutcome::kWrongSize));
+static_assert(EventStatus::NOT_FINITE == static_cast<int>(EventOutcome::kNotFinite));
+static_assert(EventStatus::WOULD_OVERFLOW == static_cast<int>(EventOutcome::kWouldOverflow));
+static_assert(EventStatus::INTERVAL_NONE == static_cast<int>(IntervalCheck::kNone));
+static_assert(EventStatus::INTERVAL_WITHIN == static_cast<int>(IntervalCheck::kWithin));
+static_assert(EventStatus::INTERVAL_SHORT == static_cast<int>(IntervalCheck::kShort));
+static_assert(EventStatus::INTERVAL_LONG == static_cast<int>(IntervalCheck::kLong));
+
+const char* describe(EventOutcome outcome) {
+  switch (outcome) {
+    case EventOutcome::kUsed:
+      return "used";
+    case EventOutcome::kUsedLate:
+      return "used late";
+    case EventOutcome::kDuplicate:
+      return "duplicate of an event taken in before";
+    case EventOutcome::kTooOld:
+      return "older than the history window, the start or the last reset";
+    case EventOutcome::kInFuture:
+      return "stamped in the future";
+    case EventOutcome::kNoStamp:
+      return "stamp is zero";
+    case EventOutcome::kWrongSize:
+      return "wrong number of values";
+    case EventOutcome::kNotFinite:
+      return "a value is not finite";
+    case EventOutcome::kWouldOverflow:
+      return "the estimate would overflow";
+  }
+  return "";
+}
+
+std::vector<EventChannel> event_channels(const ObserverConfig& config) {
+  std::vector<EventChannel> channels;
+  for (std::size_t i = 0; i < config.sensors.size(); ++i) {
+    channels.push_back({EventKind::kSample, static_cast<int>(i), config.plant->sensors()[i].name,
+                        config.sensors[i]});
+  }
+  if (config.input) channels.push_back({EventKind::kInput, 0, "input", *config.input});
+  if (config.jumps) channels.push_back({EventKind::kJump, 0, "jumps", *config.jumps});
+  return channels;
+}
+
+ObserverRuntime::ObserverRuntime(const ObserverConfig& config)
+    : config_(config),
+      estimator_(config.law, config.options),
+      grid_(config.period, config.publish_delay, config.options.history.history),
+      estimate_(estimator_.make_estimate()) {}
+
+EventReport ObserverRuntime::receive(const EventChannel& channel, const Event& event, Stamp now,
+                                     EventStatus& status) {
+  const EventReport report = estimator_.submit(event, now);
+  status.header.stamp = to_ros_time(event.stamp);
+  status.source = channel.name;
+  status.kind = static_cast<std::uint8_t>(event.kind);
+  status.outcome = static_cast<std::uint8_t>(report.outcome);
+  status.reason = describe(report.outcome);
+  status.latency = to_seconds(now - event.stamp);
+  status.rewound = static_cast<std::uint32_t>(report.rewound);
+  status.interval = report.interval ? to_seconds(*report.interval) : kNone;
+  status.interval_check = static_cast<std::uint8_t>(report.interval_check);
+  return report;
+}
+
+const Estimate* ObserverRuntime::next_due(Stamp now) {
+  const std::optional<Stamp> earliest = estimator_.timeline().earliest();
+  if (!earliest) return nullptr;
+  const std::optional<Stamp> stamp = grid_.next(now, *earliest);
+  if (!stamp) return nullptr;
+  switch (estimator_.estimate_at(*stamp, estimate_)) {
+    case Timeline::Query::kOk:
+    case Timeline::Query::kHeld:
+      return &estimate_;
+    default:
+      return nullptr;
+  }
+}
+
+const Estimate* ObserverRuntime::estimate_at(Stamp stamp, std::string& reason) {
+  switch (estimator_.estimate_at(stamp, estimate_)) {
+    case Timeline::Query::kOk:
+    case Timeline::Query::kHeld:
+      return &estimate_;
+    case Timeline::Query::kNoEvent:
+      reason = "no event was received yet";
+      break;
+    case Timeline::Query::kBeforeStart:
+      reason = "the stamp is before the first event or the last reset";
+      break;
+    case Timeline::Query::kBeforeWindow:
+      reason = "the stamp is before the history window (see history/duration and max_events)";
+      break;
+  }
+  return nullptr;
+}
+
+std::string ObserverRuntime::restart(Stamp now, const std::vector<double>& estimate) {
+  const Eigen::Map<const Eigen::VectorXd> values(estimate.data(),
+                                                 static_cast<Eigen::Index>(estimate.size()));
+  const Eigen::Index expected = estimator_.law().estimate_size();
+  if (!estimate.empty() && values.size() != expected) {
+    return "expected " + std::to_string(expected) + " values or none, found " +
+           std::to_string(estimate.size());
+  }
+  if (!values.allFinite()) return "expected finite values, found NaN or infinity";
+  if (estimate.empty()) {
+    estimator_.restart(now);
+  } else {
+    estimator_.restart(now, values);
+  }
+  grid_.restart(now);
+  return "";
+}
+
+void ObserverRuntime::write(const Estimate& estimate, StateEstimate& message) const {
+  const Eigen::Index size = estimator_.law().estimate_size();
+  message.header.stamp = to_ros_time(estimate.stamp);
+  message.header.frame_id = config_.frame_id;
+  message.names = estimator_.law().estimate_names();
+  message.state.assign(estimate.state.data(), estimate.state.data() + size);
+  message.time_since_sample = estimate.counts.last_sample
+                                  ? to_seconds(estimate.stamp - *estimate.counts.last_sample)
+                                  : kNone;
+  message.events = estimate.counts.events;
+  message.samples = estimate.counts.samples;
+  message.jumps = estimate.counts.jumps;
+  message.held = estimate.held ? 1 : 0;
+}
+
+}  // namespace sampled_data_observers
