@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "sampled_data_observers/plant/ordered_product.h"
 
@@ -15,9 +17,26 @@ constexpr int kPlaces = (63 + kBits - 1) / kBits;
 
 using ExtendedMatrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
 
-/// exp(M) - I. Without the identity, doubling keeps the slow modes' digits beside fast ones, which
-/// the squaring of exp(M / 2^s) loses.
-ExtendedMatrix exponential_minus_identity(const ExtendedMatrix& M) {
+/// A transition matrix, kept in both forms: the difference from the identity holds the digits of
+/// slow modes beside fast ones, the matrix itself those of modes that have decayed.
+struct Transition {
+  explicit Transition(ExtendedMatrix difference)
+      : minus_identity(std::move(difference)),
+        full(ExtendedMatrix::Identity(minus_identity.rows(), minus_identity.cols()) +
+             minus_identity) {}
+
+  ExtendedMatrix minus_identity;
+  ExtendedMatrix full;
+};
+
+Transition compose(const Transition& a, const Transition& b) {
+  Transition result(a.minus_identity + b.minus_identity + a.minus_identity * b.minus_identity);
+  // When all modes have decayed, the sum with the identity has cancelled.
+  if (result.full.norm() < 0.25L) result.full = a.full * b.full;
+  return result;
+}
+
+Transition exponential(const ExtendedMatrix& M) {
   const long double norm = M.cwiseAbs().colwise().sum().maxCoeff();
   // Taylor's remainder at a norm of 1/4 and 16 terms is below 1e-24, relative to M.
   constexpr int kTerms = 16;
@@ -25,17 +44,15 @@ ExtendedMatrix exponential_minus_identity(const ExtendedMatrix& M) {
   if (norm > 0.25L) std::frexp(norm * 4.0L, &doublings);
   const ExtendedMatrix scaled = M * std::ldexp(1.0L, -doublings);
   ExtendedMatrix power = scaled;
-  ExtendedMatrix result = scaled;
+  ExtendedMatrix sum = scaled;
   for (int k = 2; k <= kTerms; ++k) {
     power = (power * scaled / static_cast<long double>(k)).eval();
-    result += power;
+    sum += power;
   }
-  for (int i = 0; i < doublings; ++i) result = (2.0L * result + result * result).eval();
+  Transition result(sum);
+  for (int i = 0; i < doublings && result.full.allFinite(); ++i) result = compose(result, result);
   return result;
 }
-
-/// exp(a + b) - I from exp(a) - I and exp(b) - I.
-ExtendedMatrix compose(const ExtendedMatrix& a, const ExtendedMatrix& b) { return a + b + a * b; }
 
 }  // namespace
 
@@ -59,18 +76,21 @@ LinearFlow::LinearFlow(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B)
   generator.topRightCorner(states_, inputs_) = B.cast<long double>();
   generator *= 1e-9L;
 
-  std::vector<ExtendedMatrix> digits(kDigits, ExtendedMatrix::Zero(size, size));
+  // An unstable plant's later transitions overflow; arithmetic on infinities takes ages.
+  std::fill(tables_.begin(), tables_.end(), std::numeric_limits<double>::infinity());
   auto table = tables_.begin();
   for (int place = 0; place < kPlaces; ++place) {
-    digits[1] = exponential_minus_identity(generator * std::ldexp(1.0L, kBits * place));
-    for (std::size_t d = 2; d < kDigits; ++d) digits[d] = compose(digits[d / 2], digits[d - d / 2]);
-    for (const ExtendedMatrix& digit : digits) {
-      Eigen::Map<Eigen::MatrixXd> transition(&*table, states_, size);
-      transition = digit.topRows(states_).cast<double>();
-      // Rounded after the identity is added: a decayed mode keeps its relative precision.
-      for (Eigen::Index i = 0; i < states_; ++i) {
-        transition(i, i) = static_cast<double>(1.0L + digit(i, i));
-      }
+    std::vector<Transition> digits;
+    digits.emplace_back(ExtendedMatrix::Zero(size, size));
+    digits.push_back(exponential(generator * std::ldexp(1.0L, kBits * place)));
+    for (std::size_t d = 2; d < kDigits; ++d) {
+      if (!digits.back().full.allFinite()) break;
+      digits.push_back(compose(digits[d / 2], digits[d - d / 2]));
+    }
+    for (const Transition& digit : digits) {
+      if (!digit.full.allFinite()) return;
+      Eigen::Map<Eigen::MatrixXd>(&*table, states_, size) =
+          digit.full.topRows(states_).cast<double>();
       table += static_cast<std::ptrdiff_t>(block);
     }
   }

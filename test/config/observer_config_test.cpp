@@ -1,0 +1,213 @@
+#include "sampled_data_observers/config/observer_config.h"
+
+#include <gtest/gtest.h>
+
+#include "sampled_data_observers/config/yaml_file.h"
+#include "sampled_data_observers/observer/constant_gain_observer.h"
+
+namespace sampled_data_observers {
+namespace {
+
+const char kGood[] = R"(
+observer: ConstantGainObserver
+plant:
+  states: [p, v]
+  inputs: [u]
+  A: [[0, 1], [0, -0.5]]
+  B: [[0], [1.5e0]]
+  jump_map: {A_d: [[1, 0], [0, -0.8]], b_d: [0, 0.1]}
+sensors:
+  wheel: {C: [[0, 1]], source: {topic: wheel}}
+  camera:
+    C: [[1, 0], [0, 1]]
+    angular: [true, false]
+    bias: [c, ""]
+    source: {topic: /camera, type: geometry_msgs/PointStamped, fields: [point.x, point.y]}
+sampling: {T1: 0.05, T2: 0.2}
+gains:
+  L: {wheel: [[0], [0.5], [0]], camera: [[1, 0], [2, 0], [0.1, 0]]}
+initial_estimate: {p: 1, v: -2, c: 3}
+rate: 50
+publish_delay: 0.01
+history: {duration: 3, max_events: 70}
+future_tolerance: 0.25
+frame_id: map
+)";
+
+ObserverConfig parse(const std::string& text) {
+  return read_observer_config(read_yaml_text(text, "test.yaml"));
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(std::string::npos, at) << from;
+  return text.replace(at, from.size(), to);
+}
+
+std::string fault(const std::string& text) {
+  try {
+    parse(text);
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return "no fault";
+}
+
+TEST(ObserverConfigTest, ReadsEveryKey) {
+  const ObserverConfig config = parse(kGood);
+  const LinearPlantDescription& plant = config.plant->description();
+  EXPECT_EQ("ConstantGainObserver", config.type);
+  EXPECT_EQ((std::vector<std::string>{"p", "v", "c"}), plant.state_names);
+  EXPECT_EQ(-0.5, plant.A(1, 1));
+  EXPECT_EQ(1.5, plant.B(1, 0));
+  EXPECT_EQ(-0.8, plant.jump_map->A_d(1, 1));
+  EXPECT_EQ(0.1, plant.jump_map->b_d(1));
+  ASSERT_EQ(2u, plant.sensors.size());
+  EXPECT_EQ("camera", plant.sensors[0].name);  // sensors are in the order of their names
+  EXPECT_EQ((std::vector<bool>{true, false}), plant.sensors[0].angular);
+  EXPECT_EQ(1.0, plant.sensors[0].C(0, 2));
+  EXPECT_EQ("geometry_msgs/PointStamped", config.sensors[0].type);
+  EXPECT_EQ("sampled_data_observers/Measurement", config.sensors[1].type);
+  EXPECT_EQ("input", config.input->topic);
+  EXPECT_EQ("jumps", config.jumps->topic);
+  EXPECT_EQ(20000000, config.period);
+  EXPECT_EQ(10000000, config.publish_delay);
+  EXPECT_EQ(3 * kNanosecondsPerSecond, config.options.history.history);
+  EXPECT_EQ(70u, config.options.history.max_events);
+  EXPECT_EQ(50000000, config.options.sampling.T1);
+  EXPECT_EQ(250000000, config.options.future_tolerance);
+  EXPECT_EQ("map", config.frame_id);
+  Eigen::VectorXd state(config.law->state_size());
+  config.law->initialize(state);
+  EXPECT_EQ(Eigen::Vector4d(1.0, -2.0, 3.0, 0.0), state);
+}
+
+TEST(ObserverConfigTest, OptionalKeysHaveDefaults) {
+  const ObserverConfig config = parse(R"(
+observer: ConstantGainObserver
+plant: {states: [x], A: [[0]]}
+sensors: {s: {C: [[1]], source: {topic: s}}}
+sampling: {T1: 0.1, T2: 0.1}
+gains: {L: [[0.5]]}
+)");
+  EXPECT_EQ(10000000, config.period);
+  EXPECT_EQ(0, config.publish_delay);
+  EXPECT_EQ(2 * kNanosecondsPerSecond, config.options.history.history);
+  EXPECT_EQ(2000u, config.options.history.max_events);
+  EXPECT_EQ(500000000, config.options.future_tolerance);
+  EXPECT_FALSE(config.input);
+  EXPECT_FALSE(config.jumps);
+}
+
+struct Fault {
+  const char* from;
+  const char* to;
+  /// Parts that the message must have: place, path, expected, found.
+  std::vector<const char*> message;
+};
+
+class BadConfigTest : public ::testing::TestWithParam<Fault> {};
+
+TEST_P(BadConfigTest, IsRefusedWithAMessageThatHelps) {
+  const std::string found = fault(replaced(kGood, GetParam().from, GetParam().to));
+  for (const char* part : GetParam().message) {
+    EXPECT_NE(std::string::npos, found.find(part)) << "missing: " << part << "\nin: " << found;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Faults, BadConfigTest,
+    ::testing::Values(
+        Fault{"rate: 50", "rat: 50", {"test.yaml:20", "rat", "unknown key 'rat'", "rate"}},
+        Fault{"inputs: [u]", "input: [u]", {"plant/inputs", "missing"}},
+        Fault{"A: [[0, 1], [0, -0.5]]", "A: [[0, 1]]", {"plant/A", "2 x 2", "1 x 2"}},
+        Fault{"A: [[0, 1], [0, -0.5]]", "A: [[0, 1], [0]]", {"plant/A", "row 2"}},
+        Fault{"A: [[0, 1], [0, -0.5]]", "A: [0, 1]", {"plant/A", "list of rows"}},
+        Fault{"A: [[0, 1], [0, -0.5]]", "A: [[0, 1], [0, .nan]]", {"plant/A", "'.nan'", "finite"}},
+        Fault{"A: [[0, 1], [0, -0.5]]", "A: [[0, 1], [0, 1e999]]", {"plant/A", "'1e999'"}},
+        Fault{"A: [[0, 1], [0, -0.5]]", "A: [[0, 1], [0, 010]]", {"plant/A", "'010'"}},
+        Fault{"B: [[0], [1.5e0]]", "B: [[0, 0], [1, 0]]", {"plant/B", "2 x 1", "2 x 2"}},
+        Fault{"states: [p, v]", "states: [p, p]", {"plant/states", "'p' twice"}},
+        Fault{"states: [p, v]", "states: []", {"plant/states", "at least one"}},
+        Fault{"b_d: [0, 0.1]", "b_d: [0]", {"plant/jump_map/b_d", "list of 2"}},
+        Fault{"{C: [[0, 1]]", "{C: [[0, 1, 2]]", {"sensors/wheel/C", "m x 2"}},
+        Fault{"source: {topic: wheel}", "surce: {topic: wheel}", {"sensors/wheel/source"}},
+        Fault{"{topic: wheel}", "{topic: wheel, hz: 3}", {"sensors/wheel/source/hz", "unknown"}},
+        Fault{"angular: [true, false]", "angular: [true]", {"sensors/camera/angular", "list of 2"}},
+        Fault{"angular: [true, false]", "angular: [1, 0]", {"sensors/camera/angular", "'1'"}},
+        Fault{"bias: [c, \"\"]", "bias: [v, \"\"]", {"sensors/camera/bias", "'v'"}},
+        Fault{"fields: [point.x, point.y]", "fields: [point.x]", {"camera/source/fields", "2"}},
+        Fault{"T1: 0.05", "T1: 0", {"sampling/T1", "found 0"}},
+        Fault{"T1: 0.05", "T1: -1", {"sampling/T1", "found -1"}},
+        Fault{"T1: 0.05", "T1: 0.3", {"sampling/T2", "not less than T1"}},
+        Fault{"T1: 0.05", "T1: fast", {"sampling/T1", "a finite number", "'fast'"}},
+        Fault{
+            "wheel: [[0], [0.5], [0]]", "wheel: [[0], [0.5]]", {"gains/L/wheel", "3 x 1", "2 x 1"}},
+        Fault{"wheel: [[0], [0.5], [0]], ", "", {"gains/L/wheel", "missing"}},
+        Fault{"wheel: [[0], [0.5], [0]]",
+              "wheel: [[0], [0.5], [0]], gps: [[1]]",
+              {"gains/L/gps", "unknown"}},
+        Fault{"ConstantGainObserver", "ConstantGain", {"observer", "ConstantGainObserver"}},
+        Fault{"v: -2, ", "", {"initial_estimate/v", "missing"}},
+        Fault{"rate: 50", "rate: 0", {"rate", "found 0"}},
+        Fault{"max_events: 70", "max_events: 7.5", {"history/max_events", "whole number"}},
+        Fault{"duration: 3", "duration: 0", {"history/duration"}},
+        Fault{"publish_delay: 0.01", "publish_delay: -0.01", {"publish_delay", "-0.01"}},
+        Fault{"future_tolerance: 0.25", "future_tolerance: .inf", {"future_tolerance", "'.inf'"}},
+        Fault{"rate: 50", "rate: 50\nrate: 60", {"test.yaml:21", "rate", "each key once"}},
+        Fault{"rate: 50", "rate: [50", {"test.yaml:", "valid YAML"}}));
+
+TEST(ConfigFilesTest, AreMergedKeyByKey) {
+  const ConfigNode plant = read_yaml_text("plant: {states: [x]}\ngains: {H: 1}", "plant.yaml");
+  const ConfigNode gains = read_yaml_text("gains: {L: 2}", "gains.yaml");
+  const ConfigNode merged = merge({plant, gains});
+  EXPECT_EQ("2", merged.find("gains")->find("L")->scalar);
+  EXPECT_EQ("1", merged.find("gains")->find("H")->scalar);
+  EXPECT_EQ("gains.yaml:1", merged.find("gains")->find("L")->origin);
+}
+
+TEST(ConfigFilesTest, AKeyInTwoOfThemIsAFault) {
+  const ConfigNode one = read_yaml_text("gains:\n  L: 1", "one.yaml");
+  const ConfigNode two = read_yaml_text("gains: {L: 1}", "two.yaml");
+  try {
+    merge({one, two});
+    FAIL();
+  } catch (const ConfigError& error) {
+    const std::string message = error.what();
+    for (const char* part : {"two.yaml:1", "gains/L", "one.yaml:2"}) {
+      EXPECT_NE(std::string::npos, message.find(part)) << message;
+    }
+  }
+}
+
+TEST(ConfigFilesTest, OverridesReplaceSingleKeys) {
+  const ConfigNode base = read_yaml_text("rate: 1\nhistory: {duration: 2, max_events: 3}", "a");
+  const ConfigNode over = read_yaml_text("rate: 7\nhistory: {duration: 8}", "b");
+  const ConfigNode result = override_with(base, over);
+  EXPECT_EQ("7", result.find("rate")->scalar);
+  EXPECT_EQ("8", result.find("history")->find("duration")->scalar);
+  EXPECT_EQ("3", result.find("history")->find("max_events")->scalar);
+}
+
+TEST(ConfigFilesTest, UnreadableFilesAreFaults) {
+  for (const char* path : {"/nonexistent/a.yaml", "/"}) {
+    EXPECT_THROW(read_yaml_file(path), ConfigError) << path;
+  }
+  for (const char* text : {"", "[1, 2]", "a: 1\n---\nb: 2", "{[1]: 2}"}) {
+    EXPECT_THROW(read_yaml_text(text, "x"), ConfigError) << text;
+  }
+  std::string deep;
+  for (int i = 0; i < 100; ++i) deep += "[";
+  EXPECT_THROW(read_yaml_text("a: " + deep + std::string(100, ']'), "x"), ConfigError);
+}
+
+TEST(ShippedConfigTest, EveryShippedConfigurationIsValid) {
+  const std::string folder = std::string(SDO_SOURCE_DIR) + "/config/";
+  EXPECT_NO_THROW(read_observer_config(std::vector<std::string>{
+      folder + "mass_spring_plant.yaml", folder + "mass_spring_gains.yaml"}));
+  EXPECT_NO_THROW(
+      read_observer_config(std::vector<std::string>{folder + "crazyflie_position.yaml"}));
+}
+
+}  // namespace
+}  // namespace sampled_data_observers

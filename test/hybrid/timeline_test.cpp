@@ -1,0 +1,293 @@
+#include "sampled_data_observers/hybrid/timeline.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <limits>
+#include <random>
+
+#include "support/allocation_counter.h"
+#include "support/random_events.h"
+
+namespace sampled_data_observers {
+namespace {
+
+using test::OwnedEvent;
+
+constexpr Stamp kStart = 1'600'000'000'000'000'000;
+constexpr Duration kSecond = kNanosecondsPerSecond;
+
+struct Snapshot {
+  Timeline::Query query = Timeline::Query::kNoEvent;
+  std::vector<double> state;
+  std::uint64_t events = 0;
+  std::uint64_t samples = 0;
+  std::uint64_t jumps = 0;
+};
+
+Snapshot snapshot(const Timeline& timeline, const HybridSystem& system, Stamp stamp) {
+  Snapshot result;
+  Eigen::VectorXd state = Eigen::VectorXd::Zero(system.state_size());
+  EventCounts counts;
+  result.query = timeline.state_at(stamp, state, counts);
+  result.state.assign(state.data(), state.data() + state.size());
+  result.events = counts.events;
+  result.samples = counts.samples;
+  result.jumps = counts.jumps;
+  return result;
+}
+
+void expect_identical(const Snapshot& a, const Snapshot& b) {
+  EXPECT_EQ(a.query, b.query);
+  EXPECT_EQ(a.events, b.events);
+  EXPECT_EQ(a.samples, b.samples);
+  EXPECT_EQ(a.jumps, b.jumps);
+  ASSERT_EQ(a.state.size(), b.state.size());
+  EXPECT_EQ(0, std::memcmp(a.state.data(), b.state.data(), a.state.size() * sizeof(double)));
+}
+
+std::vector<Snapshot> snapshots(const Timeline& timeline, const HybridSystem& system) {
+  std::vector<Snapshot> result;
+  for (Stamp stamp = kStart - kSecond / 10; stamp < kStart + 3 * kSecond; stamp += 37'000'123) {
+    result.push_back(snapshot(timeline, system, stamp));
+  }
+  return result;
+}
+
+class TimelineTest : public ::testing::Test {
+ protected:
+  Timeline make(Duration history = 10 * kSecond, std::size_t max_events = 200) const {
+    return Timeline(law_, {history, max_events});
+  }
+  OwnedEvent sample(Stamp stamp, double value = 1.0) const {
+    return {stamp, EventKind::kSample, 0, {value}};
+  }
+
+  std::shared_ptr<const HybridSystem> law_ = test::example_law();
+};
+
+TEST_F(TimelineTest, EveryOrderOfArrivalGivesTheSameBits) {
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    std::mt19937_64 generator(seed);
+    std::vector<OwnedEvent> events = test::random_events(generator, 30, kStart, 2 * kSecond);
+    Timeline reference = make();
+    for (const OwnedEvent& event : events) reference.insert(event.view());
+    const std::vector<Snapshot> expected = snapshots(reference, *law_);
+    for (int permutation = 0; permutation < 10; ++permutation) {
+      std::shuffle(events.begin(), events.end(), generator);
+      Timeline timeline = make();
+      for (const OwnedEvent& event : events) timeline.insert(event.view());
+      const std::vector<Snapshot> found = snapshots(timeline, *law_);
+      for (std::size_t i = 0; i < expected.size(); ++i) expect_identical(expected[i], found[i]);
+    }
+  }
+}
+
+TEST_F(TimelineTest, EveryOrderOfThreeEventsWithOneStampGivesTheSameBits) {
+  std::vector<OwnedEvent> events = {{kStart, EventKind::kSample, 0, {1.0}},
+                                    {kStart, EventKind::kSample, 0, {2.0}},
+                                    {kStart, EventKind::kSample, 1, {0.5, 3.0}},
+                                    {kStart, EventKind::kJump, 0, {}},
+                                    {kStart, EventKind::kInput, 0, {1.0, 0.0}}};
+  const auto less = [](const OwnedEvent& a, const OwnedEvent& b) {
+    return compare(a.view(), b.view()) < 0;
+  };
+  std::sort(events.begin(), events.end(), less);
+  Timeline reference = make();
+  for (const OwnedEvent& event : events) reference.insert(event.view());
+  const Snapshot expected = snapshot(reference, *law_, kStart + kSecond);
+  do {
+    Timeline timeline = make();
+    for (const OwnedEvent& event : events) timeline.insert(event.view());
+    expect_identical(expected, snapshot(timeline, *law_, kStart + kSecond));
+  } while (std::next_permutation(events.begin(), events.end(), less));
+}
+
+TEST_F(TimelineTest, QueriesChangeNothing) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    std::mt19937_64 generator(seed);
+    const std::vector<OwnedEvent> events = test::random_events(generator, 40, kStart, 2 * kSecond);
+    std::uniform_int_distribution<Stamp> any(kStart - kSecond, kStart + 4 * kSecond);
+    Timeline quiet = make();
+    Timeline asked = make();
+    for (const OwnedEvent& event : events) {
+      quiet.insert(event.view());
+      asked.insert(event.view());
+      for (int i = 0; i < 5; ++i) snapshot(asked, *law_, any(generator));
+    }
+    const std::vector<Snapshot> expected = snapshots(quiet, *law_);
+    const std::vector<Snapshot> found = snapshots(asked, *law_);
+    for (std::size_t i = 0; i < expected.size(); ++i) expect_identical(expected[i], found[i]);
+  }
+}
+
+TEST_F(TimelineTest, TheEstimateRestsOnEventsUpToItsStampOnly) {
+  Timeline timeline = make();
+  timeline.insert(sample(kStart).view());
+  const Snapshot before = snapshot(timeline, *law_, kStart + kSecond);
+  timeline.insert(sample(kStart + kSecond + 1).view());
+  expect_identical(before, snapshot(timeline, *law_, kStart + kSecond));
+  EXPECT_EQ(1u, before.events);
+  EXPECT_EQ(2u, snapshot(timeline, *law_, kStart + kSecond + 1).events);
+}
+
+TEST_F(TimelineTest, AtOneStampInputComesFirstThenJumpThenSample) {
+  const OwnedEvent first = sample(kStart);
+  const Stamp now = kStart + kSecond / 3;
+  const OwnedEvent input{now, EventKind::kInput, 0, {5.0, -2.0}};
+  const OwnedEvent jump{now, EventKind::kJump, 0, {}};
+  const OwnedEvent measured = sample(now, 0.25);
+
+  Eigen::VectorXd expected(law_->state_size());
+  Eigen::VectorXd workspace(law_->workspace_size());
+  law_->initialize(expected);
+  law_->reset(first.view(), expected, workspace);
+  law_->flow(now - kStart, expected, workspace);
+  for (const OwnedEvent& event : {input, jump, measured}) {
+    law_->reset(event.view(), expected, workspace);
+  }
+
+  Timeline timeline = make();
+  for (const OwnedEvent& event : {measured, first, jump, input}) timeline.insert(event.view());
+  const Snapshot found = snapshot(timeline, *law_, now);
+  for (Eigen::Index i = 0; i < expected.size(); ++i) {
+    EXPECT_EQ(expected(i), found.state[static_cast<std::size_t>(i)]);
+  }
+}
+
+TEST_F(TimelineTest, ALateEventRewindsTheLaterOnes) {
+  Timeline timeline = make();
+  for (int i : {0, 1, 2, 4, 5}) timeline.insert(sample(kStart + i * kSecond / 10).view());
+  const Timeline::InsertReport report = timeline.insert(sample(kStart + 3 * kSecond / 10).view());
+  EXPECT_EQ(Timeline::Insertion::kRewound, report.insertion);
+  EXPECT_EQ(2u, report.rewound);
+  EXPECT_EQ(kStart + 2 * kSecond / 10, *report.previous_sample);
+}
+
+TEST_F(TimelineTest, ADuplicateChangesNothing) {
+  Timeline timeline = make();
+  timeline.insert(sample(kStart).view());
+  timeline.insert(sample(kStart + kSecond).view());
+  const std::vector<Snapshot> before = snapshots(timeline, *law_);
+  EXPECT_EQ(Timeline::Insertion::kDuplicate, timeline.insert(sample(kStart).view()).insertion);
+  const std::vector<Snapshot> after = snapshots(timeline, *law_);
+  for (std::size_t i = 0; i < before.size(); ++i) expect_identical(before[i], after[i]);
+}
+
+TEST_F(TimelineTest, AnEventBeforeTheWindowIsDropped) {
+  Timeline timeline = make(kSecond);
+  timeline.insert(sample(kStart).view());
+  timeline.insert(sample(kStart + 2 * kSecond).view());
+  const Snapshot before = snapshot(timeline, *law_, kStart + 2 * kSecond);
+  EXPECT_EQ(Timeline::Insertion::kBeforeWindow,
+            timeline.insert(sample(kStart + kSecond - 1).view()).insertion);
+  expect_identical(before, snapshot(timeline, *law_, kStart + 2 * kSecond));
+  EXPECT_EQ(Timeline::Insertion::kRewound,
+            timeline.insert(sample(kStart + kSecond).view()).insertion);
+}
+
+TEST_F(TimelineTest, ForgettingOldEventsChangesNoEstimate) {
+  std::mt19937_64 generator(7);
+  std::vector<OwnedEvent> events = test::random_events(generator, 100, kStart, 2 * kSecond);
+  std::sort(events.begin(), events.end(), [](const OwnedEvent& a, const OwnedEvent& b) {
+    return compare(a.view(), b.view()) < 0;
+  });
+  Timeline all = make();
+  Timeline by_time = make(kSecond / 4);
+  Timeline by_number = make(10 * kSecond, 5);
+  for (const OwnedEvent& event : events) {
+    for (Timeline* timeline : {&all, &by_time, &by_number}) timeline->insert(event.view());
+    expect_identical(snapshot(all, *law_, event.stamp), snapshot(by_time, *law_, event.stamp));
+    expect_identical(snapshot(all, *law_, event.stamp), snapshot(by_number, *law_, event.stamp));
+  }
+  EXPECT_EQ(100u, all.size());
+  EXPECT_EQ(5u, by_number.size());
+  EXPECT_LT(by_time.size(), 100u);
+  EXPECT_EQ(Timeline::Query::kBeforeWindow, snapshot(by_number, *law_, kStart).query);
+}
+
+TEST_F(TimelineTest, TheStateBeginsWithTheFirstEvent) {
+  Timeline timeline = make();
+  EXPECT_EQ(Timeline::Query::kNoEvent, snapshot(timeline, *law_, kStart).query);
+  EXPECT_FALSE(timeline.earliest());
+  timeline.insert(sample(kStart).view());
+  EXPECT_EQ(Timeline::Query::kBeforeStart, snapshot(timeline, *law_, kStart - 1).query);
+  EXPECT_EQ(Timeline::Query::kOk, snapshot(timeline, *law_, kStart).query);
+  EXPECT_EQ(kStart, *timeline.earliest());
+  timeline.insert(sample(kStart - kSecond).view());
+  EXPECT_EQ(kStart - kSecond, *timeline.earliest());
+}
+
+TEST_F(TimelineTest, ARestartForgetsAndRefusesWhatCameBefore) {
+  Timeline timeline = make();
+  timeline.insert(sample(kStart).view());
+  const Eigen::VectorXd state = Eigen::VectorXd::LinSpaced(law_->state_size(), 1.0, 2.0);
+  timeline.restart(kStart + kSecond, state);
+  const Snapshot found = snapshot(timeline, *law_, kStart + kSecond);
+  EXPECT_EQ(0u, found.events);
+  EXPECT_EQ(1.0, found.state.front());
+  EXPECT_EQ(Timeline::Query::kBeforeStart, snapshot(timeline, *law_, kStart).query);
+  EXPECT_EQ(Timeline::Insertion::kBeforeWindow,
+            timeline.insert(sample(kStart + kSecond).view()).insertion);
+  EXPECT_EQ(Timeline::Insertion::kAppended,
+            timeline.insert(sample(kStart + kSecond + 1).view()).insertion);
+}
+
+TEST_F(TimelineTest, WhatWouldOverflowIsSkippedAndTheEstimateStaysFinite) {
+  constexpr double kHuge = std::numeric_limits<double>::max();
+  Timeline timeline = make();
+  timeline.insert(sample(kStart).view());
+  const Snapshot before = snapshot(timeline, *law_, kStart + kSecond);
+  const OwnedEvent bad{kStart + kSecond, EventKind::kSample, 1, {kHuge, -kHuge}};
+  const OwnedEvent worse{kStart + kSecond + 1, EventKind::kSample, 0, {-kHuge}};
+  timeline.insert(bad.view());
+  EXPECT_FALSE(timeline.insert(worse.view()).finite);
+  const Snapshot after = snapshot(timeline, *law_, kStart + kSecond + 1);
+  for (const double value : after.state) EXPECT_TRUE(std::isfinite(value));
+  EXPECT_EQ(before.events + 2, after.events);
+}
+
+TEST_F(TimelineTest, AnOverflowingFlowHoldsTheLastFiniteState) {
+  LinearPlantDescription plant;
+  plant.state_names = {"x"};
+  plant.A = Eigen::MatrixXd::Constant(1, 1, 100.0);
+  plant.B = Eigen::MatrixXd::Zero(1, 0);
+  plant.sensors = {{"s", Eigen::MatrixXd::Identity(1, 1), {false}}};
+  const auto law = std::make_shared<const ConstantGainObserver>(
+      std::make_shared<const LinearPlant>(plant),
+      std::vector<Eigen::MatrixXd>{Eigen::MatrixXd::Identity(1, 1)}, Eigen::VectorXd::Zero(1),
+      Eigen::VectorXd::Zero(0));
+  Timeline timeline(law, {kSecond, 10});
+  timeline.insert(sample(kStart, 2.0).view());
+  const Snapshot held = snapshot(timeline, *law, kStart + 100 * kSecond);
+  EXPECT_EQ(Timeline::Query::kHeld, held.query);
+  EXPECT_EQ(2.0, held.state.front());
+  EXPECT_FALSE(timeline.insert(sample(kStart + 100 * kSecond, 3.0).view()).finite);
+  const Snapshot recovered = snapshot(timeline, *law, kStart + 100 * kSecond);
+  EXPECT_EQ(Timeline::Query::kOk, recovered.query);
+  EXPECT_EQ(3.0, recovered.state.front());
+}
+
+TEST_F(TimelineTest, NothingIsAllocatedAfterConstruction) {
+  if (!test::allocations_are_counted()) GTEST_SKIP() << "a sanitizer owns the allocator";
+  std::mt19937_64 generator(3);
+  const std::vector<OwnedEvent> events = test::random_events(generator, 500, kStart, 5 * kSecond);
+  Timeline timeline = make(2 * kSecond, 100);
+  Eigen::VectorXd state(law_->state_size());
+  EventCounts counts;
+  const std::size_t before = test::allocations();
+  for (const OwnedEvent& event : events) {
+    timeline.insert(event.view());
+    timeline.state_at(event.stamp + kSecond / 7, state, counts);
+  }
+  timeline.restart(kStart, state);
+  EXPECT_EQ(before, test::allocations());
+}
+
+TEST_F(TimelineTest, RefusesLimitsThatMakeNoSense) {
+  EXPECT_THROW(make(0), std::invalid_argument);
+  EXPECT_THROW(make(kSecond, 0), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace sampled_data_observers

@@ -1,0 +1,60 @@
+#include "sampled_data_observers/replay/comparison.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace sampled_data_observers {
+namespace {
+
+LinearPlant plant() {
+  LinearPlantDescription description;
+  description.state_names = {"p", "v", "yaw"};
+  description.A = Eigen::MatrixXd::Zero(3, 3);
+  description.B = Eigen::MatrixXd::Zero(3, 0);
+  Eigen::MatrixXd C(3, 3);
+  C << 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 0.0;
+  description.sensors = {{"s", C, {false, true, false}}};
+  return LinearPlant(description);
+}
+
+TEST(ComparisonTest, QuantitiesAreNamedAfterTheStatesTheyMeasure) {
+  EXPECT_EQ("p", output_quantity(plant(), 0, 0).name);
+  EXPECT_EQ("yaw", output_quantity(plant(), 0, 1).name);
+  EXPECT_TRUE(output_quantity(plant(), 0, 1).angular);
+  EXPECT_EQ("s[2]", output_quantity(plant(), 0, 2).name);
+  EXPECT_FALSE(state_quantity(plant(), "nothing"));
+}
+
+TEST(ComparisonTest, TakesRootMeanSquaresOfEstimateAndHeldSample) {
+  Comparison comparison({*state_quantity(plant(), "p"), *state_quantity(plant(), "yaw")}, plant());
+  const double x[] = {1.0, 7.0, 3.0};
+  comparison.add_truth({9.0, 9.0}, x);  // nothing sampled yet: not compared
+  EXPECT_EQ(0u, comparison.size());
+  EXPECT_FALSE(comparison.rmse()[0]);
+  const double y[] = {2.0, -3.0, 0.0};
+  comparison.add_sample(0, 100, y);
+  const double older[] = {50.0, 1.0, 0.0};
+  comparison.add_sample(0, 90, older);
+  comparison.add_truth({4.0, -3.0}, x);
+  comparison.add_truth({5.0, -3.0}, x);
+  EXPECT_EQ(2u, comparison.size());
+  EXPECT_DOUBLE_EQ(std::sqrt((9.0 + 16.0) / 2.0), *comparison.rmse()[0]);
+  EXPECT_DOUBLE_EQ(std::sqrt((4.0 + 9.0) / 2.0), *comparison.hold_rmse()[0]);
+  EXPECT_NEAR(2.0 * 3.14159265358979323846 - 6.0, *comparison.rmse()[1], 1e-14);
+  EXPECT_DOUBLE_EQ(0.0, *comparison.hold_rmse()[1]);
+  EXPECT_DOUBLE_EQ(std::hypot(*comparison.rmse()[0], *comparison.rmse()[1]),
+                   *Comparison::norm(comparison.rmse()));
+}
+
+TEST(ComparisonTest, WhatNoSensorMeasuresHasNoHeldSample) {
+  Comparison comparison({*state_quantity(plant(), "v")}, plant());
+  const double x[] = {1.0, 7.0, 3.0};
+  comparison.add_truth({6.0}, x);
+  EXPECT_DOUBLE_EQ(1.0, *comparison.rmse()[0]);
+  EXPECT_FALSE(comparison.hold_rmse()[0]);
+  EXPECT_FALSE(Comparison::norm(comparison.hold_rmse()));
+}
+
+}  // namespace
+}  // namespace sampled_data_observers

@@ -1,0 +1,217 @@
+// What needs no roscore: values from messages, parameters as configuration, messages from results.
+#include <gtest/gtest.h>
+#include <xmlrpcpp/XmlRpcValue.h>
+
+#include <cmath>
+
+#include "sampled_data_observers/config/config_section.h"
+#include "sampled_data_observers/config/yaml_file.h"
+#include "sampled_data_observers/ros/message_pool.h"
+#include "sampled_data_observers/ros/message_types.h"
+#include "sampled_data_observers/ros/observer_runtime.h"
+#include "sampled_data_observers/ros/parameter_tree.h"
+#include "sampled_data_observers/ros/value_reader.h"
+#include "support/allocation_counter.h"
+
+namespace sampled_data_observers {
+namespace {
+
+TopicSource source(const std::string& type, const std::vector<std::string>& fields,
+                   std::size_t size) {
+  TopicSource result;
+  result.topic = "topic";
+  result.type = type;
+  result.fields = fields;
+  result.size = size;
+  result.origin = "file.yaml:3";
+  result.path = "sensors/s/source";
+  return result;
+}
+
+template <class F>
+std::string fault(F&& f) {
+  try {
+    f();
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return "no fault";
+}
+
+TEST(ValueReaderTest, TakesFieldsByTheirPaths) {
+  ValueReader<geometry_msgs::PoseStamped> reader(
+      source("geometry_msgs/PoseStamped", {"pose.position.z", "pose.orientation.w"}, 2));
+  geometry_msgs::PoseStamped message;
+  message.header.stamp = ros::Time(12, 34);
+  message.pose.position.z = 1.5;
+  message.pose.orientation.w = -0.5;
+  Event event;
+  reader.read(message, event);
+  EXPECT_EQ(12'000'000'034, event.stamp);
+  ASSERT_EQ(2, event.size);
+  EXPECT_EQ(1.5, event.values[0]);
+  EXPECT_EQ(-0.5, event.values[1]);
+}
+
+TEST(ValueReaderTest, AnUnknownFieldIsRefusedWithAListOfThoseThatExist) {
+  const std::string message = fault([] {
+    ValueReader<geometry_msgs::PointStamped> reader(
+        source("geometry_msgs/PointStamped", {"point.w"}, 1));
+  });
+  for (const char* part : {"file.yaml:3", "sensors/s/source/fields", "'point.w'", "point.z"}) {
+    EXPECT_NE(std::string::npos, message.find(part)) << message;
+  }
+}
+
+TEST(ValueReaderTest, FieldsAreNeededWhereThereAreSomeAndRefusedWhereNot) {
+  EXPECT_NE(
+      "no fault", fault([] {
+        ValueReader<geometry_msgs::PointStamped> r(source("geometry_msgs/PointStamped", {}, 1));
+      }));
+  EXPECT_NE("no fault", fault([] {
+              ValueReader<Measurement> r(source("sampled_data_observers/Measurement", {"x"}, 1));
+            }));
+}
+
+TEST(ValueReaderTest, AnUnknownTypeIsRefusedWithAListOfThoseThatExist) {
+  const std::string message =
+      fault([] { visit_message_type(source("std_msgs/String", {}, 1), [](auto) {}); });
+  for (const char* part : {"sensors/s/source/type", "'std_msgs/String'", "PoseStamped"}) {
+    EXPECT_NE(std::string::npos, message.find(part)) << message;
+  }
+}
+
+TEST(ParameterTreeTest, IsTheSameTreeAsTheFile) {
+  XmlRpc::XmlRpcValue value;
+  value["rate"] = 50;
+  value["flag"] = true;
+  value["text"] = "1e-3";  // what YAML 1.1 readers make of it
+  value["tiny"] = 0.1 + 0.2;
+  value["list"][0] = 1.0 / 3.0;
+  value["list"][1] = -7;
+  const ConfigNode node = to_config_node(value, "/observer");
+  ConfigSection section(node, "");
+  EXPECT_EQ(50.0, section.number("rate"));
+  EXPECT_EQ(1e-3, section.number("text"));
+  EXPECT_EQ(0.1 + 0.2, section.number("tiny"));
+  EXPECT_EQ("true", node.find("flag")->scalar);
+  EXPECT_EQ(1.0 / 3.0, section.vector("list", 2)(0));
+  EXPECT_EQ("parameter /observer/list[1]", node.find("list")->items[1].origin);
+  const std::string message = fault([&] { section.number("list"); });
+  EXPECT_NE(std::string::npos, message.find("parameter /observer/list: list")) << message;
+}
+
+TEST(ParameterTreeTest, BinaryDataIsRefused) {
+  char data[4] = {};
+  XmlRpc::XmlRpcValue value;
+  value["blob"] = XmlRpc::XmlRpcValue(data, 4);
+  EXPECT_NE(std::string::npos,
+            fault([&] { to_config_node(value, "/o"); }).find("parameter /o/blob"));
+}
+
+class ObserverRuntimeTest : public ::testing::Test {
+ protected:
+  static ObserverConfig config() {
+    return read_observer_config(read_yaml_text(R"(
+observer: ConstantGainObserver
+plant: {states: [position, velocity], A: [[0, 1], [0, 0]]}
+sensors: {odometer_with_a_rather_long_name: {C: [[1, 0]], source: {topic: s}}}
+sampling: {T1: 0.05, T2: 0.2}
+gains: {L: [[1], [5]]}
+rate: 100
+frame_id: map
+)",
+                                               "test.yaml"));
+  }
+  EventReport receive(Stamp stamp, double value) {
+    return runtime_.receive(channels_[0], {stamp, EventKind::kSample, 0, &value, 1}, stamp,
+                            status_);
+  }
+
+  const std::vector<EventChannel> channels_ = event_channels(config());
+  ObserverRuntime runtime_{config()};
+  EventStatus status_;
+};
+
+TEST_F(ObserverRuntimeTest, WritesStatusAndEstimate) {
+  receive(1'000'000'000, 2.0);
+  receive(1'100'000'000, 3.0);
+  EXPECT_EQ(1.1, status_.header.stamp.toSec());
+  EXPECT_EQ("odometer_with_a_rather_long_name", status_.source);
+  EXPECT_EQ(EventStatus::SAMPLE, status_.kind);
+  EXPECT_EQ(EventStatus::USED, status_.outcome);
+  EXPECT_DOUBLE_EQ(0.1, status_.interval);
+  EXPECT_EQ(EventStatus::INTERVAL_WITHIN, status_.interval_check);
+  EXPECT_EQ("used", status_.reason);
+
+  std::string reason;
+  const Estimate* estimate = runtime_.estimate_at(1'150'000'000, reason);
+  ASSERT_NE(nullptr, estimate);
+  StateEstimate message;
+  runtime_.write(*estimate, message);
+  EXPECT_EQ((std::vector<std::string>{"position", "velocity"}), message.names);
+  EXPECT_EQ("map", message.header.frame_id);
+  EXPECT_EQ(2u, message.events);
+  EXPECT_EQ(2u, message.samples);
+  EXPECT_EQ(0u, message.jumps);
+  EXPECT_DOUBLE_EQ(0.05, message.time_since_sample);
+  EXPECT_FALSE(message.held);
+  // First sample: (2, 10). Then p = 2 + 10 * 0.1 = 3, no innovation.
+  EXPECT_NEAR(3.5, message.state[0], 1e-15);
+  EXPECT_NEAR(10.0, message.state[1], 1e-15);
+}
+
+TEST_F(ObserverRuntimeTest, SaysWhyThereIsNoEstimate) {
+  std::string reason;
+  EXPECT_EQ(nullptr, runtime_.estimate_at(1'000'000'000, reason));
+  EXPECT_NE(std::string::npos, reason.find("no event"));
+  receive(1'000'000'000, 2.0);
+  EXPECT_EQ(nullptr, runtime_.estimate_at(999'999'999, reason));
+  EXPECT_NE(std::string::npos, reason.find("before the first event"));
+  receive(1'000'000'001, 2.0);
+  receive(9'000'000'000, 2.0);
+  EXPECT_EQ(nullptr, runtime_.estimate_at(1'000'000'000, reason));
+  EXPECT_NE(std::string::npos, reason.find("history window"));
+}
+
+TEST_F(ObserverRuntimeTest, RestartChecksWhatItIsGiven) {
+  EXPECT_NE("", runtime_.restart(5, {1.0}));
+  EXPECT_NE("", runtime_.restart(5, {1.0, std::nan("")}));
+  EXPECT_EQ("", runtime_.restart(5, {1.0, 2.0}));
+  EXPECT_EQ("", runtime_.restart(6, {}));
+}
+
+TEST_F(ObserverRuntimeTest, EventsFlowAndMessagesAllocateNothing) {
+  if (!test::allocations_are_counted()) GTEST_SKIP() << "a sanitizer owns the allocator";
+  StateEstimate prototype;
+  runtime_.write(runtime_.estimator().make_estimate(), prototype);
+  MessagePool<StateEstimate> estimates(prototype, 4);
+  receive(1'000'000'000, 0.0);
+  receive(1'000'000'000, 0.0);  // the longest reason, too
+  std::size_t published = 0;
+  const std::size_t before = test::allocations();
+  for (Stamp stamp = 1'100'000'000; stamp < 20'000'000'000; stamp += 100'000'000) {
+    receive(stamp, 1.0);
+    receive(stamp - 50'000'000, 1.0);
+    receive(stamp, 1.0);
+    while (const Estimate* estimate = runtime_.next_due(stamp)) {
+      runtime_.write(*estimate, *estimates.take());
+      ++published;
+    }
+  }
+  EXPECT_EQ(before, test::allocations());
+  EXPECT_EQ(1891u, published);  // from 1.0 s to 19.9 s
+}
+
+TEST(MessagePoolTest, GivesAMessageThatNobodyHolds) {
+  MessagePool<Measurement> pool(Measurement(), 2);
+  const boost::shared_ptr<Measurement> first = pool.take();
+  const boost::shared_ptr<Measurement> second = pool.take();
+  EXPECT_NE(first, second);
+  const boost::shared_ptr<Measurement> third = pool.take();
+  EXPECT_NE(first, third);
+  EXPECT_NE(second, third);
+}
+
+}  // namespace
+}  // namespace sampled_data_observers

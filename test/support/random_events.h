@@ -1,0 +1,85 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <memory>
+#include <random>
+#include <vector>
+
+#include "sampled_data_observers/hybrid/event.h"
+#include "sampled_data_observers/observer/constant_gain_observer.h"
+
+namespace sampled_data_observers::test {
+
+/// Events that own their values.
+struct OwnedEvent {
+  Stamp stamp = 0;
+  EventKind kind = EventKind::kSample;
+  int channel = 0;
+  std::vector<double> values;
+
+  Event view() const {
+    return {stamp, kind, channel, values.data(), static_cast<Eigen::Index>(values.size())};
+  }
+};
+
+/// A law with everything that events can touch: inputs, two sensors (one with an angle), jumps.
+inline std::shared_ptr<const ConstantGainObserver> example_law() {
+  LinearPlantDescription plant;
+  plant.state_names = {"p", "v", "yaw"};
+  plant.input_names = {"u", "w"};
+  plant.A.resize(3, 3);
+  plant.A << 0.0, 1.0, 0.0, -3.0, -0.2, 0.1, 0.0, 0.3, 0.0;
+  plant.B.resize(3, 2);
+  plant.B << 0.0, 0.0, 1.0, 0.0, 0.0, 1.0;
+  Eigen::MatrixXd C_position(1, 3);
+  C_position << 1.0, 0.0, 0.0;
+  Eigen::MatrixXd C_pose(2, 3);
+  C_pose << 1.0, 0.5, 0.0, 0.0, 0.0, 1.0;
+  plant.sensors = {{"position", C_position, {false}}, {"pose", C_pose, {false, true}}};
+  Eigen::MatrixXd A_d = Eigen::MatrixXd::Identity(3, 3);
+  A_d(1, 1) = -0.8;
+  plant.jump_map = AffineJumpMap{A_d, Eigen::Vector3d(0.0, 0.1, 0.0)};
+
+  Eigen::MatrixXd L_position(3, 1);
+  L_position << 0.6, 0.4, 0.05;
+  Eigen::MatrixXd L_pose(3, 2);
+  L_pose << 0.3, 0.0, 0.2, 0.1, 0.0, 0.7;
+  return std::make_shared<const ConstantGainObserver>(
+      std::make_shared<const LinearPlant>(plant), std::vector<Eigen::MatrixXd>{L_position, L_pose},
+      Eigen::Vector3d(0.3, -0.2, 3.0), Eigen::Vector2d(0.1, 0.0));
+}
+
+/// `size` events for example_law() in [start, start + span], some with equal stamps, no two equal.
+inline std::vector<OwnedEvent> random_events(std::mt19937_64& generator, std::size_t size,
+                                             Stamp start, Duration span) {
+  std::uniform_int_distribution<Stamp> stamp(start, start + span);
+  std::uniform_int_distribution<int> kind(0, 9);
+  std::uniform_real_distribution<double> value(-4.0, 4.0);
+  std::vector<OwnedEvent> events;
+  while (events.size() < size) {
+    OwnedEvent event;
+    event.stamp = stamp(generator);
+    if (!events.empty() && kind(generator) < 3) event.stamp = events.back().stamp;
+    const int choice = kind(generator);
+    std::size_t values = 1;
+    if (choice < 2) {
+      event.kind = EventKind::kInput;
+      values = 2;
+    } else if (choice < 3) {
+      event.kind = EventKind::kJump;
+      values = 0;
+    } else if (choice < 6) {
+      event.channel = 1;
+      values = 2;
+    }
+    for (std::size_t i = 0; i < values; ++i) event.values.push_back(value(generator));
+    const bool known = std::any_of(events.begin(), events.end(), [&](const OwnedEvent& other) {
+      return compare(other.view(), event.view()) == 0;
+    });
+    if (!known) events.push_back(event);
+  }
+  return events;
+}
+
+}  // namespace sampled_data_observers::test
