@@ -39,7 +39,7 @@ Timeline::Timeline(std::shared_ptr<const HybridSystem> system, Limits limits)
   for (std::size_t i = 0; i < slots_.size(); ++i) {
     slots_[i].event.values = values_.col(static_cast<Eigen::Index>(i)).data();
   }
-  system_->initialize(base_state_);
+  system_->initialize(base_state_.data());
 }
 
 Timeline::InsertReport Timeline::insert(const Event& event) {
@@ -83,7 +83,7 @@ Timeline::Query Timeline::state_at(Stamp stamp, StateRef state, EventCounts& cou
     state = base_state_;
     counts = base_counts_;
   }
-  system_->flow(stamp - from, state, workspace_);
+  system_->flow(stamp - from, state.data(), workspace_.data());
   if (state.allFinite()) return Query::kOk;
   if (position > 0) {
     state = state_after(position - 1);
@@ -161,13 +161,13 @@ bool Timeline::apply(std::size_t position) {
   count(current.event, current.counts);
 
   restore();
-  system_->flow(now - from, state, workspace_);
+  system_->flow(now - from, state.data(), workspace_.data());
   const bool flow_is_finite = state.allFinite();
   if (!flow_is_finite) restore();
-  system_->reset(current.event, state, workspace_);
+  system_->reset(current.event, state.data(), workspace_.data());
   if (state.allFinite()) return flow_is_finite;
   restore();
-  if (flow_is_finite) system_->flow(now - from, state, workspace_);
+  if (flow_is_finite) system_->flow(now - from, state.data(), workspace_.data());
   return false;
 }
 
@@ -176,7 +176,7 @@ void Timeline::forget_oldest() {
   base_is_restart_ = false;
   base_counts_ = slot(0).counts;
   base_state_ = state_after(0);
-  first_ = (first_ + 1) % order_.size();
+  first_ = ring_index(1);
   --size_;
 }
 

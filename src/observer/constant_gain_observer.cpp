@@ -23,11 +23,11 @@ ConstantGainObserver::ConstantGainObserver(std::shared_ptr<const LinearPlant> pl
   }
 }
 
-void ConstantGainObserver::sample(std::size_t sensor, ConstStateRef y, StateRef state,
-                                  StateRef workspace) const {
-  double* innovation = workspace.data();
-  compute_innovation(plant().sensors()[sensor], y.data(), state.data(), innovation);
-  add_product(L_[sensor], innovation, state.data());
+void ConstantGainObserver::sample(std::size_t sensor, const double* y, double* state,
+                                  double* workspace) const {
+  double* innovation = workspace;
+  compute_innovation(plant().sensors()[sensor], y, state, innovation);
+  add_product(L_[sensor], innovation, state);
 }
 
 }  // namespace sampled_data_observers

@@ -80,12 +80,12 @@ Estimate Estimator::make_estimate() const {
 }
 
 void Estimator::restart(Stamp stamp) {
-  law_->initialize(scratch_);
+  law_->initialize(scratch_.data());
   timeline_.restart(stamp, scratch_);
 }
 
-void Estimator::restart(Stamp stamp, ConstStateRef estimate) {
-  law_->initialize(scratch_);
+void Estimator::restart(Stamp stamp, Timeline::ConstStateRef estimate) {
+  law_->initialize(scratch_.data());
   scratch_.head(law_->estimate_size()) = estimate;
   timeline_.restart(stamp, scratch_);
 }

@@ -48,22 +48,21 @@ Eigen::Index LinearPlantObserver::max_event_size() const {
   return std::max(plant_->inputs(), plant_->max_outputs());
 }
 
-void LinearPlantObserver::initialize(StateRef state) const {
-  state.head(plant_->states()) = initial_estimate_;
-  state.tail(plant_->inputs()) = initial_input_;
+void LinearPlantObserver::initialize(double* state) const {
+  std::copy_n(initial_estimate_.data(), plant_->states(), state);
+  std::copy_n(initial_input_.data(), plant_->inputs(), state + plant_->states());
 }
 
-void LinearPlantObserver::flow(Duration duration, StateRef state, StateRef workspace) const {
-  double* x = state.data();
-  plant_->flow().apply(duration, x, x + plant_->states(), workspace.data());
+void LinearPlantObserver::flow(Duration duration, double* state, double* workspace) const {
+  plant_->flow().apply(duration, state, state + plant_->states(), workspace);
 }
 
-void LinearPlantObserver::jump(StateRef state, StateRef workspace) const {
-  plant_->jump(state.data(), workspace.data());
+void LinearPlantObserver::jump(double* state, double* workspace) const {
+  plant_->jump(state, workspace);
 }
 
-void LinearPlantObserver::input(ConstStateRef u, StateRef state) const {
-  state.tail(plant_->inputs()) = u;
+void LinearPlantObserver::input(const double* u, double* state) const {
+  std::copy_n(u, plant_->inputs(), state + plant_->states());
 }
 
 }  // namespace sampled_data_observers

@@ -106,10 +106,11 @@ void LinearFlow::apply(Duration duration, double* x, const double* u, double* sc
     const int digit = static_cast<int>(duration & (kDigits - 1));
     if (digit == 0) continue;
     const double* M = transition(place, digit);
-    std::fill_n(scratch, states_, 0.0);
+    // Loops, not fill_n and copy_n: these call the C library, which takes longer than the product.
+    for (Eigen::Index i = 0; i < states_; ++i) scratch[i] = 0.0;
     add_product(M, states_, states_, x, scratch);
     add_product(M + states_ * states_, states_, inputs_, u, scratch);
-    std::copy_n(scratch, states_, x);
+    for (Eigen::Index i = 0; i < states_; ++i) x[i] = scratch[i];
   }
 }
 

@@ -78,7 +78,7 @@ TEST(ObserverConfigTest, ReadsEveryKey) {
   EXPECT_EQ(250000000, config.options.future_tolerance);
   EXPECT_EQ("map", config.frame_id);
   Eigen::VectorXd state(config.law->state_size());
-  config.law->initialize(state);
+  config.law->initialize(state.data());
   EXPECT_EQ(Eigen::Vector4d(1.0, -2.0, 3.0, 0.0), state);
 }
 

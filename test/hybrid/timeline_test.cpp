@@ -140,11 +140,11 @@ TEST_F(TimelineTest, AtOneStampInputComesFirstThenJumpThenSample) {
 
   Eigen::VectorXd expected(law_->state_size());
   Eigen::VectorXd workspace(law_->workspace_size());
-  law_->initialize(expected);
-  law_->reset(first.view(), expected, workspace);
-  law_->flow(now - kStart, expected, workspace);
+  law_->initialize(expected.data());
+  law_->reset(first.view(), expected.data(), workspace.data());
+  law_->flow(now - kStart, expected.data(), workspace.data());
   for (const OwnedEvent& event : {input, jump, measured}) {
-    law_->reset(event.view(), expected, workspace);
+    law_->reset(event.view(), expected.data(), workspace.data());
   }
 
   Timeline timeline = make();

@@ -10,11 +10,13 @@ namespace {
 class ConstantGainObserverTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    law_->initialize(state_);
+    law_->initialize(state_.data());
     EXPECT_EQ(Eigen::Vector3d(0.3, -0.2, 3.0), estimate());
   }
   Eigen::Vector3d estimate() const { return state_.head(3); }
-  void reset(const test::OwnedEvent& event) { law_->reset(event.view(), state_, workspace_); }
+  void reset(const test::OwnedEvent& event) {
+    law_->reset(event.view(), state_.data(), workspace_.data());
+  }
 
   std::shared_ptr<const ConstantGainObserver> law_ = test::example_law();
   Eigen::VectorXd state_ = Eigen::VectorXd(law_->state_size());
@@ -48,7 +50,7 @@ TEST_F(ConstantGainObserverTest, FlowsAsThePlantUnderTheInputHeld) {
   const double u[] = {2.0, -1.0};
   Eigen::Vector3d scratch;
   law_->plant().flow().apply(123456789, expected.data(), u, scratch.data());
-  law_->flow(123456789, state_, workspace_);
+  law_->flow(123456789, state_.data(), workspace_.data());
   EXPECT_EQ(expected, estimate());
 }
 

@@ -7,14 +7,12 @@
 
 namespace sampled_data_observers {
 
-using StateRef = Eigen::Ref<Eigen::VectorXd>;
-using ConstStateRef = Eigen::Ref<const Eigen::VectorXd>;
-
 /// A hybrid system whose jumps are driven by events: it flows between them and is reset at them.
 ///
-/// Immutable once built; the state is the caller's. The maps allocate nothing and throw nothing:
-/// what they need beside the state they find in `workspace`, whose content means nothing between
-/// calls. A map may leave non-finite numbers in the state; the Timeline handles that.
+/// Immutable once built; the state is the caller's: state_size() numbers at `state`. The maps
+/// allocate nothing and throw nothing: what they need beside the state they find at `workspace`,
+/// workspace_size() numbers that mean nothing between calls. A map may leave non-finite numbers in
+/// the state; the Timeline handles that.
 class HybridSystem {
  public:
   virtual ~HybridSystem() = default;
@@ -33,13 +31,13 @@ class HybridSystem {
   virtual Eigen::Index max_event_size() const = 0;
 
   /// The state before the first event.
-  virtual void initialize(StateRef state) const = 0;
+  virtual void initialize(double* state) const = 0;
 
   /// Flow map: carries the state over `duration` >= 0.
-  virtual void flow(Duration duration, StateRef state, StateRef workspace) const = 0;
+  virtual void flow(Duration duration, double* state, double* workspace) const = 0;
 
   /// Reset map of an event that event_size() accepts.
-  virtual void reset(const Event& event, StateRef state, StateRef workspace) const = 0;
+  virtual void reset(const Event& event, double* state, double* workspace) const = 0;
 };
 
 }  // namespace sampled_data_observers

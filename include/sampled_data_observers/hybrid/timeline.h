@@ -37,6 +37,9 @@ struct EventCounts {
 /// Everything is allocated by the constructor; afterwards nothing is.
 class Timeline {
  public:
+  using StateRef = Eigen::Ref<Eigen::VectorXd>;
+  using ConstStateRef = Eigen::Ref<const Eigen::VectorXd>;
+
   struct Limits {
     /// Length of the history window [ns], > 0.
     Duration history = 0;
@@ -99,10 +102,12 @@ class Timeline {
     EventCounts counts;
   };
 
-  std::size_t& order(std::size_t position) { return order_[(first_ + position) % order_.size()]; }
-  std::size_t order(std::size_t position) const {
-    return order_[(first_ + position) % order_.size()];
+  std::size_t ring_index(std::size_t position) const {
+    const std::size_t index = first_ + position;
+    return index < order_.size() ? index : index - order_.size();
   }
+  std::size_t& order(std::size_t position) { return order_[ring_index(position)]; }
+  std::size_t order(std::size_t position) const { return order_[ring_index(position)]; }
   const Slot& slot(std::size_t position) const { return slots_[order(position)]; }
 
   std::size_t position_after(const Event& event) const;

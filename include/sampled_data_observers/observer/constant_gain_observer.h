@@ -24,8 +24,7 @@ class ConstantGainObserver : public LinearPlantObserver {
                        Eigen::VectorXd initial_estimate, Eigen::VectorXd initial_input);
 
  protected:
-  void sample(std::size_t sensor, ConstStateRef y, StateRef state,
-              StateRef workspace) const override;
+  void sample(std::size_t sensor, const double* y, double* state, double* workspace) const override;
 
  private:
   std::vector<Eigen::MatrixXd> L_;

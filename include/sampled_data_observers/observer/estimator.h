@@ -90,7 +90,7 @@ class Estimator {
   void restart(Stamp stamp);
 
   /// The same from a given estimate (law().estimate_size() entries, finite).
-  void restart(Stamp stamp, ConstStateRef estimate);
+  void restart(Stamp stamp, Timeline::ConstStateRef estimate);
 
   const Timeline& timeline() const { return timeline_; }
 

@@ -26,12 +26,12 @@ class LinearPlantObserver : public ObserverLaw {
   Eigen::Index workspace_size() const override;
   Eigen::Index event_size(EventKind kind, int channel) const override;
   Eigen::Index max_event_size() const override;
-  void initialize(StateRef state) const override;
-  void flow(Duration duration, StateRef state, StateRef workspace) const override;
+  void initialize(double* state) const override;
+  void flow(Duration duration, double* state, double* workspace) const override;
 
  protected:
-  void jump(StateRef state, StateRef workspace) const override;
-  void input(ConstStateRef u, StateRef state) const override;
+  void jump(double* state, double* workspace) const override;
+  void input(const double* u, double* state) const override;
 
  private:
   std::shared_ptr<const LinearPlant> plant_;

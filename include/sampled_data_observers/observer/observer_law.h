@@ -21,18 +21,18 @@ class ObserverLaw : public HybridSystem {
   /// Number of estimated states: the first entries of the state vector.
   Eigen::Index estimate_size() const { return static_cast<Eigen::Index>(estimate_names().size()); }
 
-  void reset(const Event& event, StateRef state, StateRef workspace) const final;
+  void reset(const Event& event, double* state, double* workspace) const final;
 
  protected:
-  /// Reset map of a sample `y` of sensor number `sensor`.
-  virtual void sample(std::size_t sensor, ConstStateRef y, StateRef state,
-                      StateRef workspace) const = 0;
+  /// Reset map of a sample of sensor number `sensor`, y its outputs.
+  virtual void sample(std::size_t sensor, const double* y, double* state,
+                      double* workspace) const = 0;
 
   /// Reset map of a plant jump.
-  virtual void jump(StateRef state, StateRef workspace) const = 0;
+  virtual void jump(double* state, double* workspace) const = 0;
 
   /// Takes in the input that holds from now on.
-  virtual void input(ConstStateRef u, StateRef state) const = 0;
+  virtual void input(const double* u, double* state) const = 0;
 };
 
 }  // namespace sampled_data_observers

@@ -1,0 +1,163 @@
+// What one flow, one sample and one rewind cost, beside the bare product of the same size and
+// Eigen's matrix exponential, for n states and one output. Compare within one run: machines differ.
+// The counter `allocations` is the number of heap allocations per operation.
+#include <benchmark/benchmark.h>
+
+#include <Eigen/Dense>
+#include <memory>
+#include <unsupported/Eigen/MatrixFunctions>
+
+#include "sampled_data_observers/hybrid/timeline.h"
+#include "sampled_data_observers/observer/constant_gain_observer.h"
+#include "support/allocation_counter.h"
+
+namespace sampled_data_observers {
+namespace {
+
+constexpr Stamp kStart = 1'600'000'000'000'000'000;
+constexpr Duration kStep = 12'345'678;  // an arbitrary step of about 12 ms
+
+/// Oscillating, so that a state flows for ever without growing or sinking to denormal numbers.
+Eigen::MatrixXd example_A(Eigen::Index n) {
+  std::srand(1);
+  const Eigen::MatrixXd M = Eigen::MatrixXd::Random(n, n);
+  return M - M.transpose();
+}
+
+std::shared_ptr<const ConstantGainObserver> example_law(Eigen::Index n) {
+  LinearPlantDescription plant;
+  plant.state_names.resize(static_cast<std::size_t>(n), "x");
+  plant.A = example_A(n);
+  plant.B = Eigen::MatrixXd::Zero(n, 0);
+  plant.sensors = {{"s", Eigen::MatrixXd::Identity(1, n), {false}}};
+  return std::make_shared<const ConstantGainObserver>(
+      std::make_shared<const LinearPlant>(plant),
+      std::vector<Eigen::MatrixXd>{Eigen::MatrixXd::Constant(n, 1, 0.1)}, Eigen::VectorXd::Ones(n),
+      Eigen::VectorXd::Zero(0));
+}
+
+/// Counts the heap allocations of a loop.
+class Allocations {
+ public:
+  explicit Allocations(benchmark::State& state) : state_(state), before_(test::allocations()) {}
+  ~Allocations() {
+    const auto count = static_cast<double>(test::allocations() - before_);
+    state_.counters["allocations"] =
+        benchmark::Counter(count / static_cast<double>(state_.iterations()));
+  }
+
+ private:
+  benchmark::State& state_;
+  std::size_t before_;
+};
+
+void BareFlow(benchmark::State& state) {
+  const Eigen::Index n = state.range(0);
+  const Eigen::MatrixXd Phi = (example_A(n) * to_seconds(kStep)).exp();
+  Eigen::VectorXd x = Eigen::VectorXd::Ones(n);
+  Eigen::VectorXd next(n);
+  const Allocations allocations(state);
+  for (auto _ : state) {
+    next.noalias() = Phi * x;
+    benchmark::DoNotOptimize(next.data());
+    benchmark::ClobberMemory();
+  }
+}
+
+void EigenExponentialFlow(benchmark::State& state) {
+  const Eigen::Index n = state.range(0);
+  const Eigen::MatrixXd A = example_A(n);
+  Eigen::VectorXd x = Eigen::VectorXd::Ones(n);
+  Eigen::VectorXd next(n);
+  const Allocations allocations(state);
+  for (auto _ : state) {
+    next.noalias() = (A * to_seconds(kStep)).exp() * x;
+    benchmark::DoNotOptimize(next.data());
+    benchmark::ClobberMemory();
+  }
+}
+
+void Flow(benchmark::State& state) {
+  const auto law = example_law(state.range(0));
+  Eigen::VectorXd x(law->state_size());
+  Eigen::VectorXd workspace(law->workspace_size());
+  law->initialize(x.data());
+  const Allocations allocations(state);
+  for (auto _ : state) {
+    law->flow(kStep, x.data(), workspace.data());
+    benchmark::DoNotOptimize(x.data());
+    benchmark::ClobberMemory();
+  }
+}
+
+void BareSample(benchmark::State& state) {
+  const Eigen::Index n = state.range(0);
+  const Eigen::MatrixXd C = Eigen::MatrixXd::Identity(1, n);
+  const Eigen::MatrixXd L = Eigen::MatrixXd::Constant(n, 1, 0.1);
+  const Eigen::VectorXd y = Eigen::VectorXd::Ones(1);
+  Eigen::VectorXd x = Eigen::VectorXd::Ones(n);
+  Eigen::VectorXd innovation(1);
+  const Allocations allocations(state);
+  for (auto _ : state) {
+    innovation = y - C.lazyProduct(x);
+    x += L.lazyProduct(innovation);
+    benchmark::DoNotOptimize(x.data());
+    benchmark::ClobberMemory();
+  }
+}
+
+void Sample(benchmark::State& state) {
+  const auto law = example_law(state.range(0));
+  Eigen::VectorXd x(law->state_size());
+  Eigen::VectorXd workspace(law->workspace_size());
+  law->initialize(x.data());
+  const double y = 1.0;
+  const Event event{kStart, EventKind::kSample, 0, &y, 1};
+  const Allocations allocations(state);
+  for (auto _ : state) {
+    law->reset(event, x.data(), workspace.data());
+    benchmark::DoNotOptimize(x.data());
+    benchmark::ClobberMemory();
+  }
+}
+
+/// Takes in one event with `state.range(1)` later ones behind it, then a new one at the end.
+void Rewind(benchmark::State& state) {
+  const auto law = example_law(state.range(0));
+  const std::int64_t later = state.range(1);
+  Timeline timeline(law, {1000 * kNanosecondsPerSecond, 300});
+  const double y = 1.0;
+  Stamp stamp = kStart;
+  const auto insert = [&](Stamp at) {
+    return timeline.insert({at, EventKind::kSample, 0, &y, 1}).rewound;
+  };
+  for (int i = 0; i < 400; ++i) insert(stamp += kStep);
+  const Allocations allocations(state);
+  for (auto _ : state) {
+    insert(stamp += kStep);
+    // Half of the events behind it were late ones of earlier rounds.
+    benchmark::DoNotOptimize(insert(stamp - (later / 2) * kStep - (later % 2) * kStep / 2 - 1));
+  }
+}
+
+void Sizes(benchmark::internal::Benchmark* benchmark) {
+  for (const int n : {2, 4, 6, 15}) benchmark->Arg(n);
+}
+
+void SizesAndDepths(benchmark::internal::Benchmark* benchmark) {
+  for (const int n : {2, 4, 6, 15}) {
+    for (const int k : {0, 1, 10, 100}) benchmark->Args({n, k});
+  }
+}
+
+BENCHMARK(BareFlow)->Apply(Sizes);
+BENCHMARK(Flow)->Apply(Sizes);
+BENCHMARK(EigenExponentialFlow)->Apply(Sizes);
+BENCHMARK(BareSample)->Apply(Sizes);
+BENCHMARK(Sample)->Apply(Sizes);
+BENCHMARK(Rewind)->Apply(SizesAndDepths);
+
+}  // namespace
+}  // namespace sampled_data_observers
+
+BENCHMARK_MAIN();
