@@ -18,17 +18,31 @@ void ObserverNodelet::onInit() {
   try {
     const ObserverConfig config = read_observer_config(read_parameter_tree(getPrivateNodeHandle()));
     if (config.type != type_) {
-      throw ConfigError("parameter " + getPrivateNodeHandle().getNamespace(), "observer",
+      throw ConfigError("parameters of " + getPrivateNodeHandle().getNamespace(), "observer",
                         type_ + " (this nodelet's type)", config.type);
     }
     start(config);
   } catch (const std::exception& error) {
     NODELET_FATAL("not started: %s", error.what());
+    // Now, while the callback queue still lives: roscpp crashes if that happens in the destructor.
+    stop();
     throw;
   }
 }
 
+void ObserverNodelet::stop() {
+  timer_ = ros::Timer();
+  subscribers_.clear();
+  services_.clear();
+  estimate_publisher_ = ros::Publisher();
+  status_publisher_ = ros::Publisher();
+}
+
 void ObserverNodelet::start(const ObserverConfig& config) {
+  std::vector<std::function<void()>> subscriptions;
+  for (const EventChannel& channel : event_channels(config)) {
+    subscriptions.push_back(subscription(channel));
+  }
   runtime_ = std::make_unique<ObserverRuntime>(config);
 
   StateEstimate estimate;
@@ -41,7 +55,7 @@ void ObserverNodelet::start(const ObserverConfig& config) {
   ros::NodeHandle& handle = getNodeHandle();
   estimate_publisher_ = handle.advertise<StateEstimate>("estimate", kQueueLength);
   status_publisher_ = handle.advertise<EventStatus>("events", kQueueLength);
-  for (const EventChannel& channel : event_channels(config)) subscribe(channel);
+  for (const std::function<void()>& subscribe : subscriptions) subscribe();
   services_.push_back(handle.advertiseService("reset", &ObserverNodelet::reset, this));
   services_.push_back(
       handle.advertiseService("get_estimate", &ObserverNodelet::get_estimate, this));
@@ -52,24 +66,31 @@ void ObserverNodelet::start(const ObserverConfig& config) {
                estimate_publisher_.getTopic().c_str());
 }
 
-void ObserverNodelet::subscribe(const EventChannel& channel) {
-  visit_message_type(channel.source, [&](auto tag) {
+std::function<void()> ObserverNodelet::subscription(const EventChannel& channel) {
+  std::string fault;
+  if (!ros::names::validate(channel.source.topic, fault)) {
+    throw ConfigError(channel.source.origin, channel.source.path + "/topic", "a name of a topic",
+                      "'" + channel.source.topic + "' (" + fault + ")");
+  }
+  return visit_message_type(channel.source, [&](auto tag) -> std::function<void()> {
     using M = typename decltype(tag)::type;
     auto reader = std::make_shared<ValueReader<M>>(channel.source);
-    const boost::function<void(const boost::shared_ptr<const M>&)> callback =
-        [this, reader, channel](const boost::shared_ptr<const M>& message) {
-          Event event;
-          event.kind = channel.kind;
-          event.channel = channel.channel;
-          reader->read(*message, event);
-          receive(channel, event);
-        };
-    subscribers_.push_back(getNodeHandle().subscribe<M>(channel.source.topic, kQueueLength,
-                                                        callback, ros::VoidConstPtr(),
-                                                        ros::TransportHints().tcpNoDelay()));
+    return [this, reader, channel] {
+      const boost::function<void(const boost::shared_ptr<const M>&)> callback =
+          [this, reader, channel](const boost::shared_ptr<const M>& message) {
+            Event event;
+            event.kind = channel.kind;
+            event.channel = channel.channel;
+            reader->read(*message, event);
+            receive(channel, event);
+          };
+      subscribers_.push_back(getNodeHandle().subscribe<M>(channel.source.topic, kQueueLength,
+                                                          callback, ros::VoidConstPtr(),
+                                                          ros::TransportHints().tcpNoDelay()));
+      NODELET_INFO("%s from %s (%s)", channel.name.c_str(), subscribers_.back().getTopic().c_str(),
+                   channel.source.type.c_str());
+    };
   });
-  NODELET_INFO("%s from %s (%s)", channel.name.c_str(), subscribers_.back().getTopic().c_str(),
-               channel.source.type.c_str());
 }
 
 void ObserverNodelet::receive(const EventChannel& channel, const Event& event) {

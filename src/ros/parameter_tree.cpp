@@ -20,9 +20,9 @@ std::string exact_text(double value) {
   return out.str();
 }
 
-ConfigNode convert(XmlRpc::XmlRpcValue& value, const std::string& name) {
+ConfigNode convert(XmlRpc::XmlRpcValue& value, const std::string& origin, const std::string& path) {
   ConfigNode node;
-  node.origin = "parameter " + name;
+  node.origin = origin;
   node.kind = ConfigNode::Kind::kScalar;
   switch (value.getType()) {
     case XmlRpc::XmlRpcValue::TypeBoolean:
@@ -40,17 +40,18 @@ ConfigNode convert(XmlRpc::XmlRpcValue& value, const std::string& name) {
     case XmlRpc::XmlRpcValue::TypeArray:
       node.kind = ConfigNode::Kind::kSequence;
       for (int i = 0; i < value.size(); ++i) {
-        node.items.push_back(convert(value[i], name + "[" + std::to_string(i) + "]"));
+        node.items.push_back(convert(value[i], origin, path + "[" + std::to_string(i) + "]"));
       }
       return node;
     case XmlRpc::XmlRpcValue::TypeStruct:
       node.kind = ConfigNode::Kind::kMap;
       for (auto& member : value) {
-        node.entries.emplace_back(member.first, convert(member.second, name + "/" + member.first));
+        const std::string member_path = path.empty() ? member.first : path + "/" + member.first;
+        node.entries.emplace_back(member.first, convert(member.second, origin, member_path));
       }
       return node;
     default:
-      throw ConfigError(node.origin, "", "a number, text, list or map", "binary data or a time");
+      throw ConfigError(node.origin, path, "a number, text, list or map", "binary data or a time");
   }
 }
 
@@ -58,14 +59,15 @@ ConfigNode convert(XmlRpc::XmlRpcValue& value, const std::string& name) {
 
 ConfigNode to_config_node(const XmlRpc::XmlRpcValue& value, const std::string& name) {
   XmlRpc::XmlRpcValue copy = value;  // its accessors are not const
-  return convert(copy, name);
+  return convert(copy, "parameters of " + name, "");
 }
 
 ConfigNode read_parameter_tree(const ros::NodeHandle& private_handle) {
   const std::string name = private_handle.getNamespace();
   XmlRpc::XmlRpcValue value;
   if (!private_handle.getParam("", value) || value.getType() != XmlRpc::XmlRpcValue::TypeStruct) {
-    throw ConfigError("parameter " + name, "", "a configuration in the node's private parameters",
+    throw ConfigError("parameters of " + name, "",
+                      "a configuration in the node's private parameters",
                       "none (load one with launch/observer.launch, or with rosparam)");
   }
   ConfigNode direct = to_config_node(value, name);
@@ -77,7 +79,9 @@ ConfigNode read_parameter_tree(const ros::NodeHandle& private_handle) {
       throw ConfigError(config->second.origin, "", "one map per configuration file",
                         config->second.describe());
     }
-    for (const auto& file : config->second.entries) files.push_back(file.second);
+    for (const auto& file : config->second.entries) {
+      files.push_back(to_config_node(value["config"][file.first], name + "/config/" + file.first));
+    }
     direct.entries.erase(config);
   }
   return override_with(merge(files), direct);

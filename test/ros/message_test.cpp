@@ -96,9 +96,9 @@ TEST(ParameterTreeTest, IsTheSameTreeAsTheFile) {
   EXPECT_EQ(0.1 + 0.2, section.number("tiny"));
   EXPECT_EQ("true", node.find("flag")->scalar);
   EXPECT_EQ(1.0 / 3.0, section.vector("list", 2)(0));
-  EXPECT_EQ("parameter /observer/list[1]", node.find("list")->items[1].origin);
+  EXPECT_EQ("parameters of /observer", node.find("list")->items[1].origin);
   const std::string message = fault([&] { section.number("list"); });
-  EXPECT_NE(std::string::npos, message.find("parameter /observer/list: list")) << message;
+  EXPECT_NE(std::string::npos, message.find("parameters of /observer: list: expected")) << message;
 }
 
 TEST(ParameterTreeTest, BinaryDataIsRefused) {
@@ -106,7 +106,7 @@ TEST(ParameterTreeTest, BinaryDataIsRefused) {
   XmlRpc::XmlRpcValue value;
   value["blob"] = XmlRpc::XmlRpcValue(data, 4);
   EXPECT_NE(std::string::npos,
-            fault([&] { to_config_node(value, "/o"); }).find("parameter /o/blob"));
+            fault([&] { to_config_node(value, "/o"); }).find("parameters of /o: blob"));
 }
 
 class ObserverRuntimeTest : public ::testing::Test {

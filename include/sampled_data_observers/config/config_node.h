@@ -13,7 +13,7 @@ class ConfigError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 
-  /// @param origin    file and line, or "parameter"
+  /// @param origin    file and line, or "parameters of" a node
   /// @param path      keys joined by '/'
   /// @param expected  completes "expected ..."
   /// @param found     completes "found ..."
@@ -29,7 +29,7 @@ struct ConfigNode {
   enum class Kind { kEmpty, kScalar, kSequence, kMap };
 
   Kind kind = Kind::kEmpty;
-  /// Where it stands: "file.yaml:12" or "parameter /observer/gains/L".
+  /// Where it stands: "file.yaml:12" or "parameters of /observer".
   std::string origin;
   std::string scalar;
   std::vector<ConfigNode> items;

@@ -5,6 +5,7 @@
 #include <sampled_data_observers/GetEstimate.h>
 #include <sampled_data_observers/Reset.h>
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -29,7 +30,9 @@ class ObserverNodelet : public nodelet::Nodelet {
   void onInit() override;
 
   void start(const ObserverConfig& config);
-  void subscribe(const EventChannel& channel);
+  /// What subscribes to a channel. Making it finds all faults of the channel's source.
+  std::function<void()> subscription(const EventChannel& channel);
+  void stop();
   void receive(const EventChannel& channel, const Event& event);
   void publish_due(const ros::TimerEvent&);
   void watch_clock(Stamp now);

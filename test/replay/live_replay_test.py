@@ -1,0 +1,181 @@
+#!/usr/bin/env python3
+"""Bags replayed and played live: the estimates must be the same, bit for bit, and good."""
+import json
+import os
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
+import recordings  # noqa: E402
+
+PACKAGE = "sampled_data_observers"
+ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", ".."))
+MASS_SPRING = [os.path.join(ROOT, "config", name)
+               for name in ("mass_spring_plant.yaml", "mass_spring_gains.yaml")]
+CRAZYFLIE = os.path.join(ROOT, "config", "crazyflie_position.yaml")
+
+
+def free_port():
+    with socket.socket() as probe:
+        probe.bind(("", 0))
+        return probe.getsockname()[1]
+
+
+def find_tool(name):
+    found = subprocess.check_output(["catkin_find", "--first-only", "--libexec", PACKAGE, name])
+    return found.decode().strip()
+
+
+def run_tool(name, *arguments):
+    result = subprocess.run([find_tool(name), *arguments], stdout=subprocess.PIPE,
+                            stderr=subprocess.STDOUT, universal_newlines=True, check=False)
+    print(result.stdout)
+    if result.returncode != 0:
+        raise AssertionError("%s failed: %s" % (name, result.stdout))
+    return result.stdout
+
+
+class RosProcess:
+    """A process with a roscore of its own, ended as a person would: by Ctrl-C."""
+
+    def __init__(self, command, port):
+        environment = dict(os.environ, ROS_MASTER_URI="http://localhost:%d" % port)
+        self.process = subprocess.Popen(command, env=environment)
+
+    def __enter__(self):
+        return self.process
+
+    def __exit__(self, *_):
+        if self.process.poll() is None:
+            self.process.send_signal(signal.SIGINT)
+        try:
+            self.process.wait(30)
+        except subprocess.TimeoutExpired:
+            self.process.kill()
+            raise
+
+
+class ReplayTestCase(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+
+    def path(self, name):
+        return os.path.join(self.folder.name, name)
+
+    def replay(self, bag, configs, output, *arguments):
+        run_tool("replay", bag, *configs, "-o", self.path(output), "--json",
+                 self.path("summary.json"), *arguments)
+        with open(self.path("summary.json")) as summary:
+            return json.load(summary)
+
+
+class ExampleTest(ReplayTestCase):
+    """An example recording that the package makes itself."""
+
+    def test_example_live_as_replayed(self):
+        run_tool("record_example", *MASS_SPRING, "-o", self.path("example.bag"))
+        summary = self.replay(self.path("example.bag"), MASS_SPRING, "replayed.bag",
+                              "--truth", "truth", "--from", "35", "--plot", self.path("plot.png"))
+        self.assertLess(summary["rmse_norm"], 0.05)
+        self.assertGreater(summary["samples_late"], 0)
+        self.assertGreater(summary["rejected"]["duplicate of an event taken in before"], 0)
+        with open(self.path("plot.png"), "rb") as plot:
+            self.assertEqual(b"\x89PNG", plot.read(4))
+        port = free_port()
+        command = ["roslaunch", "--port", str(port), os.path.join(ROOT, "launch", "demo.launch"),
+                   "bag:=" + self.path("example.bag"), "topics:=/position /input", "speed:=4",
+                   "output:=" + self.path("live.bag"), "config:=" + " ".join(MASS_SPRING)]
+        with RosProcess(command, port) as process:
+            process.wait(90)
+        run_tool("compare_estimates", self.path("live.bag"), self.path("replayed.bag"),
+                 "--at-least", "95")
+
+    def test_replay_refuses_bad_input_with_a_message(self):
+        run_tool("record_example", *MASS_SPRING, "-o", self.path("example.bag"), "--duration", "3")
+        with open(self.path("text.bag"), "w") as text:
+            text.write("no bag")
+        for arguments, message in (
+                ([self.path("nothing.bag"), *MASS_SPRING], "nothing.bag"),
+                ([self.path("text.bag"), *MASS_SPRING], "text.bag"),
+                ([self.path("example.bag"), MASS_SPRING[0]], "gains: expected"),
+                ([self.path("example.bag"), *MASS_SPRING, MASS_SPRING[1]], "in one place only"),
+                ([self.path("example.bag"), CRAZYFLIE], "no topic /vrpn_client_node/Drone1/pose"),
+                ([self.path("example.bag"), *MASS_SPRING, "--truth", "x"], "no topic /x"),
+                ([self.path("example.bag"), *MASS_SPRING, "--truth", "truth", "--compare",
+                  "z9=z1"], "'z9'"),
+                ([self.path("example.bag"), *MASS_SPRING, "--thin", "2", "1"], "T1 <= T2"),
+                ([self.path("example.bag"), *MASS_SPRING, "position:=elsewhere"], "/elsewhere"),
+                ([self.path("example.bag"), *MASS_SPRING, "-o", "/nonexistent/o.bag"],
+                 "/nonexistent/o.bag")):
+            result = subprocess.run([find_tool("replay"), *arguments], stdout=subprocess.PIPE,
+                                    stderr=subprocess.STDOUT, universal_newlines=True, check=False)
+            self.assertNotEqual(0, result.returncode, arguments)
+            self.assertIn(message, result.stdout)
+
+
+class CrazyflieTest(ReplayTestCase):
+    """The same with a real quadrotor's motion capture."""
+
+    def setUp(self):
+        super().setUp()
+        self.bag = recordings.find("crazyflie_crash.bag")
+        if self.bag is None:
+            print("SKIPPED: crazyflie_crash.bag is not there")
+            self.skipTest("crazyflie_crash.bag is not there")
+
+    def test_thinned_replay_beats_holding_the_last_sample_twice(self):
+        summary = self.replay(self.bag, [CRAZYFLIE], "thinned.bag", "--thin", "0.05", "0.2",
+                              "--seed", "1", "--from", "3", "--to", "23")
+        self.assertEqual({"x", "y", "z"}, set(summary["rmse"]))
+        self.assertGreater(summary["compared_stamps"], 2300)
+        self.assertGreater(summary["samples_used"], 150)
+        self.assertEqual(0, summary["samples_rejected"])
+        self.assertLess(summary["rmse_norm"], 0.5 * summary["hold_rmse_norm"])
+
+    def test_live_is_as_replayed_and_so_is_the_past_asked_for_afterwards(self):
+        import rosbag
+        import rospy
+        from sampled_data_observers.srv import GetEstimate
+
+        self.replay(self.bag, [CRAZYFLIE], "replayed.bag")
+        port = free_port()
+        launch = self.path("observer.launch")
+        with open(launch, "w") as text:
+            text.write("""<launch>
+              <param name="use_sim_time" value="true"/>
+              <node name="manager" pkg="nodelet" type="nodelet" args="manager"/>
+              <include file="$(find sampled_data_observers)/launch/observer.launch">
+                <arg name="config" value="%s"/>
+                <arg name="manager" value="manager"/>
+              </include>
+              <node name="recorder" pkg="rosbag" type="record" args="-O %s /estimate"/>
+            </launch>""" % (CRAZYFLIE, self.path("live.bag")))
+        os.environ["ROS_MASTER_URI"] = "http://localhost:%d" % port
+        with RosProcess(["roslaunch", "--port", str(port), launch], port):
+            play = ["rosbag", "play", "--quiet", "--clock", "--hz=1000", "--wait-for-subscribers",
+                    "--delay=2", self.bag, "--topics", "/vrpn_client_node/Drone1/pose"]
+            time.sleep(3)
+            subprocess.run(play, check=True, timeout=120)
+            rospy.wait_for_service("/get_estimate", 10)
+            get_estimate = rospy.ServiceProxy("/get_estimate", GetEstimate, persistent=True)
+            with rosbag.Bag(self.path("replayed.bag")) as replayed:
+                expected = [message for _, message, _ in replayed.read_messages("/estimate")]
+            self.assertGreater(len(expected), 2500)
+            for estimate in expected[::10]:
+                found = get_estimate(estimate.header.stamp)
+                self.assertTrue(found.success, found.message)
+                self.assertEqual(estimate.events, found.estimate.events)
+                self.assertEqual(estimate.state, found.estimate.state)
+        run_tool("compare_estimates", self.path("live.bag"), self.path("replayed.bag"),
+                 "--at-least", "95")
+
+
+if __name__ == "__main__":
+    import rostest
+    rostest.rosrun(PACKAGE, "live_replay_test", "live_replay_test", sys.argv)

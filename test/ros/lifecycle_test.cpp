@@ -1,0 +1,119 @@
+// The nodelet in this process: configurations that must not start, messages by pointer, loading and
+// unloading, publishers that die.
+#include <gtest/gtest.h>
+#include <nodelet/loader.h>
+#include <ros/ros.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <thread>
+
+#include "ros/observer_client.h"
+
+namespace sampled_data_observers {
+namespace {
+
+const char kType[] = "sampled_data_observers/ConstantGainObserver";
+
+std::size_t resident_kilobytes() {
+  std::ifstream statm("/proc/self/statm");
+  std::size_t total = 0;
+  std::size_t resident = 0;
+  statm >> total >> resident;
+  return resident * static_cast<std::size_t>(sysconf(_SC_PAGESIZE)) / 1024;
+}
+
+/// Loads the nodelet as `name`, whose parameters the launch file has set.
+bool load(nodelet::Loader& loader, const std::string& name) {
+  try {
+    return loader.load(name, kType, ros::M_string(), {});
+  } catch (const std::exception&) {
+    return false;
+  }
+}
+
+class LifecycleTest : public ::testing::Test {
+ protected:
+  void SetUp() override { spinner_.start(); }
+
+  ros::AsyncSpinner spinner_{1};
+  nodelet::Loader loader_{false};
+};
+
+TEST_F(LifecycleTest, ABadConfigurationDoesNotStart) {
+  EXPECT_FALSE(load(loader_, "/without_configuration"));
+  EXPECT_FALSE(load(loader_, "/unknown_key"));
+  EXPECT_FALSE(load(loader_, "/key_in_two_files"));
+  EXPECT_FALSE(load(loader_, "/wrong_field"));
+  EXPECT_FALSE(load(loader_, "/bad_topic"));
+  EXPECT_TRUE(load(loader_, "/observer"));
+  EXPECT_TRUE(load(loader_, "/plain_parameters"));
+}
+
+TEST_F(LifecycleTest, MessagesPassByPointerInOneProcess) {
+  ASSERT_TRUE(load(loader_, "/observer"));
+  ros::NodeHandle handle;
+  // The sequence number is nothing that the observer writes. A message marked here that comes again
+  // with its mark is the same object: a serialised one would carry the number of its publication.
+  constexpr std::uint32_t kMark = 4242424242u;
+  std::atomic<int> marked_again{0};
+  const ros::Subscriber subscriber =
+      handle.subscribe<StateEstimate>("estimate", 100, [&](const StateEstimate::ConstPtr& message) {
+        if (message->header.seq == kMark) ++marked_again;
+        const_cast<StateEstimate&>(*message).header.seq = kMark;
+      });
+  ros::Publisher publisher = handle.advertise<Measurement>("position", 10);
+  ASSERT_TRUE(test::spin_until([&] { return publisher.getNumSubscribers() > 0; }));
+  publisher.publish(
+      boost::make_shared<Measurement>(test::ObserverClient::measurement(ros::Time::now(), {1.0})));
+  EXPECT_TRUE(test::spin_until([&] { return marked_again > 10; }));
+}
+
+TEST_F(LifecycleTest, UnloadingAndReloadingLeaksNothing) {
+  test::ObserverClient client;
+  const auto cycle = [&] {
+    ASSERT_TRUE(load(loader_, "/observer"));
+    ASSERT_TRUE(client.connect());
+    client.sample(ros::Time::now(), {1.0});
+    ASSERT_TRUE(loader_.unload("/observer"));
+  };
+  for (int i = 0; i < 10; ++i) cycle();
+  const std::size_t before = resident_kilobytes();
+  for (int i = 0; i < 30; ++i) cycle();
+  // The tables and the history of one observer alone take 0.1 MB; 30 leaked would show.
+  EXPECT_LT(resident_kilobytes(), before + 2000);
+}
+
+TEST_F(LifecycleTest, PublishersMayDieAndReturn) {
+  ASSERT_TRUE(load(loader_, "/observer"));
+  test::ObserverClient client;
+  ASSERT_TRUE(client.connect());
+  for (int i = 0; i < 3; ++i) {
+    const std::size_t before = client.statuses.size();
+    std::thread publisher([] {
+      // Killed in the middle of its work: no good-bye to the master.
+      const int status = std::system(
+          "timeout --signal=KILL 4 rostopic pub --rate 20 --substitute-keywords /position "
+          "sampled_data_observers/Measurement '{header: auto, values: [1.0]}' >/dev/null 2>&1");
+      EXPECT_NE(0, status);
+    });
+    const bool came = test::spin_until([&] { return client.statuses.size() > before + 5; });
+    publisher.join();
+    EXPECT_TRUE(came);
+    const std::size_t estimates = client.estimates.size();
+    EXPECT_TRUE(test::spin_until([&] { return client.estimates.size() > estimates + 10; }));
+  }
+  EXPECT_EQ(EventStatus::USED, client.sample(ros::Time::now(), {1.0}).outcome);
+}
+
+}  // namespace
+}  // namespace sampled_data_observers
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "lifecycle_test");
+  const ros::NodeHandle alive;  // roscpp shuts down with the last handle
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
