@@ -6,7 +6,9 @@
 
 #include "sampled_data_observers/replay/estimate_comparison.h"
 
-int main(int argc, char** argv) {
+namespace {
+
+int run(int argc, char** argv) {
   CLI::App app{
       "Compares the estimates of two bags, say of a live run and of its replay. Where both rest on "
       "the same number of events they must be identical, bit for bit."};
@@ -21,21 +23,26 @@ int main(int argc, char** argv) {
                  "Percentage of all stamps that must be in both, on the same events (default 0)");
   app.footer("Exit status: 0 they agree, 1 they do not or can't be read, else wrong usage.");
   CLI11_PARSE(app, argc, argv);
+  const sampled_data_observers::EstimateComparison result =
+      sampled_data_observers::compare_estimates(first, second, topic);
+  const double share = 100.0 * static_cast<double>(result.identical) /
+                       static_cast<double>(std::max(result.first, result.second));
+  std::printf("%zu and %zu estimates, %zu stamps in both\n", result.first, result.second,
+              result.common);
+  std::printf("identical bit for bit on %zu of %zu that rest on the same events: %.1f %% of all\n",
+              result.identical, result.same_events, share);
+  if (result.repeated_stamps) std::printf("a bag has estimates with repeated stamps\n");
+  const bool agree = result.identical == result.same_events && result.same_events > 0 &&
+                     share >= at_least && !result.repeated_stamps;
+  if (!agree) std::printf("they do not agree\n");
+  return agree ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
   try {
-    const sampled_data_observers::EstimateComparison result =
-        sampled_data_observers::compare_estimates(first, second, topic);
-    const double share = 100.0 * static_cast<double>(result.identical) /
-                         static_cast<double>(std::max(result.first, result.second));
-    std::printf("%zu and %zu estimates, %zu stamps in both\n", result.first, result.second,
-                result.common);
-    std::printf(
-        "identical bit for bit on %zu of %zu that rest on the same events: %.1f %% of all\n",
-        result.identical, result.same_events, share);
-    if (result.repeated_stamps) std::printf("a bag has estimates with repeated stamps\n");
-    const bool agree = result.identical == result.same_events && result.same_events > 0 &&
-                       share >= at_least && !result.repeated_stamps;
-    if (!agree) std::printf("they do not agree\n");
-    return agree ? 0 : 1;
+    return run(argc, argv);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "compare_estimates: %s\n", error.what());
     return 1;

@@ -9,7 +9,9 @@
 
 namespace sdo = sampled_data_observers;
 
-int main(int argc, char** argv) {
+namespace {
+
+int run(int argc, char** argv) {
   ros::init(argc, argv, "record_example",
             ros::init_options::AnonymousName | ros::init_options::NoRosout);
   CLI::App app{
@@ -31,11 +33,17 @@ int main(int argc, char** argv) {
   app.add_option("--noise", options.noise, "Half width of the noise on each output (default 0)")
       ->check(CLI::Range(0.0, 1e9));
   CLI11_PARSE(app, argc, argv);
+  sdo::record_example(sdo::read_observer_config(config_files), options, output);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
   try {
-    sdo::record_example(sdo::read_observer_config(config_files), options, output);
+    return run(argc, argv);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "record_example: %s\n", error.what());
     return 1;
   }
-  return 0;
 }

@@ -4,6 +4,7 @@
 #include <ros/init.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <exception>
 #include <iostream>
 
@@ -25,16 +26,13 @@ std::map<std::string, std::string> parse_fields(const std::vector<std::string>& 
   return fields;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   // Takes topic remappings (from:=to, __ns:=...) off the command line, as for every ROS node.
   ros::init(argc, argv, "replay", ros::init_options::AnonymousName | ros::init_options::NoRosout);
 
   CLI::App app{
       "Runs an observer over a bag, as fast as the machine allows and without roscore, and "
-      "compares "
-      "its estimates with the truth. Remappings (from:=to) hold as for a node."};
+      "compares its estimates with the truth. Remappings (from:=to) hold as for a node."};
   sdo::ReplayOptions options;
   std::vector<std::string> config_files;
   std::vector<std::string> assignments;
@@ -86,15 +84,21 @@ int main(int argc, char** argv) {
     return app.exit(error);
   }
 
+  const sdo::ObserverConfig config = sdo::read_observer_config(config_files);
+  const sdo::ReplaySummary summary = sdo::replay(config, options);
+  sdo::print_table(summary, std::cout);
+  if (!json_path.empty()) sdo::write_json(summary, json_path);
+  if (!plot_path.empty()) sdo::draw_plot(summary, plot_path);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
   try {
-    const sdo::ObserverConfig config = sdo::read_observer_config(config_files);
-    const sdo::ReplaySummary summary = sdo::replay(config, options);
-    sdo::print_table(summary, std::cout);
-    if (!json_path.empty()) sdo::write_json(summary, json_path);
-    if (!plot_path.empty()) sdo::draw_plot(summary, plot_path);
+    return run(argc, argv);
   } catch (const std::exception& error) {
-    std::cerr << "replay: " << error.what() << "\n";
+    std::fprintf(stderr, "replay: %s\n", error.what());
     return 1;
   }
-  return 0;
 }

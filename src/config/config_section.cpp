@@ -1,8 +1,8 @@
 #include "sampled_data_observers/config/config_section.h"
 
 #include <cmath>
+#include <cstring>
 #include <locale>
-#include <regex>
 #include <sstream>
 #include <utility>
 
@@ -22,14 +22,36 @@ std::string shown(double value) {
   return out.str();
 }
 
-/// Nothing where the node is not a finite decimal number. Leading zeros are refused: ROS' parameter
-/// loader reads 010 as eight, other readers as ten.
-std::optional<double> as_number(const ConfigNode& node) {
-  static const std::regex kNumber(R"([-+]?((0|[1-9]\d*)(\.\d*)?|\.\d+)([eE][-+]?\d+)?)");
-  if (node.kind != ConfigNode::Kind::kScalar || node.scalar.size() > 64 ||
-      !std::regex_match(node.scalar, kNumber)) {
-    return std::nullopt;
+/// Whether the text is a decimal number, such as -1, 2.5, .5 or 1e-3. Leading zeros are refused:
+/// ROS' parameter loader reads 010 as eight, other readers as ten.
+bool is_decimal(const std::string& text) {
+  std::size_t at = 0;
+  const auto skip_one_of = [&](const char* characters) {
+    const bool found = at < text.size() && std::strchr(characters, text[at]) != nullptr;
+    if (found) ++at;
+    return found;
+  };
+  const auto skip_digits = [&] {
+    const std::size_t start = at;
+    while (at < text.size() && text[at] >= '0' && text[at] <= '9') ++at;
+    return at - start;
+  };
+  skip_one_of("+-");
+  const std::size_t start = at;
+  const std::size_t whole = skip_digits();
+  if (whole > 1 && text[start] == '0') return false;
+  const std::size_t fraction = skip_one_of(".") ? skip_digits() : 0;
+  if (whole + fraction == 0) return false;
+  if (skip_one_of("eE")) {
+    skip_one_of("+-");
+    if (skip_digits() == 0) return false;
   }
+  return at == text.size();
+}
+
+/// Nothing where the node is not a finite decimal number.
+std::optional<double> as_number(const ConfigNode& node) {
+  if (node.kind != ConfigNode::Kind::kScalar || !is_decimal(node.scalar)) return std::nullopt;
   std::istringstream in(node.scalar[0] == '+' ? node.scalar.substr(1) : node.scalar);
   in.imbue(std::locale::classic());
   double value = 0.0;
@@ -120,7 +142,7 @@ std::string ConfigSection::text(const std::string& key, const std::string& fallb
 std::string ConfigSection::choice(const std::string& key, const std::vector<std::string>& choices,
                                   std::optional<std::string> fallback) {
   if (fallback && !has(key)) return *fallback;
-  const std::string value = text(key);
+  std::string value = text(key);
   for (const std::string& choice : choices) {
     if (value == choice) return value;
   }

@@ -9,7 +9,7 @@ namespace {
 
 /// Names that are not empty and differ.
 std::vector<std::string> read_names(ConfigSection& section, const std::string& key) {
-  const std::vector<std::string> names = section.texts(key);
+  std::vector<std::string> names = section.texts(key);
   if (names.empty()) throw section.error(key, "at least one name", "an empty list");
   std::set<std::string> seen;
   for (const std::string& name : names) {

@@ -34,7 +34,9 @@ nlohmann::json to_json(const Series& series) {
 
 void draw_plot(const ReplaySummary& summary, const std::string& path) {
   nlohmann::json json;
-  json["title"] = summary.observer;
+  json["title"] = summary.observer + " on " + summary.bag.substr(summary.bag.rfind('/') + 1) +
+                  ": " + std::to_string(summary.samples_used) + " samples used";
+  json["sample_times"] = summary.sample_times;
   for (const QuantityPlot& plot : summary.plots) {
     json["quantities"].push_back({{"name", plot.name},
                                   {"truth", to_json(plot.truth)},

@@ -188,6 +188,7 @@ class Replay {
   }
 
   void plot_sample(std::size_t sensor, const Event& event) {
+    summary_.sample_times.push_back(plot_time(event.stamp));
     const Eigen::MatrixXd& C = config_.plant->sensors()[sensor].C;
     for (std::size_t i = 0; i < summary_.plots.size(); ++i) {
       for (Eigen::Index output = 0; output < C.rows(); ++output) {
@@ -198,9 +199,13 @@ class Replay {
     }
   }
 
-  void plot(Series& series, Stamp stamp, double value) {
+  double plot_time(Stamp stamp) {
     if (!plot_origin_) plot_origin_ = stamp;
-    series.times.push_back(to_seconds(stamp - *plot_origin_));
+    return to_seconds(stamp - *plot_origin_);
+  }
+
+  void plot(Series& series, Stamp stamp, double value) {
+    series.times.push_back(plot_time(stamp));
     series.values.push_back(value);
   }
 

@@ -63,7 +63,7 @@ ConfigNode to_config_node(const XmlRpc::XmlRpcValue& value, const std::string& n
 }
 
 ConfigNode read_parameter_tree(const ros::NodeHandle& private_handle) {
-  const std::string name = private_handle.getNamespace();
+  const std::string& name = private_handle.getNamespace();
   XmlRpc::XmlRpcValue value;
   if (!private_handle.getParam("", value) || value.getType() != XmlRpc::XmlRpcValue::TypeStruct) {
     throw ConfigError("parameters of " + name, "",

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "sampled_data_observers/config/config_section.h"
 #include "sampled_data_observers/config/yaml_file.h"
 #include "sampled_data_observers/observer/constant_gain_observer.h"
 
@@ -156,6 +157,24 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"future_tolerance: 0.25", "future_tolerance: .inf", {"future_tolerance", "'.inf'"}},
         Fault{"rate: 50", "rate: 50\nrate: 60", {"test.yaml:21", "rate", "each key once"}},
         Fault{"rate: 50", "rate: [50", {"test.yaml:", "valid YAML"}}));
+
+TEST(ConfigNumberTest, AreDecimalAndNothingElse) {
+  const auto value = [](const std::string& text) {
+    const ConfigNode node = read_yaml_text("number: " + text, "x");
+    return ConfigSection(node, "").number("number");
+  };
+  EXPECT_EQ(-1.0, value("-1"));
+  EXPECT_EQ(0.5, value("+.5"));
+  EXPECT_EQ(2.0, value("2."));
+  EXPECT_EQ(1e-3, value("1e-3"));
+  EXPECT_EQ(0.25, value("0.25"));
+  EXPECT_EQ(0.1 + 0.2, value("0.30000000000000004"));
+  EXPECT_EQ(0.0, value("1e-999"));
+  for (const char* text : {"1e", "e1", ".", "-", "1 2", "0x10", "1_000", "007", "-01", "nan",
+                           ".inf", "1e999", "true", "~", "1.0.0", "1,5"}) {
+    EXPECT_THROW(value(text), ConfigError) << text;
+  }
+}
 
 TEST(ConfigFilesTest, AreMergedKeyByKey) {
   const ConfigNode plant = read_yaml_text("plant: {states: [x]}\ngains: {H: 1}", "plant.yaml");

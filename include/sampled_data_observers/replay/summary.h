@@ -61,6 +61,8 @@ struct ReplaySummary {
   double wall_seconds = 0.0;
 
   std::vector<QuantityPlot> plots;
+  /// Of the samples used, as in the plots.
+  std::vector<double> sample_times;
 };
 
 /// The summary as a table for people.
