@@ -2,9 +2,9 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
-#include <exception>
 
 #include "sampled_data_observers/replay/estimate_comparison.h"
+#include "sampled_data_observers/replay/tool_main.h"
 
 namespace {
 
@@ -41,10 +41,5 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return run(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "compare_estimates: %s\n", error.what());
-    return 1;
-  }
+  return sampled_data_observers::tool_main("compare_estimates", run, argc, argv);
 }

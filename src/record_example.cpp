@@ -2,10 +2,9 @@
 #include <ros/init.h>
 
 #include <CLI/CLI.hpp>
-#include <cstdio>
-#include <exception>
 
 #include "sampled_data_observers/replay/example_recording.h"
+#include "sampled_data_observers/replay/tool_main.h"
 
 namespace sdo = sampled_data_observers;
 
@@ -17,8 +16,7 @@ int run(int argc, char** argv) {
   CLI::App app{
       "Simulates the plant of a configuration and records a bag of what its sensors send: samples "
       "at "
-      "random times in [T1, T2], delayed, some out of order and some twice; the input sin t; and "
-      "the "
+      "random times in [T1, T2], delayed, some out of order and some twice; the input sin t; the "
       "true state."};
   std::vector<std::string> config_files;
   std::string output;
@@ -40,10 +38,5 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return run(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "record_example: %s\n", error.what());
-    return 1;
-  }
+  return sampled_data_observers::tool_main("record_example", run, argc, argv);
 }

@@ -4,11 +4,10 @@
 #include <ros/init.h>
 
 #include <CLI/CLI.hpp>
-#include <cstdio>
-#include <exception>
 #include <iostream>
 
 #include "sampled_data_observers/replay/plot.h"
+#include "sampled_data_observers/replay/tool_main.h"
 
 namespace sdo = sampled_data_observers;
 
@@ -95,10 +94,5 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return run(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "replay: %s\n", error.what());
-    return 1;
-  }
+  return sampled_data_observers::tool_main("replay", run, argc, argv);
 }
