@@ -103,6 +103,25 @@ TEST(LinearFlowTest, AgreesWithEigenOnRandomMatrices) {
   }
 }
 
+TEST(LinearFlowTest, AgreesWithEigenOnEveryKindOfPlant) {
+  Eigen::MatrixXd stiff(3, 3);
+  stiff << -1e4, 1e4, 0.0, 3.0, -2.0, 1.0, 0.0, 0.5, -0.1;
+  Eigen::MatrixXd nilpotent = Eigen::MatrixXd::Zero(3, 3);
+  nilpotent(0, 1) = nilpotent(1, 2) = 5.0;
+  Eigen::MatrixXd oscillating(3, 3);
+  oscillating << 0.0, 3.0, -1.0, -3.0, 0.0, 2.0, 1.0, -2.0, 0.0;
+  Eigen::MatrixXd unstable(3, 3);
+  unstable << 2.0, 1.0, 0.0, 0.0, 1.0, -1.0, 0.5, 0.0, 3.0;
+  for (const Eigen::MatrixXd& A : {stiff, nilpotent, oscillating, unstable}) {
+    for (const Duration duration : {1000000, 77777777, 900000001}) {
+      const Eigen::MatrixXd scaled = A * to_seconds(duration);
+      // What Eigen itself may lose by scaling and squaring grows with the norm.
+      const double tolerance = 1e-14 * (10.0 + scaled.norm());
+      EXPECT_LT(relative_error(transition(A, duration), scaled.exp()), tolerance) << A;
+    }
+  }
+}
+
 TEST(LinearFlowTest, AConstantInputGivesTheConvolution) {
   // A cart with drag: v' = -k v + u, p' = v.
   const double k = 0.7;
