@@ -4,6 +4,7 @@
 #include <ros/init.h>
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <iostream>
 
 #include "sampled_data_observers/replay/plot.h"
@@ -23,6 +24,11 @@ std::map<std::string, std::string> parse_fields(const std::vector<std::string>& 
     fields[assignment.substr(0, equals)] = assignment.substr(equals + 1);
   }
   return fields;
+}
+
+bool is_same_file(const std::string& a, const std::string& b) {
+  std::error_code none;  // a file that does not exist is no other file
+  return std::filesystem::equivalent(a, b, none);
 }
 
 int run(int argc, char** argv) {
@@ -76,8 +82,10 @@ int run(int argc, char** argv) {
     if (!assignments.empty() && options.truth_topic.empty()) {
       throw CLI::ValidationError("--compare", "needs --truth");
     }
-    if (options.output == options.bag) {
-      throw CLI::ValidationError("--output", "must not be the bag that is read");
+    for (const std::string& written : {options.output, json_path, plot_path}) {
+      if (is_same_file(written, options.bag)) {
+        throw CLI::ValidationError(written, "is the bag that is read: it would be lost");
+      }
     }
   } catch (const CLI::ParseError& error) {
     return app.exit(error);

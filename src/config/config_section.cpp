@@ -105,10 +105,6 @@ double ConfigSection::number(const std::string& key) {
   return *value;
 }
 
-double ConfigSection::number(const std::string& key, double fallback) {
-  return has(key) ? number(key) : fallback;
-}
-
 double ConfigSection::number_in(const std::string& key, double low, double high,
                                 std::optional<double> fallback) {
   if (fallback && !has(key)) return *fallback;
@@ -139,9 +135,7 @@ std::string ConfigSection::text(const std::string& key, const std::string& fallb
   return has(key) ? text(key) : fallback;
 }
 
-std::string ConfigSection::choice(const std::string& key, const std::vector<std::string>& choices,
-                                  std::optional<std::string> fallback) {
-  if (fallback && !has(key)) return *fallback;
+std::string ConfigSection::choice(const std::string& key, const std::vector<std::string>& choices) {
   std::string value = text(key);
   for (const std::string& choice : choices) {
     if (value == choice) return value;

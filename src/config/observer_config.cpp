@@ -11,6 +11,10 @@ namespace {
 constexpr double kShortest = 1e-9;  // s: one tick of the clock
 constexpr double kLongest = 1e6;    // s
 
+const char kMeasurementType[] = "sampled_data_observers/Measurement";
+const char kInputType[] = "sampled_data_observers/Input";
+const char kJumpType[] = "sampled_data_observers/JumpEvent";
+
 SamplingBounds read_sampling(ConfigSection& root) {
   ConfigSection section = root.section("sampling");
   const double T1 = section.number_in("T1", kShortest, kLongest, std::nullopt);
@@ -32,10 +36,13 @@ Timeline::Limits read_history(ConfigSection& root) {
   return limits;
 }
 
-TopicSource read_source(ConfigSection section, std::size_t size, const std::string& default_type) {
+TopicSource read_sensor_source(ConfigSection section, std::size_t size) {
   TopicSource source;
   source.topic = section.text("topic");
-  source.type = section.text("type", default_type);
+  source.type = section.text("type", kMeasurementType);
+  if (source.type == kInputType || source.type == kJumpType) {
+    throw section.error("type", "a type that holds a sample", "'" + source.type + "'");
+  }
   if (section.has("fields")) source.fields = section.texts("fields", size);
   source.size = size;
   source.origin = section.origin();
@@ -54,7 +61,7 @@ TopicSource read_message_source(ConfigSection& root, const std::string& key, std
   source.path = key;
   if (!root.has(key)) return source;
   ConfigSection section = root.section(key);
-  source.topic = section.text("topic");
+  source.topic = section.text("topic", key);
   section.finish();
   return source;
 }
@@ -76,7 +83,7 @@ Eigen::VectorXd read_named_values(ConfigSection& root, const std::string& key,
 ObserverConfig read_observer_config(const ConfigNode& tree) {
   ConfigSection root(tree, "");
   ObserverConfig config;
-  config.type = root.choice("observer", observer_types(), std::nullopt);
+  config.type = root.choice("observer", observer_types());
   config.plant = read_linear_plant(root);
   const LinearPlantDescription& plant = config.plant->description();
 
@@ -84,17 +91,15 @@ ObserverConfig read_observer_config(const ConfigNode& tree) {
   for (const Sensor& sensor : plant.sensors) {
     ConfigSection section = sensors.section(sensor.name);
     for (const char* key : {"C", "angular", "bias"}) section.has(key);
-    config.sensors.push_back(read_source(section.section("source"),
-                                         static_cast<std::size_t>(sensor.C.rows()),
-                                         "sampled_data_observers/Measurement"));
+    config.sensors.push_back(
+        read_sensor_source(section.section("source"), static_cast<std::size_t>(sensor.C.rows())));
     section.finish();
   }
   if (config.plant->inputs() > 0) {
-    config.input = read_message_source(root, "input", plant.input_names.size(),
-                                       "sampled_data_observers/Input");
+    config.input = read_message_source(root, "input", plant.input_names.size(), kInputType);
   }
   if (config.plant->jumps()) {
-    config.jumps = read_message_source(root, "jumps", 0, "sampled_data_observers/JumpEvent");
+    config.jumps = read_message_source(root, "jumps", 0, kJumpType);
   }
 
   LawContext context;
@@ -112,6 +117,15 @@ ObserverConfig read_observer_config(const ConfigNode& tree) {
   config.period = from_seconds(1.0 / root.number_in("rate", 1e-3, 1e5, 100.0));
   config.publish_delay = from_seconds(root.number_in("publish_delay", 0.0, kLongest, 0.0));
   config.frame_id = root.text("frame_id", "");
+  // Otherwise stamps would leave the window before they are due, or an event from the tolerated
+  // future would push all present ones out of it.
+  if (config.publish_delay >= config.options.history.history) {
+    throw root.error("publish_delay", "less than history/duration", "as much or more");
+  }
+  if (config.options.future_tolerance >= config.options.history.history) {
+    throw root.error("future_tolerance", "less than history/duration (it is 0.5 where not given)",
+                     "as much or more");
+  }
   root.finish();
   return config;
 }

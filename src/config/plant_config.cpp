@@ -44,14 +44,14 @@ void read_sensor(ConfigSection section, const std::string& name, LinearPlantDesc
   plant.sensors.push_back(std::move(sensor));
 }
 
-}  // namespace
-
 std::vector<std::string> sorted_sensor_names(const ConfigSection& sensors) {
   // The parameter server knows no order of keys, so the file's order can't count.
   std::vector<std::string> names = sensors.keys();
   std::sort(names.begin(), names.end());
   return names;
 }
+
+}  // namespace
 
 std::shared_ptr<const LinearPlant> read_linear_plant(ConfigSection& root) {
   ConfigSection section = root.section("plant");

@@ -14,13 +14,10 @@ Timeline::Limits checked(Timeline::Limits limits) {
   return limits;
 }
 
-void count(const Event& event, EventCounts& counts) {
-  ++counts.events;
-  if (event.kind == EventKind::kJump) ++counts.jumps;
-  if (event.kind == EventKind::kSample) {
-    ++counts.samples;
-    counts.last_sample = event.stamp;
-  }
+std::size_t sample_channels(const HybridSystem& system) {
+  int channels = 0;
+  while (system.event_size(EventKind::kSample, channels) >= 0) ++channels;
+  return static_cast<std::size_t>(channels);
 }
 
 }  // namespace
@@ -34,6 +31,7 @@ Timeline::Timeline(std::shared_ptr<const HybridSystem> system, Limits limits)
       states_(system_->state_size(), static_cast<Eigen::Index>(slots_.size())),
       order_(slots_.size()),
       base_state_(system_->state_size()),
+      base_samples_(sample_channels(*system_)),
       workspace_(system_->workspace_size()) {
   std::iota(order_.begin(), order_.end(), std::size_t{0});
   for (std::size_t i = 0; i < slots_.size(); ++i) {
@@ -45,7 +43,7 @@ Timeline::Timeline(std::shared_ptr<const HybridSystem> system, Limits limits)
 Timeline::InsertReport Timeline::insert(const Event& event) {
   InsertReport report;
   const std::size_t position = position_after(event);
-  report.previous_sample = last_sample_before(position, event.stamp);
+  report.previous_sample = previous_sample(position, event);
   if (position > 0 && compare(slot(position - 1).event, event) == 0) {
     report.insertion = Insertion::kDuplicate;
     return report;
@@ -57,7 +55,7 @@ Timeline::InsertReport Timeline::insert(const Event& event) {
   report.rewound = size_ - position;
   report.insertion = report.rewound == 0 ? Insertion::kAppended : Insertion::kRewound;
   open_position(position, event);
-  report.finite = apply(position);
+  report.effective = apply(position);
   for (std::size_t later = position + 1; later < size_; ++later) apply(later);
 
   const Stamp horizon = slot(size_ - 1).event.stamp - limits_.history;
@@ -100,16 +98,12 @@ void Timeline::restart(Stamp stamp, ConstStateRef state) {
   base_is_restart_ = true;
   base_counts_ = EventCounts{};
   base_state_ = state;
+  std::fill(base_samples_.begin(), base_samples_.end(), std::nullopt);
 }
 
 std::optional<Stamp> Timeline::earliest() const {
   if (base_stamp_) return base_stamp_;
   if (size_ > 0) return slot(0).event.stamp;
-  return std::nullopt;
-}
-
-std::optional<Stamp> Timeline::newest() const {
-  if (size_ > 0) return slot(size_ - 1).event.stamp;
   return std::nullopt;
 }
 
@@ -138,7 +132,7 @@ void Timeline::open_position(std::size_t position, const Event& event) {
 }
 
 /// Computes the state after the event at `position` from what stands before it.
-/// Returns false when a non-finite flow or reset was skipped.
+/// Returns false when its reset was skipped as not finite.
 bool Timeline::apply(std::size_t position) {
   Slot& current = slots_[order(position)];
   auto state = state_after(position);
@@ -158,20 +152,31 @@ bool Timeline::apply(std::size_t position) {
     }
   };
   current.counts = is_first ? base_counts_ : slot(position - 1).counts;
-  count(current.event, current.counts);
+  ++current.counts.events;
 
   restore();
   system_->flow(now - from, state.data(), workspace_.data());
   const bool flow_is_finite = state.allFinite();
   if (!flow_is_finite) restore();
   system_->reset(current.event, state.data(), workspace_.data());
-  if (state.allFinite()) return flow_is_finite;
-  restore();
-  if (flow_is_finite) system_->flow(now - from, state.data(), workspace_.data());
-  return false;
+  if (!state.allFinite()) {
+    restore();
+    if (flow_is_finite) system_->flow(now - from, state.data(), workspace_.data());
+    return false;
+  }
+  if (current.event.kind == EventKind::kJump) ++current.counts.jumps;
+  if (current.event.kind == EventKind::kSample) {
+    ++current.counts.samples;
+    current.counts.last_sample = now;
+  }
+  return true;
 }
 
 void Timeline::forget_oldest() {
+  const Event& oldest = slot(0).event;
+  if (oldest.kind == EventKind::kSample) {
+    base_samples_[static_cast<std::size_t>(oldest.channel)] = oldest.stamp;
+  }
   base_stamp_ = slot(0).event.stamp;
   base_is_restart_ = false;
   base_counts_ = slot(0).counts;
@@ -180,9 +185,16 @@ void Timeline::forget_oldest() {
   --size_;
 }
 
-std::optional<Stamp> Timeline::last_sample_before(std::size_t position, Stamp stamp) const {
-  while (position > 0 && slot(position - 1).event.stamp == stamp) --position;
-  return position > 0 ? slot(position - 1).counts.last_sample : base_counts_.last_sample;
+std::optional<Stamp> Timeline::previous_sample(std::size_t position, const Event& event) const {
+  if (event.kind != EventKind::kSample) return std::nullopt;
+  while (position > 0) {
+    const Event& earlier = slot(--position).event;
+    if (earlier.kind == EventKind::kSample && earlier.channel == event.channel &&
+        earlier.stamp < event.stamp) {
+      return earlier.stamp;
+    }
+  }
+  return base_samples_[static_cast<std::size_t>(event.channel)];
 }
 
 }  // namespace sampled_data_observers

@@ -22,7 +22,7 @@ EventOutcome outcome_of(const Timeline::InsertReport& report) {
     case Timeline::Insertion::kRewound:
       break;
   }
-  if (!report.finite) return EventOutcome::kWouldOverflow;
+  if (!report.effective) return EventOutcome::kWouldOverflow;
   return report.insertion == Timeline::Insertion::kAppended ? EventOutcome::kUsed
                                                             : EventOutcome::kUsedLate;
 }
@@ -33,7 +33,8 @@ Estimator::Estimator(std::shared_ptr<const ObserverLaw> law, const Options& opti
     : law_(std::move(law)),
       options_(options),
       timeline_(law_, options.history),
-      scratch_(law_->state_size()) {
+      before_restart_(make_estimate()),
+      restart_state_(law_->state_size()) {
   if (options_.sampling.T1 <= 0 || options_.sampling.T1 > options_.sampling.T2) {
     throw std::invalid_argument("Estimator: 0 < T1 <= T2 must hold");
   }
@@ -79,15 +80,23 @@ Estimate Estimator::make_estimate() const {
   return estimate;
 }
 
+void Estimator::prepare_restart(Stamp stamp) {
+  law_->initialize(restart_state_.data());
+  const Timeline::Query query = estimate_at(stamp, before_restart_);
+  if (query == Timeline::Query::kOk || query == Timeline::Query::kHeld) {
+    law_->keep_input(before_restart_.state.data(), restart_state_.data());
+  }
+}
+
 void Estimator::restart(Stamp stamp) {
-  law_->initialize(scratch_.data());
-  timeline_.restart(stamp, scratch_);
+  prepare_restart(stamp);
+  timeline_.restart(stamp, restart_state_);
 }
 
 void Estimator::restart(Stamp stamp, Timeline::ConstStateRef estimate) {
-  law_->initialize(scratch_.data());
-  scratch_.head(law_->estimate_size()) = estimate;
-  timeline_.restart(stamp, scratch_);
+  prepare_restart(stamp);
+  restart_state_.head(law_->estimate_size()) = estimate;
+  timeline_.restart(stamp, restart_state_);
 }
 
 }  // namespace sampled_data_observers

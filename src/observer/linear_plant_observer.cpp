@@ -61,6 +61,10 @@ void LinearPlantObserver::jump(double* state, double* workspace) const {
   plant_->jump(state, workspace);
 }
 
+void LinearPlantObserver::keep_input(const double* from, double* state) const {
+  input(from + plant_->states(), state);
+}
+
 void LinearPlantObserver::input(const double* u, double* state) const {
   std::copy_n(u, plant_->inputs(), state + plant_->states());
 }

@@ -18,6 +18,10 @@ std::optional<double> root_mean(double squares, std::size_t size) {
 
 }  // namespace
 
+bool measures(const Sensor& sensor, Eigen::Index output, const Quantity& quantity) {
+  return sensor.C.row(output).transpose() == quantity.row;
+}
+
 std::optional<Quantity> state_quantity(const LinearPlant& plant, const std::string& name) {
   const std::vector<std::string>& names = plant.description().state_names;
   const auto found = std::find(names.begin(), names.end(), name);
@@ -26,7 +30,7 @@ std::optional<Quantity> state_quantity(const LinearPlant& plant, const std::stri
   quantity.row(found - names.begin()) = 1.0;
   for (const Sensor& sensor : plant.sensors()) {
     for (Eigen::Index output = 0; output < sensor.C.rows(); ++output) {
-      if (sensor.C.row(output).transpose() == quantity.row) {
+      if (measures(sensor, output, quantity)) {
         quantity.angular = quantity.angular || sensor.angular[static_cast<std::size_t>(output)];
       }
     }
@@ -38,7 +42,7 @@ Quantity output_quantity(const LinearPlant& plant, std::size_t sensor, Eigen::In
   const Sensor& description = plant.sensors()[sensor];
   for (const std::string& state : plant.description().state_names) {
     const std::optional<Quantity> quantity = state_quantity(plant, state);
-    if (quantity->row == description.C.row(output).transpose()) return *quantity;
+    if (measures(description, output, *quantity)) return *quantity;
   }
   return {description.name + "[" + std::to_string(output) + "]",
           description.C.row(output).transpose(),
@@ -47,37 +51,41 @@ Quantity output_quantity(const LinearPlant& plant, std::size_t sensor, Eigen::In
 
 Comparison::Comparison(std::vector<Quantity> quantities, const LinearPlant& plant)
     : quantities_(std::move(quantities)),
+      sensors_(plant.sensors()),
       held_(quantities_.size()),
       squares_(quantities_.size(), 0.0),
       hold_squares_(quantities_.size(), 0.0) {
   for (std::size_t i = 0; i < quantities_.size(); ++i) {
-    for (std::size_t sensor = 0; sensor < plant.sensors().size(); ++sensor) {
-      const Eigen::MatrixXd& C = plant.sensors()[sensor].C;
-      for (Eigen::Index output = 0; output < C.rows(); ++output) {
-        if (C.row(output).transpose() == quantities_[i].row) held_[i] = Held{sensor, output, {}, 0};
+    for (const Sensor& sensor : sensors_) {
+      for (Eigen::Index output = 0; output < sensor.C.rows(); ++output) {
+        if (measures(sensor, output, quantities_[i])) held_[i].is_measured = true;
       }
     }
   }
 }
 
 void Comparison::add_sample(std::size_t sensor, Stamp stamp, const double* values) {
-  for (std::optional<Held>& held : held_) {
-    if (!held || held->sensor != sensor || (held->value && stamp < held->stamp)) continue;
-    held->value = values[held->output];
-    held->stamp = stamp;
+  for (std::size_t i = 0; i < quantities_.size(); ++i) {
+    Held& held = held_[i];
+    for (Eigen::Index output = 0; output < sensors_[sensor].C.rows(); ++output) {
+      if (!measures(sensors_[sensor], output, quantities_[i])) continue;
+      if (held.value && stamp < held.stamp) continue;
+      held.value = values[output];
+      held.stamp = stamp;
+    }
   }
 }
 
 void Comparison::add_truth(const std::vector<double>& truth, const double* x) {
-  for (const std::optional<Held>& held : held_) {
-    if (held && !held->value) return;
+  for (const Held& held : held_) {
+    if (held.is_measured && !held.value) return;
   }
   for (std::size_t i = 0; i < quantities_.size(); ++i) {
     const Eigen::VectorXd& row = quantities_[i].row;
     const double estimate = row.dot(Eigen::Map<const Eigen::VectorXd>(x, row.size()));
     squares_[i] += std::pow(difference(quantities_[i], estimate, truth[i]), 2);
-    if (held_[i]) {
-      hold_squares_[i] += std::pow(difference(quantities_[i], *held_[i]->value, truth[i]), 2);
+    if (held_[i].is_measured) {
+      hold_squares_[i] += std::pow(difference(quantities_[i], *held_[i].value, truth[i]), 2);
     }
   }
   ++size_;
@@ -92,7 +100,7 @@ std::vector<std::optional<double>> Comparison::rmse() const {
 std::vector<std::optional<double>> Comparison::hold_rmse() const {
   std::vector<std::optional<double>> result;
   for (std::size_t i = 0; i < held_.size(); ++i) {
-    result.push_back(held_[i] ? root_mean(hold_squares_[i], size_) : std::nullopt);
+    result.push_back(held_[i].is_measured ? root_mean(hold_squares_[i], size_) : std::nullopt);
   }
   return result;
 }

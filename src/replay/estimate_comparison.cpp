@@ -28,8 +28,12 @@ Estimates read(const std::string& path, const std::string& topic, bool& repeated
   return estimates;
 }
 
+bool rest_on_same_events(const StateEstimate& a, const StateEstimate& b) {
+  return a.events == b.events && a.samples == b.samples && a.jumps == b.jumps;
+}
+
 bool identical(const StateEstimate& a, const StateEstimate& b) {
-  return a.state.size() == b.state.size() && a.samples == b.samples && a.jumps == b.jumps &&
+  return a.state.size() == b.state.size() &&
          std::memcmp(a.state.data(), b.state.data(), a.state.size() * sizeof(double)) == 0;
 }
 
@@ -46,7 +50,7 @@ EstimateComparison compare_estimates(const std::string& first_bag, const std::st
     const auto other = second.find(stamp);
     if (other == second.end()) continue;
     ++result.common;
-    if (estimate->events != other->second->events) continue;
+    if (!rest_on_same_events(*estimate, *other->second)) continue;
     ++result.same_events;
     if (identical(*estimate, *other->second)) ++result.identical;
   }

@@ -9,11 +9,11 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <random>
 #include <utility>
 #include <vector>
 
 #include "sampled_data_observers/replay/bag_source.h"
+#include "sampled_data_observers/replay/uniform.h"
 #include "sampled_data_observers/ros/time_conversion.h"
 
 namespace sampled_data_observers {
@@ -22,18 +22,6 @@ namespace {
 constexpr Stamp kStart = 1000 * kNanosecondsPerSecond;
 constexpr Duration kInputPeriod = kNanosecondsPerSecond / 50;
 constexpr Duration kTruthPeriod = kNanosecondsPerSecond / 100;
-
-/// Uniform numbers that are the same everywhere, unlike the standard library's distributions.
-class Uniform {
- public:
-  explicit Uniform(std::uint64_t seed) : generator_(seed) {}
-  double operator()(double low, double high) {
-    return low + (high - low) * static_cast<double>(generator_() >> 11) * 0x1.0p-53;
-  }
-
- private:
-  std::mt19937_64 generator_;
-};
 
 /// A message to be recorded at the time of its arrival.
 struct Arrival {
@@ -78,8 +66,8 @@ class Simulation {
 
  private:
   Duration interval() {
-    return from_seconds(
-        random_(to_seconds(config_.options.sampling.T1), to_seconds(config_.options.sampling.T2)));
+    return from_seconds(random_.in(to_seconds(config_.options.sampling.T1),
+                                   to_seconds(config_.options.sampling.T2)));
   }
 
   template <class M>
@@ -108,12 +96,12 @@ class Simulation {
   void send_sample(std::size_t sensor, Stamp now) {
     const Eigen::VectorXd y = config_.plant->sensors()[sensor].C * x_;
     Measurement message;
-    for (const double value : y) {
-      message.values.push_back(value + random_(-options_.noise, options_.noise));
+    for (Eigen::Index i = 0; i < y.size(); ++i) {
+      message.values.push_back(y(i) + random_.in(-options_.noise, options_.noise));
     }
     const std::string& topic = config_.sensors[sensor].topic;
-    const auto latency = [&] { return from_seconds(random_(0.0, options_.latency)); };
-    if (random_(0.0, 1.0) < 0.05) send(topic, message, now, now + latency());
+    const auto latency = [&] { return from_seconds(random_.in(0.0, options_.latency)); };
+    if (random_.in(0.0, 1.0) < 0.05) send(topic, message, now, now + latency());
     send(topic, std::move(message), now, now + latency());
   }
 

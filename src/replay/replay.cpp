@@ -18,6 +18,9 @@
 namespace sampled_data_observers {
 namespace {
 
+/// A gap longer than this is a clock that was set, not a robot that waited.
+constexpr Duration kClockJump = 24 * 3600 * kNanosecondsPerSecond;
+
 class Replay {
  public:
   Replay(const ObserverConfig& config, const ReplayOptions& options)
@@ -30,21 +33,22 @@ class Replay {
       truth_ = truth_from_samples(config, channels_);
     }
     comparison_.emplace(truth_.quantities, *config.plant);
-    std::vector<Quantity> plotted = truth_.quantities;
-    if (plotted.empty()) {
+    plotted_ = truth_.quantities;
+    if (plotted_.empty()) {
       for (const std::string& state : config.law->estimate_names()) {
-        plotted.push_back(*state_quantity(*config.plant, state));
+        plotted_.push_back(*state_quantity(*config.plant, state));
       }
     }
-    plotted_.emplace(plotted, *config.plant);
-    for (const Quantity& quantity : plotted) summary_.plots.push_back({quantity.name, {}, {}, {}});
+    for (const Quantity& quantity : plotted_) summary_.plots.push_back({quantity.name, {}, {}, {}});
+    used_stamps_.resize(config.sensors.size());
     truth_estimate_ = runtime_.estimator().make_estimate();
     if (!options.output.empty()) open_for_writing(output_, options.output);
   }
 
   ReplaySummary run() {
     const auto start = std::chrono::steady_clock::now();
-    std::set<std::string> topics(truth_.topics.begin(), truth_.topics.end());
+    std::set<std::string> topics;
+    if (!truth_.topic.empty()) topics.insert(truth_.topic);
     for (const BagChannel& bound : channels_) topics.insert(bound.topic);
     rosbag::View view(bag_,
                       rosbag::TopicQuery(std::vector<std::string>(topics.begin(), topics.end())));
@@ -56,7 +60,11 @@ class Replay {
         progress.advance();
       }
     }
-    publish_due(to_stamp(view.getEndTime()));
+    // The clock of a live run would go on to the end of the bag, and estimates wait for their
+    // delay.
+    rosbag::View all(bag_);
+    const Stamp end = to_stamp(all.getEndTime());
+    if (clock_) publish_due(end + config_.publish_delay);
     output_.close();
 
     summary_.bag = options_.bag;
@@ -84,9 +92,17 @@ class Replay {
       }
     }
     for (std::size_t i = 0; i < channels_.size(); ++i) {
-      kept_[i] = thin(stamps[i], from_seconds(options_.thinning->T1),
-                      from_seconds(options_.thinning->T2), options_.thinning->seed + i);
+      kept_[i] =
+          thin(stamps[i], from_seconds(options_.thinning->T1), from_seconds(options_.thinning->T2),
+               options_.thinning->seed + first_on_topic(i));
     }
+  }
+
+  /// Sensors that share a topic share its seed, so that they keep the same messages.
+  std::size_t first_on_topic(std::size_t channel) const {
+    std::size_t first = 0;
+    while (channels_[first].topic != channels_[channel].topic) ++first;
+    return first;
   }
 
   bool is_thinned(std::size_t channel) const {
@@ -110,10 +126,7 @@ class Replay {
       output_.write(instance.getTopic(), instance.getTime(), instance,
                     instance.getConnectionHeader());
     }
-    if (std::find(truth_.topics.begin(), truth_.topics.end(), instance.getTopic()) !=
-        truth_.topics.end()) {
-      compare(instance);
-    }
+    if (instance.getTopic() == truth_.topic) compare(instance);
   }
 
   void receive(const BagChannel& bound, const rosbag::MessageInstance& instance, Stamp now) {
@@ -142,18 +155,44 @@ class Replay {
     if (!is_sample) return;
     ++summary_.samples_used;
     if (report.outcome == EventOutcome::kUsedLate) ++summary_.samples_late;
-    if (!report.interval || report.outcome == EventOutcome::kUsedLate) return;
-    const double interval = to_seconds(*report.interval);
-    summary_.interval_min =
-        summary_.intervals == 0 ? interval : std::min(summary_.interval_min, interval);
-    summary_.interval_max = std::max(summary_.interval_max, interval);
-    summary_.interval_mean += interval;  // divided at the end
-    ++summary_.intervals;
-    if (report.interval_check == IntervalCheck::kShort) ++summary_.intervals_short;
-    if (report.interval_check == IntervalCheck::kLong) ++summary_.intervals_long;
+    used_stamps_[static_cast<std::size_t>(event.channel)].push_back(event.stamp);
   }
 
+  /// Between the samples of each sensor, as they were taken, not as they arrived.
+  void count_intervals() {
+    double sum = 0.0;
+    for (std::vector<Stamp>& stamps : used_stamps_) {
+      std::sort(stamps.begin(), stamps.end());
+      for (std::size_t i = 1; i < stamps.size(); ++i) {
+        const Duration duration = stamps[i] - stamps[i - 1];
+        const double interval = to_seconds(duration);
+        summary_.interval_min =
+            summary_.intervals == 0 ? interval : std::min(summary_.interval_min, interval);
+        summary_.interval_max = std::max(summary_.interval_max, interval);
+        sum += interval;
+        ++summary_.intervals;
+        if (duration < config_.options.sampling.T1) ++summary_.intervals_short;
+        if (duration > config_.options.sampling.T2) ++summary_.intervals_long;
+      }
+    }
+    if (summary_.intervals > 0) sum /= static_cast<double>(summary_.intervals);
+    summary_.interval_mean = sum;
+  }
+
+  /// Lets time pass as a live observer would see it: from one due estimate to the next, however
+  /// long no message came.
   void publish_due(Stamp now) {
+    if (clock_ && now - *clock_ < kClockJump) {
+      for (Stamp due = runtime_.next_due_time(*clock_); due < now;
+           due = runtime_.next_due_time(due)) {
+        publish_due_at(due);
+      }
+    }
+    publish_due_at(now);
+    clock_ = now;
+  }
+
+  void publish_due_at(Stamp now) {
     while (const Estimate* estimate = runtime_.next_due(now)) {
       runtime_.write(*estimate, estimate_message_);
       ++summary_.estimates;
@@ -162,7 +201,7 @@ class Replay {
                       estimate_message_);
       }
       for (std::size_t i = 0; i < summary_.plots.size(); ++i) {
-        const Eigen::VectorXd& row = plotted_->quantities()[i].row;
+        const Eigen::VectorXd& row = plotted_[i].row;
         plot(summary_.plots[i].estimate, estimate->stamp,
              row.dot(estimate->state.head(row.size())));
       }
@@ -189,10 +228,10 @@ class Replay {
 
   void plot_sample(std::size_t sensor, const Event& event) {
     summary_.sample_times.push_back(plot_time(event.stamp));
-    const Eigen::MatrixXd& C = config_.plant->sensors()[sensor].C;
+    const Sensor& description = config_.plant->sensors()[sensor];
     for (std::size_t i = 0; i < summary_.plots.size(); ++i) {
-      for (Eigen::Index output = 0; output < C.rows(); ++output) {
-        if (C.row(output).transpose() == plotted_->quantities()[i].row) {
+      for (Eigen::Index output = 0; output < event.size; ++output) {
+        if (measures(description, output, plotted_[i])) {
           plot(summary_.plots[i].samples, event.stamp, event.values[output]);
         }
       }
@@ -210,7 +249,7 @@ class Replay {
   }
 
   void finish_summary() {
-    if (summary_.intervals > 0) summary_.interval_mean /= static_cast<double>(summary_.intervals);
+    count_intervals();
     if (summary_.estimates > 0) {
       summary_.final_stamp = estimate_message_.header.stamp.toSec();
       for (std::size_t i = 0; i < estimate_message_.names.size(); ++i) {
@@ -242,7 +281,9 @@ class Replay {
   Estimate truth_estimate_;
   std::optional<Stamp> first_truth_;
   std::optional<Comparison> comparison_;
-  std::optional<Comparison> plotted_;
+  std::vector<Quantity> plotted_;
+  std::vector<std::vector<Stamp>> used_stamps_;
+  std::optional<Stamp> clock_;
   std::optional<Stamp> plot_origin_;
   EventStatus status_;
   StateEstimate estimate_message_;

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cstdlib>
 #include <numeric>
-#include <random>
+
+#include "sampled_data_observers/replay/uniform.h"
 
 namespace sampled_data_observers {
 
@@ -15,13 +16,12 @@ std::vector<bool> thin(const std::vector<Stamp>& stamps, Duration T1, Duration T
                    [&](std::size_t a, std::size_t b) { return stamps[a] < stamps[b]; });
 
   std::vector<bool> kept(stamps.size(), false);
-  std::mt19937_64 generator(seed);
+  Uniform random(seed);
   for (std::size_t i = 0; i < order.size();) {
     const Stamp last = stamps[order[i]];
     kept[order[i]] = true;
-    // Not std::uniform_real_distribution, whose results differ between libraries.
-    const double fraction = static_cast<double>(generator() >> 11) * 0x1.0p-53;
-    const Stamp target = last + T1 + static_cast<Duration>(fraction * static_cast<double>(T2 - T1));
+    const Stamp target =
+        last + static_cast<Duration>(random.in(static_cast<double>(T1), static_cast<double>(T2)));
     std::size_t next = i + 1;
     while (next < order.size() && stamps[order[next]] < last + T1) ++next;
     const auto distance = [&](std::size_t k) { return std::abs(stamps[order[k]] - target); };

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <utility>
 
 #include "sampled_data_observers/ros/message_types.h"
 #include "sampled_data_observers/ros/time_conversion.h"
@@ -100,7 +101,7 @@ Truth truth_from_topic(const ObserverConfig& config, const rosbag::Bag& bag,
   Truth truth = type == "sampled_data_observers/StateEstimate"
                     ? truth_from_states(*config.plant, fields)
                     : truth_from_fields(*config.plant, type, fields);
-  truth.topics = {name};
+  truth.topic = name;
   return truth;
 }
 
@@ -110,9 +111,13 @@ Truth truth_from_samples(const ObserverConfig& config, const std::vector<BagChan
   }
   const BagChannel& bound = channels.front();
   Truth truth;
-  truth.topics = {bound.topic};
+  truth.topic = bound.topic;
   for (Eigen::Index output = 0; output < config.plant->sensors().front().C.rows(); ++output) {
-    truth.quantities.push_back(output_quantity(*config.plant, 0, output));
+    Quantity quantity = output_quantity(*config.plant, 0, output);
+    for (const Quantity& other : truth.quantities) {
+      if (other.name == quantity.name) quantity.name += "[" + std::to_string(output) + "]";
+    }
+    truth.quantities.push_back(std::move(quantity));
   }
   truth.read = [read = bound.read, size = truth.quantities.size()](
                    const rosbag::MessageInstance& instance, Stamp& stamp,

@@ -52,15 +52,20 @@ void ObserverNodelet::start(const ObserverConfig& config) {
   status.source = status.reason = std::string(64, ' ');  // room, so that writing allocates nothing
   statuses_ = std::make_unique<MessagePool<EventStatus>>(status, kPoolSize);
 
+  // Callbacks run as soon as there is something to call: what they use comes first.
   ros::NodeHandle& handle = getNodeHandle();
   estimate_publisher_ = handle.advertise<StateEstimate>("estimate", kQueueLength);
   status_publisher_ = handle.advertise<EventStatus>("events", kQueueLength);
-  for (const std::function<void()>& subscribe : subscriptions) subscribe();
+  reset_service_name_ = handle.resolveName("reset");
+  const bool one_shot = false;
+  const bool started = false;
+  timer_ = handle.createTimer(ros::Duration().fromNSec(config.period),
+                              &ObserverNodelet::publish_due, this, one_shot, started);
   services_.push_back(handle.advertiseService("reset", &ObserverNodelet::reset, this));
   services_.push_back(
       handle.advertiseService("get_estimate", &ObserverNodelet::get_estimate, this));
-  timer_ = handle.createTimer(ros::Duration().fromNSec(config.period),
-                              &ObserverNodelet::publish_due, this);
+  for (const std::function<void()>& subscribe : subscriptions) subscribe();
+  timer_.start();
   NODELET_INFO("%s: %zu states, estimates at %.6g Hz on %s", type_.c_str(),
                config.law->estimate_names().size(), 1.0 / to_seconds(config.period),
                estimate_publisher_.getTopic().c_str());
@@ -78,11 +83,13 @@ std::function<void()> ObserverNodelet::subscription(const EventChannel& channel)
     return [this, reader, channel] {
       const boost::function<void(const boost::shared_ptr<const M>&)> callback =
           [this, reader, channel](const boost::shared_ptr<const M>& message) {
-            Event event;
-            event.kind = channel.kind;
-            event.channel = channel.channel;
-            reader->read(*message, event);
-            receive(channel, event);
+            when_time_is_known([this, reader, channel, message] {
+              Event event;
+              event.kind = channel.kind;
+              event.channel = channel.channel;
+              reader->read(*message, event);
+              receive(channel, event);
+            });
           };
       subscribers_.push_back(getNodeHandle().subscribe<M>(channel.source.topic, kQueueLength,
                                                           callback, ros::VoidConstPtr(),
@@ -93,12 +100,30 @@ std::function<void()> ObserverNodelet::subscription(const EventChannel& channel)
   });
 }
 
+/// Runs a task at once or, before the first message of a simulated clock, when that has come: until
+/// then nobody can tell the past from the future.
+template <class Task>
+void ObserverNodelet::when_time_is_known(const Task& task) {
+  if (!ros::Time::now().isZero()) {
+    run_deferred();
+    task();
+  } else if (deferred_.size() < kQueueLength) {
+    deferred_.emplace_back(task);
+  } else {
+    NODELET_WARN_THROTTLE(5.0, "events are lost: no time on /clock, but /use_sim_time is set");
+  }
+}
+
+void ObserverNodelet::run_deferred() {
+  if (deferred_.empty()) return;
+  for (const std::function<void()>& task : deferred_) task();
+  deferred_.clear();
+}
+
 void ObserverNodelet::receive(const EventChannel& channel, const Event& event) {
-  const Stamp clock = to_stamp(ros::Time::now());
-  watch_clock(clock);
-  // Before the first message of a simulated clock the time of arrival is not known.
-  const Stamp now = clock == 0 ? event.stamp : clock;
-  const boost::shared_ptr<EventStatus>& status = statuses_->take();
+  const Stamp now = to_stamp(ros::Time::now());
+  watch_clock(now);
+  const boost::shared_ptr<EventStatus> status = statuses_->take();
   const EventReport report = runtime_->receive(channel, event, now, *status);
   if (!report.used()) {
     NODELET_WARN_THROTTLE(5.0, "event from %s rejected: %s (stamp %.9f s, %.6f s before arrival)",
@@ -109,10 +134,11 @@ void ObserverNodelet::receive(const EventChannel& channel, const Event& event) {
 }
 
 void ObserverNodelet::publish_due(const ros::TimerEvent&) {
+  run_deferred();
   const Stamp now = to_stamp(ros::Time::now());
   watch_clock(now);
   while (const Estimate* estimate = runtime_->next_due(now)) {
-    const boost::shared_ptr<StateEstimate>& message = estimates_->take();
+    const boost::shared_ptr<StateEstimate> message = estimates_->take();
     runtime_->write(*estimate, *message);
     estimate_publisher_.publish(message);
   }
@@ -126,7 +152,7 @@ void ObserverNodelet::watch_clock(Stamp now) {
     NODELET_WARN(
         "time went back by %.6f s: events before the history window are rejected and no "
         "stamp is published twice; call %s to start again",
-        to_seconds(last_now_ - now), services_.front().getService().c_str());
+        to_seconds(last_now_ - now), reset_service_name_.c_str());
   }
   last_now_ = now;
 }

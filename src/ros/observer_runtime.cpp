@@ -42,7 +42,7 @@ const char* describe(EventOutcome outcome) {
     case EventOutcome::kInFuture:
       return "stamped in the future";
     case EventOutcome::kNoStamp:
-      return "stamp is zero";
+      return "stamp is zero or invalid";
     case EventOutcome::kWrongSize:
       return "wrong number of values";
     case EventOutcome::kNotFinite:

@@ -8,6 +8,8 @@
 #include <sstream>
 #include <vector>
 
+#include "sampled_data_observers/config/yaml_file.h"
+
 namespace sampled_data_observers {
 namespace {
 
@@ -55,6 +57,19 @@ ConfigNode convert(XmlRpc::XmlRpcValue& value, const std::string& origin, const 
   }
 }
 
+/// One file below `config`: its text and path, as observer.launch gives them, or its tree.
+ConfigNode read_file(const ConfigNode& node, const std::string& name) {
+  const ConfigNode* text = node.find("text");
+  const ConfigNode* path = node.find("path");
+  if (text != nullptr && path != nullptr && node.entries.size() == 2) {
+    return read_yaml_text(text->scalar, path->scalar);
+  }
+  if (node.kind != ConfigNode::Kind::kMap) {
+    throw ConfigError(node.origin, "config/" + name, "a configuration file", node.describe());
+  }
+  return node;
+}
+
 }  // namespace
 
 ConfigNode to_config_node(const XmlRpc::XmlRpcValue& value, const std::string& name) {
@@ -75,12 +90,11 @@ ConfigNode read_parameter_tree(const ros::NodeHandle& private_handle) {
   const auto config = std::find_if(direct.entries.begin(), direct.entries.end(),
                                    [](const auto& entry) { return entry.first == "config"; });
   if (config != direct.entries.end()) {
-    if (config->second.kind != ConfigNode::Kind::kMap) {
-      throw ConfigError(config->second.origin, "", "one map per configuration file",
+    for (const auto& file : config->second.entries)
+      files.push_back(read_file(file.second, file.first));
+    if (files.empty()) {
+      throw ConfigError(direct.origin, "config", "one map per configuration file",
                         config->second.describe());
-    }
-    for (const auto& file : config->second.entries) {
-      files.push_back(to_config_node(value["config"][file.first], name + "/config/" + file.first));
     }
     direct.entries.erase(config);
   }

@@ -156,6 +156,11 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"publish_delay: 0.01", "publish_delay: -0.01", {"publish_delay", "-0.01"}},
         Fault{"future_tolerance: 0.25", "future_tolerance: .inf", {"future_tolerance", "'.inf'"}},
         Fault{"rate: 50", "rate: 50\nrate: 60", {"test.yaml:21", "rate", "each key once"}},
+        Fault{"publish_delay: 0.01", "publish_delay: 3", {"publish_delay", "history/duration"}},
+        Fault{"future_tolerance: 0.25", "future_tolerance: 3", {"future_tolerance", "history"}},
+        Fault{"{topic: wheel}",
+              "{topic: wheel, type: sampled_data_observers/JumpEvent}",
+              {"sensors/wheel/source/type", "JumpEvent"}},
         Fault{"rate: 50", "rate: [50", {"test.yaml:", "valid YAML"}}));
 
 TEST(ConfigNumberTest, AreDecimalAndNothingElse) {

@@ -83,7 +83,7 @@ TEST_F(TimelineTest, EveryOrderOfArrivalGivesTheSameBits) {
   }
 }
 
-TEST_F(TimelineTest, EveryOrderOfThreeEventsWithOneStampGivesTheSameBits) {
+TEST_F(TimelineTest, EveryOrderOfEventsWithOneStampGivesTheSameBits) {
   std::vector<OwnedEvent> events = {{kStart, EventKind::kSample, 0, {1.0}},
                                     {kStart, EventKind::kSample, 0, {2.0}},
                                     {kStart, EventKind::kSample, 1, {0.5, 3.0}},
@@ -241,10 +241,11 @@ TEST_F(TimelineTest, WhatWouldOverflowIsSkippedAndTheEstimateStaysFinite) {
   const OwnedEvent bad{kStart + kSecond, EventKind::kSample, 1, {kHuge, -kHuge}};
   const OwnedEvent worse{kStart + kSecond + 1, EventKind::kSample, 0, {-kHuge}};
   timeline.insert(bad.view());
-  EXPECT_FALSE(timeline.insert(worse.view()).finite);
+  EXPECT_FALSE(timeline.insert(worse.view()).effective);
   const Snapshot after = snapshot(timeline, *law_, kStart + kSecond + 1);
   for (const double value : after.state) EXPECT_TRUE(std::isfinite(value));
   EXPECT_EQ(before.events + 2, after.events);
+  EXPECT_LT(after.samples, after.events);  // what had no effect is an event, but no sample
 }
 
 TEST_F(TimelineTest, AnOverflowingFlowHoldsTheLastFiniteState) {
@@ -262,7 +263,7 @@ TEST_F(TimelineTest, AnOverflowingFlowHoldsTheLastFiniteState) {
   const Snapshot held = snapshot(timeline, *law, kStart + 100 * kSecond);
   EXPECT_EQ(Timeline::Query::kHeld, held.query);
   EXPECT_EQ(2.0, held.state.front());
-  EXPECT_FALSE(timeline.insert(sample(kStart + 100 * kSecond, 3.0).view()).finite);
+  EXPECT_TRUE(timeline.insert(sample(kStart + 100 * kSecond, 3.0).view()).effective);
   const Snapshot recovered = snapshot(timeline, *law, kStart + 100 * kSecond);
   EXPECT_EQ(Timeline::Query::kOk, recovered.query);
   EXPECT_EQ(3.0, recovered.state.front());

@@ -67,9 +67,10 @@ TEST_F(EstimatorTest, ChecksTheIntervalsBetweenSamples) {
   EXPECT_EQ(kSecond / 2, *within.interval);
   EXPECT_EQ(IntervalCheck::kLong, submit(sample(kStart + 2 * kSecond)).interval_check);
   EXPECT_EQ(IntervalCheck::kShort, submit(sample(kStart + 2 * kSecond + 1)).interval_check);
-  // Another sensor at the same instant: the interval is the same, not zero.
-  const EventReport other = submit({kStart + kSecond / 2, EventKind::kSample, 1, {0.0, 0.0}});
-  EXPECT_EQ(kSecond / 2, *other.interval);
+  // Each sensor has intervals of its own.
+  EXPECT_FALSE(submit({kStart + kSecond / 2, EventKind::kSample, 1, {0.0, 0.0}}).interval);
+  EXPECT_EQ(kSecond,
+            *submit({kStart + 3 * kSecond / 2, EventKind::kSample, 1, {0.0, 0.0}}).interval);
   EXPECT_FALSE(submit({kStart + 3 * kSecond, EventKind::kJump, 0, {}}).interval);
 }
 
@@ -84,6 +85,22 @@ TEST_F(EstimatorTest, RestartsFromTheConfiguredOrAGivenEstimate) {
   estimator_.restart(kStart + 2 * kSecond, given);
   estimator_.estimate_at(kStart + 2 * kSecond, estimate);
   EXPECT_EQ(given, estimate.state.head(3));
+}
+
+TEST_F(EstimatorTest, TheIntervalReachesBackBeyondTheWindow) {
+  submit(sample(kStart));
+  submit({kStart + kSecond, EventKind::kInput, 0, {1.0, 2.0}});
+  now_ = kStart + 60 * kSecond;
+  EXPECT_EQ(60 * kSecond, *submit(sample(now_)).interval);
+}
+
+TEST_F(EstimatorTest, ARestartKeepsTheInput) {
+  submit(sample(kStart));
+  submit({kStart + 1, EventKind::kInput, 0, {7.0, -3.0}});
+  estimator_.restart(kStart + kSecond);
+  Estimate estimate = estimator_.make_estimate();
+  estimator_.estimate_at(kStart + kSecond, estimate);
+  EXPECT_EQ(Eigen::Vector2d(7.0, -3.0), Eigen::Vector2d(estimate.state.tail(2)));
 }
 
 TEST_F(EstimatorTest, EventsAndEstimatesAllocateNothing) {

@@ -89,12 +89,38 @@ class ExampleTest(ReplayTestCase):
             self.assertEqual(b"\x89PNG", plot.read(4))
         port = free_port()
         command = ["roslaunch", "--port", str(port), os.path.join(ROOT, "launch", "demo.launch"),
-                   "bag:=" + self.path("example.bag"), "topics:=/position /input", "speed:=4",
+                   "bag:=" + self.path("example.bag"), "topics:=/position /input", "speed:=2",
                    "output:=" + self.path("live.bag"), "config:=" + " ".join(MASS_SPRING)]
         with RosProcess(command, port) as process:
             process.wait(90)
         run_tool("compare_estimates", self.path("live.bag"), self.path("replayed.bag"),
                  "--at-least", "95")
+
+    def test_a_gap_longer_than_the_history_leaves_no_estimate_out(self):
+        run_tool("record_example", *MASS_SPRING, "-o", self.path("example.bag"))
+        with open(MASS_SPRING[0]) as plant:
+            text = plant.read()
+        # Without the frequent inputs, messages come up to 3 s apart.
+        text = text.replace("history: {duration: 4.0,", "future_tolerance: 0\nhistory: {duration: 0.1,")
+        with open(self.path("short.yaml"), "w") as short:
+            short.write(text)
+        summary = self.replay(self.path("example.bag"), [self.path("short.yaml"), MASS_SPRING[1]],
+                              "out.bag", "input:=/none", "--truth", "truth")
+        alone = self.replay(self.path("example.bag"), [self.path("short.yaml"), MASS_SPRING[1]],
+                            "out.bag", "input:=/none")
+        self.assertGreater(summary["estimates"], 1900)
+        self.assertEqual(summary["estimates"], alone["estimates"])
+        self.assertEqual(summary["final_state"], alone["final_state"])
+
+    def test_the_bag_that_is_read_is_never_written(self):
+        run_tool("record_example", *MASS_SPRING, "-o", self.path("example.bag"), "--duration", "3")
+        os.symlink(self.path("example.bag"), self.path("link.bag"))
+        before = os.path.getsize(self.path("example.bag"))
+        for option in ("-o", "--json", "--plot"):
+            result = subprocess.run([find_tool("replay"), self.path("example.bag"), *MASS_SPRING,
+                                     option, self.path("link.bag")], check=False)
+            self.assertNotEqual(0, result.returncode)
+            self.assertEqual(before, os.path.getsize(self.path("example.bag")))
 
     def test_replay_refuses_bad_input_with_a_message(self):
         run_tool("record_example", *MASS_SPRING, "-o", self.path("example.bag"), "--duration", "3")

@@ -43,6 +43,10 @@ TEST(BadInputTest, OnlyTheGoodEventsCountAndEachHasItsStatus) {
   EXPECT_EQ(EventStatus::WRONG_SIZE, client.sample(at(2.0), {1.0, 2.0}).outcome);
   EXPECT_EQ(EventStatus::NO_STAMP, client.sample(ros::Time(), {1.0}).outcome);
   EXPECT_EQ(EventStatus::NO_STAMP, client.jump(ros::Time()).outcome);
+  ros::Time garbage;
+  garbage.sec = garbage.nsec = 0xFFFFFFFFu;
+  EXPECT_EQ(EventStatus::NO_STAMP, client.sample(garbage, {1.0}).outcome);
+  EXPECT_FALSE(client.get_estimate(garbage).success);
   EXPECT_EQ(EventStatus::IN_FUTURE, client.sample(at(1000.0), {1.0}).outcome);
   EXPECT_EQ(EventStatus::TOO_OLD, client.sample(at(-1000.0), {1.0}).outcome);
   const EventStatus last = client.sample(at(2.5), {0.0});

@@ -17,6 +17,8 @@ class InterfaceTest : public ::testing::Test {
   void SetUp() override {
     ASSERT_TRUE(client_.connect());
     ASSERT_TRUE(client_.reset({}).success);
+    ros::spinOnce();
+    client_.estimates.clear();
   }
 
   test::ObserverClient client_;

@@ -3,12 +3,12 @@
 #include <gtest/gtest.h>
 #include <nodelet/loader.h>
 #include <ros/ros.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
-#include <cstdio>
-#include <cstdlib>
+#include <atomic>
+#include <csignal>
 #include <fstream>
-#include <thread>
 
 #include "ros/observer_client.h"
 
@@ -36,9 +36,6 @@ bool load(nodelet::Loader& loader, const std::string& name) {
 
 class LifecycleTest : public ::testing::Test {
  protected:
-  void SetUp() override { spinner_.start(); }
-
-  ros::AsyncSpinner spinner_{1};
   nodelet::Loader loader_{false};
 };
 
@@ -92,15 +89,15 @@ TEST_F(LifecycleTest, PublishersMayDieAndReturn) {
   ASSERT_TRUE(client.connect());
   for (int i = 0; i < 3; ++i) {
     const std::size_t before = client.statuses.size();
-    std::thread publisher([] {
-      // Killed in the middle of its work: no good-bye to the master.
-      const int status = std::system(
-          "timeout --signal=KILL 4 rostopic pub --rate 20 --substitute-keywords /position "
-          "sampled_data_observers/Measurement '{header: auto, values: [1.0]}' >/dev/null 2>&1");
-      EXPECT_NE(0, status);
-    });
-    const bool came = test::spin_until([&] { return client.statuses.size() > before + 5; });
-    publisher.join();
+    const pid_t publisher = fork();
+    if (publisher == 0) {
+      execlp("rostopic", "rostopic", "pub", "--rate", "20", "--substitute-keywords", "/position",
+             "sampled_data_observers/Measurement", "{header: auto, values: [1.0]}", nullptr);
+      _exit(1);
+    }
+    const bool came = test::spin_until([&] { return client.statuses.size() > before + 5; }, 60.0);
+    kill(publisher, SIGKILL);  // in the middle of its work: no good-bye to the master
+    waitpid(publisher, nullptr, 0);
     EXPECT_TRUE(came);
     const std::size_t estimates = client.estimates.size();
     EXPECT_TRUE(test::spin_until([&] { return client.estimates.size() > estimates + 10; }));

@@ -24,7 +24,6 @@ class ConfigSection {
 
   /// A finite number.
   double number(const std::string& key);
-  double number(const std::string& key, double fallback);
   /// A finite number in [low, high].
   double number_in(const std::string& key, double low, double high, std::optional<double> fallback);
   /// A whole number in [low, high].
@@ -34,8 +33,7 @@ class ConfigSection {
   std::string text(const std::string& key);
   std::string text(const std::string& key, const std::string& fallback);
   /// One of `choices`.
-  std::string choice(const std::string& key, const std::vector<std::string>& choices,
-                     std::optional<std::string> fallback);
+  std::string choice(const std::string& key, const std::vector<std::string>& choices);
   std::vector<std::string> texts(const std::string& key);
   std::vector<std::string> texts(const std::string& key, std::size_t size);
   std::vector<bool> flags(const std::string& key, std::size_t size);

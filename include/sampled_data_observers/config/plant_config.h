@@ -12,7 +12,4 @@ namespace sampled_data_observers {
 /// @throws ConfigError for the first fault found.
 std::shared_ptr<const LinearPlant> read_linear_plant(ConfigSection& root);
 
-/// Names of the sensors in the order in which the plant has them.
-std::vector<std::string> sorted_sensor_names(const ConfigSection& sensors);
-
 }  // namespace sampled_data_observers

@@ -32,7 +32,8 @@ struct EventCounts {
 /// event, or less when more than `max_events` events lie in it.
 ///
 /// A flow or reset whose result is not finite is skipped: the last finite state is held. That, too,
-/// is a function of the events alone.
+/// is a function of the events alone. A sample or jump whose reset is skipped counts as an event
+/// only.
 ///
 /// Everything is allocated by the constructor; afterwards nothing is.
 class Timeline {
@@ -57,9 +58,9 @@ class Timeline {
   struct InsertReport {
     Insertion insertion = Insertion::kAppended;
     std::size_t rewound = 0;
-    /// False when the flow to the event or its reset was skipped as not finite.
-    bool finite = true;
-    /// Stamp of the newest sample before the event's stamp.
+    /// False when its reset was skipped as not finite.
+    bool effective = true;
+    /// For a sample: stamp of the newest one of the same channel before it.
     std::optional<Stamp> previous_sample;
   };
 
@@ -73,6 +74,12 @@ class Timeline {
 
   /// @throws std::invalid_argument for a limit out of range.
   Timeline(std::shared_ptr<const HybridSystem> system, Limits limits);
+
+  // Events point into the timeline's own memory, which a move keeps and a copy would not.
+  Timeline(const Timeline&) = delete;
+  Timeline& operator=(const Timeline&) = delete;
+  Timeline(Timeline&&) = default;
+  Timeline& operator=(Timeline&&) = default;
 
   /// Takes in one event. The values are copied.
   /// @pre event.size == system.event_size(event.kind, event.channel); all values finite
@@ -88,13 +95,8 @@ class Timeline {
   /// The earliest stamp at which there is a state now.
   std::optional<Stamp> earliest() const;
 
-  /// Stamp of the newest event taken in.
-  std::optional<Stamp> newest() const;
-
   /// Number of events in the log now.
   std::size_t size() const { return size_; }
-
-  const Limits& limits() const { return limits_; }
 
  private:
   struct Slot {
@@ -115,7 +117,7 @@ class Timeline {
   void open_position(std::size_t position, const Event& event);
   bool apply(std::size_t position);
   void forget_oldest();
-  std::optional<Stamp> last_sample_before(std::size_t position, Stamp stamp) const;
+  std::optional<Stamp> previous_sample(std::size_t position, const Event& event) const;
   auto state_after(std::size_t position) {
     return states_.col(static_cast<Eigen::Index>(order(position)));
   }
@@ -140,6 +142,8 @@ class Timeline {
   bool base_is_restart_ = false;
   EventCounts base_counts_;
   Eigen::VectorXd base_state_;
+  /// Stamp of the newest sample of each channel before the oldest event of the log.
+  std::vector<std::optional<Stamp>> base_samples_;
 
   /// Scratch of the maps; it makes even queries a matter of one thread at a time.
   mutable Eigen::VectorXd workspace_;

@@ -17,7 +17,7 @@ enum class EventOutcome : std::uint8_t {
   kDuplicate = 2,     ///< the same event was taken in before
   kTooOld = 3,        ///< before the history window, the start or the last reset
   kInFuture = 4,      ///< stamped later than now plus the tolerance
-  kNoStamp = 5,       ///< the stamp is zero
+  kNoStamp = 5,       ///< the stamp is zero, or was no time
   kWrongSize = 6,     ///< another number of values than the channel has
   kNotFinite = 7,     ///< a value is NaN or infinite
   kWouldOverflow = 8  ///< taken in, but its effect is not finite and was skipped
@@ -35,7 +35,7 @@ struct EventReport {
   EventOutcome outcome = EventOutcome::kUsed;
   /// Number of later events that were applied again.
   std::size_t rewound = 0;
-  /// Time since the newest sample (of any sensor) with an earlier stamp; used samples only.
+  /// Time since the newest sample of the same sensor with an earlier stamp; used samples only.
   std::optional<Duration> interval;
   IntervalCheck interval_check = IntervalCheck::kNone;
 
@@ -86,7 +86,8 @@ class Estimator {
   /// An Estimate of the right size.
   Estimate make_estimate() const;
 
-  /// Forgets all events and starts again at `stamp` from the configured initial estimate.
+  /// Forgets all events and starts again at `stamp` from the configured initial estimate; the input
+  /// that holds at `stamp` goes on holding.
   void restart(Stamp stamp);
 
   /// The same from a given estimate (law().estimate_size() entries, finite).
@@ -96,11 +97,13 @@ class Estimator {
 
  private:
   std::optional<EventOutcome> objection(const Event& event, Stamp now) const;
+  void prepare_restart(Stamp stamp);
 
   std::shared_ptr<const ObserverLaw> law_;
   Options options_;
   Timeline timeline_;
-  Eigen::VectorXd scratch_;
+  Estimate before_restart_;
+  Eigen::VectorXd restart_state_;
 };
 
 }  // namespace sampled_data_observers

@@ -28,6 +28,7 @@ class LinearPlantObserver : public ObserverLaw {
   Eigen::Index max_event_size() const override;
   void initialize(double* state) const override;
   void flow(Duration duration, double* state, double* workspace) const override;
+  void keep_input(const double* from, double* state) const override;
 
  protected:
   void jump(double* state, double* workspace) const override;

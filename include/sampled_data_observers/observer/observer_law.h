@@ -23,6 +23,9 @@ class ObserverLaw : public HybridSystem {
 
   void reset(const Event& event, double* state, double* workspace) const final;
 
+  /// Takes over the input that holds in state `from`, for a restart.
+  virtual void keep_input(const double* from, double* state) const = 0;
+
  protected:
   /// Reset map of a sample of sensor number `sensor`, y its outputs.
   virtual void sample(std::size_t sensor, const double* y, double* state,

@@ -25,6 +25,9 @@ std::optional<Quantity> state_quantity(const LinearPlant& plant, const std::stri
 /// "sensor[output]".
 Quantity output_quantity(const LinearPlant& plant, std::size_t sensor, Eigen::Index output);
 
+/// Whether an output of a sensor measures the quantity itself.
+bool measures(const Sensor& sensor, Eigen::Index output, const Quantity& quantity);
+
 /// Errors of the estimate and of holding the last sample, against the truth, on the same stamps.
 class Comparison {
  public:
@@ -51,16 +54,16 @@ class Comparison {
   static std::optional<double> norm(const std::vector<std::optional<double>>& values);
 
  private:
+  /// The newest sample of a quantity, of whichever sensor measures it.
   struct Held {
-    std::size_t sensor;
-    Eigen::Index output;
+    bool is_measured = false;
     std::optional<double> value;
     Stamp stamp = 0;
   };
 
   std::vector<Quantity> quantities_;
-  /// The sensor output that measures each quantity, where one does.
-  std::vector<std::optional<Held>> held_;
+  std::vector<Sensor> sensors_;
+  std::vector<Held> held_;
   std::vector<double> squares_;
   std::vector<double> hold_squares_;
   std::size_t size_ = 0;

@@ -10,10 +10,11 @@
 
 namespace sampled_data_observers {
 
-/// Where the truth comes from: the topics to read, the quantities to compare, and how a message
+/// Where the truth comes from: the topic to read, the quantities to compare, and how a message
 /// becomes their values.
 struct Truth {
-  std::vector<std::string> topics;
+  /// Empty: there is no truth.
+  std::string topic;
   std::vector<Quantity> quantities;
   /// Returns false for a message that says nothing of the truth; else sets the stamp and one value
   /// per quantity.
@@ -22,7 +23,7 @@ struct Truth {
 
 /// The truth on a topic of its own: a StateEstimate, whose states are found by name, or fields of
 /// another message type.
-/// @param fields  state name to field path; empty, for a StateEstimate, means all states it has
+/// @param fields  state name to field path; empty, for a StateEstimate: every state by its name
 /// @throws ReplayError for a topic, state or field that does not exist.
 Truth truth_from_topic(const ObserverConfig& config, const rosbag::Bag& bag,
                        const std::string& topic, const std::map<std::string, std::string>& fields);

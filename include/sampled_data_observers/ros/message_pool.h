@@ -7,7 +7,7 @@
 namespace sampled_data_observers {
 
 /// Messages to publish by pointer without an allocation each: one is used again when no subscriber
-/// holds it any more. When all are held, another is made and kept.
+/// holds it any more. When all are held, a new one is made, which is not used again.
 template <class M>
 class MessagePool {
  public:
@@ -17,13 +17,12 @@ class MessagePool {
   }
 
   /// A message that nobody else holds.
-  const boost::shared_ptr<M>& take() {
+  boost::shared_ptr<M> take() {
     for (std::size_t i = 0; i < messages_.size(); ++i) {
       next_ = (next_ + 1) % messages_.size();
       if (messages_[next_].use_count() == 1) return messages_[next_];
     }
-    messages_.push_back(boost::make_shared<M>(prototype_));
-    return messages_.back();
+    return boost::make_shared<M>(prototype_);
   }
 
  private:

@@ -33,6 +33,9 @@ class ObserverNodelet : public nodelet::Nodelet {
   /// What subscribes to a channel. Making it finds all faults of the channel's source.
   std::function<void()> subscription(const EventChannel& channel);
   void stop();
+  template <class Task>
+  void when_time_is_known(const Task& task);
+  void run_deferred();
   void receive(const EventChannel& channel, const Event& event);
   void publish_due(const ros::TimerEvent&);
   void watch_clock(Stamp now);
@@ -44,6 +47,9 @@ class ObserverNodelet : public nodelet::Nodelet {
   std::unique_ptr<MessagePool<StateEstimate>> estimates_;
   std::unique_ptr<MessagePool<EventStatus>> statuses_;
   Stamp last_now_ = 0;
+  /// What came before the first time of a simulated clock.
+  std::vector<std::function<void()>> deferred_;
+  std::string reset_service_name_;
 
   ros::Publisher estimate_publisher_;
   ros::Publisher status_publisher_;

@@ -3,7 +3,6 @@
 #include <sampled_data_observers/EventStatus.h>
 #include <sampled_data_observers/StateEstimate.h>
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>

@@ -17,8 +17,9 @@ namespace sampled_data_observers {
 ConfigNode to_config_node(const XmlRpc::XmlRpcValue& value, const std::string& name);
 
 /// The configuration in the private parameters of a node. Files are loaded below `~config`, each
-/// under a name of its own (launch/observer.launch does that); they are merged, and a key may stand
-/// in one of them only. Every other private parameter overrides what the files say.
+/// under a name of its own: as `text` and `path`, which launch/observer.launch does and which is
+/// read as replay reads the file, or as the tree that rosparam makes of it. They are merged, and a
+/// key may stand in one of them only. Every other private parameter overrides what the files say.
 /// @throws ConfigError when there is none, or when two files have one key.
 ConfigNode read_parameter_tree(const ros::NodeHandle& private_handle);
 
