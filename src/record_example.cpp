@@ -16,7 +16,7 @@ int run(int argc, char** argv) {
   CLI::App app{
       "Simulates the plant of a configuration and records a bag of what its sensors send: samples "
       "at "
-      "random times in [T1, T2], delayed, some out of order and some twice; the input sin t; the "
+      "random times in [T1, T2], late and some of them twice; the input sin t; the "
       "true state."};
   std::vector<std::string> config_files;
   std::string output;

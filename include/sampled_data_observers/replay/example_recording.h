@@ -16,7 +16,7 @@ struct RecordingOptions {
 };
 
 /// Simulates the plant of a configuration and records what a robot would have: its sensors' samples
-/// at random times in [T1, T2] with random latencies (some thus out of order, one in twenty sent
+/// at random times in [T1, T2] with random latencies (thus behind newer inputs; one in twenty sent
 /// twice), its input u(t) = sin t held for 20 ms each, and the true state, on the topic `truth`.
 /// Every state starts at 1. The simulation is exact: the input is piecewise constant.
 /// @throws ReplayError when the bag can't be written, or a sensor's source is no Measurement.
