@@ -142,8 +142,11 @@ void ObserverNodelet::publish_due(const ros::TimerEvent&) {
     runtime_->write(*estimate, *message);
     estimate_publisher_.publish(message);
   }
-  // Aimed at the next stamp, so that estimates go out when they are due and not up to a period
-  // late.
+  aim_timer(now);
+}
+
+/// At the next stamp, so that estimates go out when they are due and not up to a period late.
+void ObserverNodelet::aim_timer(Stamp now) {
   timer_.setPeriod(ros::Duration().fromNSec(runtime_->next_due_time(now) - now));
 }
 
@@ -153,14 +156,19 @@ void ObserverNodelet::watch_clock(Stamp now) {
         "time went back by %.6f s: events before the history window are rejected and no "
         "stamp is published twice; call %s to start again",
         to_seconds(last_now_ - now), reset_service_name_.c_str());
+    aim_timer(now);  // roscpp would have it wait until time is again where it was
   }
   last_now_ = now;
 }
 
 bool ObserverNodelet::reset(Reset::Request& request, Reset::Response& response) {
   const Stamp now = to_stamp(ros::Time::now());
-  response.message = now == 0 ? "there is no time yet: the clock was not published"
-                              : runtime_->restart(now, request.state);
+  if (now == 0) {
+    response.message = "there is no time yet: nothing came on /clock";
+  } else {
+    watch_clock(now);
+    response.message = runtime_->restart(now, request.state);
+  }
   response.success = response.message.empty() ? 1 : 0;
   return true;
 }

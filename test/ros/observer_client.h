@@ -42,11 +42,12 @@ class ObserverClient {
   }
 
   bool connect() {
-    return reset_.waitForExistence(ros::Duration(30.0)) && spin_until([this] {
-             return position_.getNumSubscribers() > 0 && input_.getNumSubscribers() > 0 &&
-                    jumps_.getNumSubscribers() > 0 && estimate_subscriber_.getNumPublishers() > 0 &&
-                    status_subscriber_.getNumPublishers() > 0;
-           });
+    return spin_until([this] {
+      return reset_.exists() && get_estimate_.exists() && position_.getNumSubscribers() > 0 &&
+             input_.getNumSubscribers() > 0 && jumps_.getNumSubscribers() > 0 &&
+             estimate_subscriber_.getNumPublishers() > 0 &&
+             status_subscriber_.getNumPublishers() > 0;
+    });
   }
 
   static Measurement measurement(const ros::Time& stamp, const std::vector<double>& values) {
@@ -54,6 +55,11 @@ class ObserverClient {
     message.header.stamp = stamp;
     message.values = values;
     return message;
+  }
+
+  /// Publishes a sample and waits for nothing.
+  void publish_sample(const ros::Time& stamp, double value) {
+    position_.publish(measurement(stamp, {value}));
   }
 
   /// Publishes a sample and returns the status that comes back for it; its source is empty when

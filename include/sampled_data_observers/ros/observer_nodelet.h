@@ -38,6 +38,7 @@ class ObserverNodelet : public nodelet::Nodelet {
   void run_deferred();
   void receive(const EventChannel& channel, const Event& event);
   void publish_due(const ros::TimerEvent&);
+  void aim_timer(Stamp now);
   void watch_clock(Stamp now);
   bool reset(Reset::Request& request, Reset::Response& response);
   bool get_estimate(GetEstimate::Request& request, GetEstimate::Response& response);

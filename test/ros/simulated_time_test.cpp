@@ -1,0 +1,79 @@
+// A clock that this test publishes: events before it, time that goes on, and time that goes back.
+#include <gtest/gtest.h>
+#include <ros/ros.h>
+#include <rosgraph_msgs/Clock.h>
+
+#include "ros/observer_client.h"
+#include "sampled_data_observers/ros/time_conversion.h"
+
+namespace sampled_data_observers {
+namespace {
+
+class SimulatedTimeTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    clock_publisher_ = handle_.advertise<rosgraph_msgs::Clock>("/clock", 10);
+    ASSERT_TRUE(client_.connect());
+    ASSERT_TRUE(test::spin_until([this] { return clock_publisher_.getNumSubscribers() >= 2; }));
+  }
+
+  void set_clock(double seconds) {
+    rosgraph_msgs::Clock message;
+    message.clock = ros::Time(seconds);
+    clock_publisher_.publish(message);
+  }
+
+  /// Sets the clock again and again, as simulators do, until something holds.
+  bool hold_clock_until(double seconds, const std::function<bool()>& done) {
+    return test::spin_until([&] {
+      set_clock(seconds);
+      ros::WallDuration(0.01).sleep();
+      return done();
+    });
+  }
+
+  ros::NodeHandle handle_;
+  ros::Publisher clock_publisher_;
+  test::ObserverClient client_;
+};
+
+TEST_F(SimulatedTimeTest, EventsWaitForTheClockAndEstimatesFollowItForthAndBack) {
+  client_.publish_sample(ros::Time(100.0), 1.0);
+  client_.publish_sample(ros::Time(5000.0), 1.0);
+  EXPECT_FALSE(test::spin_until([&] { return !client_.statuses.empty(); }, 1.0));
+  EXPECT_FALSE(client_.reset({}).success);
+  ASSERT_TRUE(hold_clock_until(100.2, [&] { return client_.statuses.size() >= 2; }));
+  EXPECT_EQ(EventStatus::USED, client_.statuses[0].outcome);
+  EXPECT_EQ(EventStatus::IN_FUTURE, client_.statuses[1].outcome);
+
+  ASSERT_TRUE(hold_clock_until(101.0, [&] {
+    return !client_.estimates.empty() && client_.estimates.back().header.stamp == ros::Time(101.0);
+  }));
+  EXPECT_EQ(51u, client_.estimates.size());  // 100.00 s to 101.00 s at 50 Hz
+  for (std::size_t i = 0; i < client_.estimates.size(); ++i) {
+    EXPECT_EQ(100'000'000'000 + static_cast<Stamp>(i) * 20'000'000,
+              to_stamp(client_.estimates[i].header.stamp));
+  }
+
+  // Back to 50 s: before the history window of 20 s.
+  client_.publish_sample(ros::Time(50.0), 1.0);
+  ASSERT_TRUE(hold_clock_until(50.1, [&] { return client_.statuses.size() >= 3; }));
+  EXPECT_EQ(EventStatus::TOO_OLD, client_.statuses[2].outcome);
+  EXPECT_EQ(51u, client_.estimates.size());
+
+  const Reset::Response reset = client_.reset({2.0, 0.0});
+  EXPECT_TRUE(reset.success) << reset.message;
+  ASSERT_TRUE(hold_clock_until(51.0, [&] { return client_.estimates.size() > 90; }));
+  EXPECT_EQ(ros::Time(50.1), client_.estimates[51].header.stamp);
+  EXPECT_EQ(2.0, client_.estimates[51].state[0]);
+  EXPECT_EQ(EventStatus::USED, client_.sample(ros::Time(50.5), {1.0}).outcome);
+}
+
+}  // namespace
+}  // namespace sampled_data_observers
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "simulated_time_test");
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
