@@ -14,6 +14,13 @@ Timeline::Limits checked(Timeline::Limits limits) {
   return limits;
 }
 
+/// Finite, and far enough from the largest number that the next flow or reset is finite as well: a
+/// state that could not be corrected any more would be as bad as an infinite one.
+bool is_usable(const Timeline::ConstStateRef& state) {
+  constexpr double kLargest = 1e150;
+  return state.allFinite() && state.cwiseAbs().maxCoeff() <= kLargest;
+}
+
 std::size_t sample_channels(const HybridSystem& system) {
   int channels = 0;
   while (system.event_size(EventKind::kSample, channels) >= 0) ++channels;
@@ -82,7 +89,7 @@ Timeline::Query Timeline::state_at(Stamp stamp, StateRef state, EventCounts& cou
     counts = base_counts_;
   }
   system_->flow(stamp - from, state.data(), workspace_.data());
-  if (state.allFinite()) return Query::kOk;
+  if (is_usable(state)) return Query::kOk;
   if (position > 0) {
     state = state_after(position - 1);
   } else {
@@ -156,10 +163,10 @@ bool Timeline::apply(std::size_t position) {
 
   restore();
   system_->flow(now - from, state.data(), workspace_.data());
-  const bool flow_is_finite = state.allFinite();
+  const bool flow_is_finite = is_usable(state);
   if (!flow_is_finite) restore();
   system_->reset(current.event, state.data(), workspace_.data());
-  if (!state.allFinite()) {
+  if (!is_usable(state)) {
     restore();
     if (flow_is_finite) system_->flow(now - from, state.data(), workspace_.data());
     return false;

@@ -29,6 +29,11 @@ EventOutcome outcome_of(const Timeline::InsertReport& report) {
 
 }  // namespace
 
+bool is_admissible(const Eigen::Ref<const Eigen::VectorXd>& values) {
+  return values.allFinite() &&
+         (values.size() == 0 || values.cwiseAbs().maxCoeff() <= kLargestValue);
+}
+
 Estimator::Estimator(std::shared_ptr<const ObserverLaw> law, const Options& options)
     : law_(std::move(law)),
       options_(options),
@@ -46,7 +51,7 @@ Estimator::Estimator(std::shared_ptr<const ObserverLaw> law, const Options& opti
 std::optional<EventOutcome> Estimator::objection(const Event& event, Stamp now) const {
   if (event.stamp <= 0) return EventOutcome::kNoStamp;
   if (event.size != law_->event_size(event.kind, event.channel)) return EventOutcome::kWrongSize;
-  if (!event.vector().allFinite()) return EventOutcome::kNotFinite;
+  if (!is_admissible(event.vector())) return EventOutcome::kNotFinite;
   if (event.stamp - now > options_.future_tolerance) return EventOutcome::kInFuture;
   return std::nullopt;
 }

@@ -45,8 +45,10 @@ void draw_plot(const ReplaySummary& summary, const std::string& path) {
   }
   const std::string text = json.dump();
   std::signal(SIGPIPE, SIG_IGN);
-  FILE* pipe =
-      popen((quoted(folder_of_this_program() + "/plot_replay") + " " + quoted(path)).c_str(), "w");
+  FILE* pipe = popen((quoted(SDO_PYTHON) + " " + quoted(folder_of_this_program() + "/plot_replay") +
+                      " " + quoted(path))
+                         .c_str(),
+                     "w");
   if (pipe == nullptr) throw ReplayError(path + ": can't start plot_replay");
   const bool written = fwrite(text.data(), 1, text.size(), pipe) == text.size();
   if (pclose(pipe) != 0 || !written) {

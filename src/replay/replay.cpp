@@ -19,7 +19,7 @@ namespace sampled_data_observers {
 namespace {
 
 /// A gap longer than this is a clock that was set, not a robot that waited.
-constexpr Duration kClockJump = 24 * 3600 * kNanosecondsPerSecond;
+constexpr Duration kClockJump = Duration{24} * 3600 * kNanosecondsPerSecond;
 
 class Replay {
  public:

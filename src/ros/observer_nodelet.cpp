@@ -1,5 +1,7 @@
 #include "sampled_data_observers/ros/observer_nodelet.h"
 
+#include <utility>
+
 #include "sampled_data_observers/ros/message_types.h"
 #include "sampled_data_observers/ros/parameter_tree.h"
 #include "sampled_data_observers/ros/time_conversion.h"
@@ -80,16 +82,22 @@ std::function<void()> ObserverNodelet::subscription(const EventChannel& channel)
   return visit_message_type(channel.source, [&](auto tag) -> std::function<void()> {
     using M = typename decltype(tag)::type;
     auto reader = std::make_shared<ValueReader<M>>(channel.source);
-    return [this, reader, channel] {
+    const auto deliver = [this, reader, channel](const M& message) {
+      Event event;
+      event.kind = channel.kind;
+      event.channel = channel.channel;
+      reader->read(message, event);
+      receive(channel, event);
+    };
+    return [this, deliver, channel] {
       const boost::function<void(const boost::shared_ptr<const M>&)> callback =
-          [this, reader, channel](const boost::shared_ptr<const M>& message) {
-            when_time_is_known([this, reader, channel, message] {
-              Event event;
-              event.kind = channel.kind;
-              event.channel = channel.channel;
-              reader->read(*message, event);
-              receive(channel, event);
-            });
+          [this, deliver](const boost::shared_ptr<const M>& message) {
+            if (ros::Time::now().isZero()) {
+              defer([deliver, message] { deliver(*message); });
+              return;
+            }
+            run_deferred();
+            deliver(*message);
           };
       subscribers_.push_back(getNodeHandle().subscribe<M>(channel.source.topic, kQueueLength,
                                                           callback, ros::VoidConstPtr(),
@@ -100,15 +108,11 @@ std::function<void()> ObserverNodelet::subscription(const EventChannel& channel)
   });
 }
 
-/// Runs a task at once or, before the first message of a simulated clock, when that has come: until
-/// then nobody can tell the past from the future.
-template <class Task>
-void ObserverNodelet::when_time_is_known(const Task& task) {
-  if (!ros::Time::now().isZero()) {
-    run_deferred();
-    task();
-  } else if (deferred_.size() < kQueueLength) {
-    deferred_.emplace_back(task);
+/// Keeps a task until the first message of a simulated clock: before, nobody can tell the past from
+/// the future.
+void ObserverNodelet::defer(std::function<void()> task) {
+  if (deferred_.size() < kQueueLength) {
+    deferred_.push_back(std::move(task));
   } else {
     NODELET_WARN_THROTTLE(5.0, "events are lost: no time on /clock, but /use_sim_time is set");
   }
@@ -126,9 +130,9 @@ void ObserverNodelet::receive(const EventChannel& channel, const Event& event) {
   const boost::shared_ptr<EventStatus> status = statuses_->take();
   const EventReport report = runtime_->receive(channel, event, now, *status);
   if (!report.used()) {
-    NODELET_WARN_THROTTLE(5.0, "event from %s rejected: %s (stamp %.9f s, %.6f s before arrival)",
+    NODELET_WARN_THROTTLE(5.0, "event from %s rejected: %s (stamp %.9f s, now %.9f s)",
                           channel.name.c_str(), describe(report.outcome), to_seconds(event.stamp),
-                          to_seconds(now - event.stamp));
+                          to_seconds(now));
   }
   status_publisher_.publish(status);
 }

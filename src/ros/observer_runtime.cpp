@@ -46,7 +46,7 @@ const char* describe(EventOutcome outcome) {
     case EventOutcome::kWrongSize:
       return "wrong number of values";
     case EventOutcome::kNotFinite:
-      return "a value is not finite";
+      return "a value is not finite, or beyond 1e100";
     case EventOutcome::kWouldOverflow:
       return "the estimate would overflow";
   }
@@ -125,7 +125,7 @@ std::string ObserverRuntime::restart(Stamp now, const std::vector<double>& estim
     return "expected " + std::to_string(expected) + " values or none, found " +
            std::to_string(estimate.size());
   }
-  if (!values.allFinite()) return "expected finite values, found NaN or infinity";
+  if (!is_admissible(values)) return "expected finite values up to 1e100, found another";
   if (estimate.empty()) {
     estimator_.restart(now);
   } else {

@@ -94,6 +94,31 @@ TEST_F(EstimatorTest, TheIntervalReachesBackBeyondTheWindow) {
   EXPECT_EQ(60 * kSecond, *submit(sample(now_)).interval);
 }
 
+TEST_F(EstimatorTest, NoSampleHoweverLargeMakesItDeaf) {
+  LinearPlantDescription plant;  // x' = x: an unstable one, corrected by half at each sample
+  plant.state_names = {"x"};
+  plant.A = Eigen::MatrixXd::Ones(1, 1);
+  plant.B = Eigen::MatrixXd::Zero(1, 0);
+  plant.sensors = {{"s", Eigen::MatrixXd::Ones(1, 1), {false}}};
+  const auto law = std::make_shared<const ConstantGainObserver>(
+      std::make_shared<const LinearPlant>(plant),
+      std::vector<Eigen::MatrixXd>{Eigen::MatrixXd::Constant(1, 1, 0.5)}, Eigen::VectorXd::Zero(1),
+      Eigen::VectorXd::Zero(0));
+  Estimator estimator(law, options());
+  const auto take = [&](Stamp stamp, double value) {
+    return estimator.submit(sample(stamp, value).view(), stamp).outcome;
+  };
+  EXPECT_EQ(EventOutcome::kUsed, take(kStart, 1.0));
+  EXPECT_EQ(EventOutcome::kNotFinite, take(kStart + 1, 2e307));
+  EXPECT_EQ(EventOutcome::kUsed, take(kStart + 2, 1e100));
+  for (int i = 1; i < 1000; ++i) {
+    EXPECT_EQ(EventOutcome::kUsed, take(kStart + i * kSecond / 10, 1.0));
+  }
+  Estimate estimate = estimator.make_estimate();
+  estimator.estimate_at(kStart + 999 * kSecond / 10, estimate);
+  EXPECT_NEAR(1.0, estimate.state(0), 0.2);
+}
+
 TEST_F(EstimatorTest, ARestartKeepsTheInput) {
   submit(sample(kStart));
   submit({kStart + 1, EventKind::kInput, 0, {7.0, -3.0}});

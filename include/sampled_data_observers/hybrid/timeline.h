@@ -31,8 +31,8 @@ struct EventCounts {
 /// the earliest time at which there is a state. The window reaches `history` back from the newest
 /// event, or less when more than `max_events` events lie in it.
 ///
-/// A flow or reset whose result is not finite is skipped: the last finite state is held. That, too,
-/// is a function of the events alone. A sample or jump whose reset is skipped counts as an event
+/// A flow or reset whose result is not finite, or beyond 1e150, is skipped: the last good state is
+/// held. That, too, is a function of the events alone. A sample or jump whose reset is skipped counts as an event
 /// only.
 ///
 /// Everything is allocated by the constructor; afterwards nothing is.

@@ -10,6 +10,13 @@
 
 namespace sampled_data_observers {
 
+/// The largest value that an event may carry: no plant has a larger one, and sums of such stay
+/// finite.
+constexpr double kLargestValue = 1e100;
+
+/// Whether all values are finite and not beyond kLargestValue.
+bool is_admissible(const Eigen::Ref<const Eigen::VectorXd>& values);
+
 /// What became of a received event.
 enum class EventOutcome : std::uint8_t {
   kUsed = 0,          ///< taken in as the newest event
@@ -19,7 +26,7 @@ enum class EventOutcome : std::uint8_t {
   kInFuture = 4,      ///< stamped later than now plus the tolerance
   kNoStamp = 5,       ///< the stamp is zero, or was no time
   kWrongSize = 6,     ///< another number of values than the channel has
-  kNotFinite = 7,     ///< a value is NaN or infinite
+  kNotFinite = 7,     ///< a value is NaN, infinite or beyond kLargestValue
   kWouldOverflow = 8  ///< taken in, but its effect is not finite and was skipped
 };
 

@@ -33,8 +33,7 @@ class ObserverNodelet : public nodelet::Nodelet {
   /// What subscribes to a channel. Making it finds all faults of the channel's source.
   std::function<void()> subscription(const EventChannel& channel);
   void stop();
-  template <class Task>
-  void when_time_is_known(const Task& task);
+  void defer(std::function<void()> task);
   void run_deferred();
   void receive(const EventChannel& channel, const Event& event);
   void publish_due(const ros::TimerEvent&);
