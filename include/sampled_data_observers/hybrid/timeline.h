@@ -32,8 +32,8 @@ struct EventCounts {
 /// event, or less when more than `max_events` events lie in it.
 ///
 /// A flow or reset whose result is not finite, or beyond 1e150, is skipped: the last good state is
-/// held. That, too, is a function of the events alone. A sample or jump whose reset is skipped counts as an event
-/// only.
+/// held. That, too, is a function of the events alone. A sample or jump whose reset is skipped
+/// counts as an event only.
 ///
 /// Everything is allocated by the constructor; afterwards nothing is.
 class Timeline {
