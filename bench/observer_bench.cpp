@@ -9,6 +9,7 @@
 
 #include "sampled_data_observers/hybrid/timeline.h"
 #include "sampled_data_observers/observer/constant_gain_observer.h"
+#include "sampled_data_observers/plant/linear_plant.h"
 #include "support/allocation_counter.h"
 
 namespace sampled_data_observers {
@@ -31,9 +32,8 @@ std::shared_ptr<const ConstantGainObserver> example_law(Eigen::Index n) {
   plant.B = Eigen::MatrixXd::Zero(n, 0);
   plant.sensors = {{"s", Eigen::MatrixXd::Identity(1, n), {false}}};
   return std::make_shared<const ConstantGainObserver>(
-      std::make_shared<const LinearPlant>(plant),
-      std::vector<Eigen::MatrixXd>{Eigen::MatrixXd::Constant(n, 1, 0.1)}, Eigen::VectorXd::Ones(n),
-      Eigen::VectorXd::Zero(0));
+      ObserverContext{make_linear_plant(plant), Eigen::VectorXd::Ones(n), Eigen::VectorXd::Zero(0)},
+      std::vector<Eigen::MatrixXd>{Eigen::MatrixXd::Constant(n, 1, 0.1)});
 }
 
 /// Counts the heap allocations of a loop.

@@ -9,6 +9,7 @@
 
 #include "sampled_data_observers/replay/plot.h"
 #include "sampled_data_observers/replay/tool_main.h"
+#include "sampled_data_observers/ros/plant_plugins.h"
 
 namespace sdo = sampled_data_observers;
 
@@ -91,7 +92,7 @@ int run(int argc, char** argv) {
     return app.exit(error);
   }
 
-  const sdo::ObserverConfig config = sdo::read_observer_config(config_files);
+  const sdo::ObserverConfig config = sdo::read_observer_config(config_files, sdo::load_plant_plugin);
   const sdo::ReplaySummary summary = sdo::replay(config, options);
   sdo::print_table(summary, std::cout);
   if (!json_path.empty()) sdo::write_json(summary, json_path);

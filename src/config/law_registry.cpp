@@ -1,46 +1,28 @@
 #include "sampled_data_observers/config/law_registry.h"
 
 #include <map>
+#include <stdexcept>
 
-#include "sampled_data_observers/observer/constant_gain_observer.h"
+#include "gains/builders.h"
 
 namespace sampled_data_observers {
 namespace {
 
-using Builder = std::shared_ptr<const ObserverLaw> (*)(ConfigSection&, const LawContext&);
-
-/// One n x m_i matrix per sensor: a map from sensor names to matrices, or, where there is one
-/// sensor only, its matrix.
-std::vector<Eigen::MatrixXd> read_gain_per_sensor(ConfigSection& gains, const std::string& key,
-                                                  const LinearPlant& plant) {
-  const std::vector<Sensor>& sensors = plant.sensors();
-  if (sensors.size() == 1 && !gains.is_map(key)) {
-    return {gains.matrix(key, plant.states(), sensors.front().C.rows())};
-  }
-  ConfigSection section = gains.section(key);
-  std::vector<Eigen::MatrixXd> result;
-  for (const Sensor& sensor : sensors) {
-    result.push_back(section.matrix(sensor.name, plant.states(), sensor.C.rows()));
-  }
-  section.finish();
-  return result;
-}
-
-std::shared_ptr<const ObserverLaw> build_constant_gain(ConfigSection& gains,
-                                                       const LawContext& context) {
-  return std::make_shared<const ConstantGainObserver>(
-      context.plant, read_gain_per_sensor(gains, "L", *context.plant), context.initial_estimate,
-      context.initial_input);
-}
-
-const std::map<std::string, Builder>& builders() {
-  static const std::map<std::string, Builder> kBuilders = {
+std::map<std::string, LawBuilder>& builders() {
+  static std::map<std::string, LawBuilder> all = {
       {"ConstantGainObserver", build_constant_gain},
   };
-  return kBuilders;
+  return all;
 }
 
 }  // namespace
+
+bool register_observer_type(const std::string& type, LawBuilder builder) {
+  if (!builders().emplace(type, builder).second) {
+    throw std::logic_error("the observer type " + type + " is registered already");
+  }
+  return true;
+}
 
 std::vector<std::string> observer_types() {
   std::vector<std::string> types;
@@ -50,7 +32,11 @@ std::vector<std::string> observer_types() {
 
 std::shared_ptr<const ObserverLaw> build_law(const std::string& type, ConfigSection& gains,
                                              const LawContext& context) {
-  return builders().at(type)(gains, context);
+  try {
+    return builders().at(type)(gains, context);
+  } catch (const std::invalid_argument& fault) {
+    throw ConfigError(gains.origin(), gains.path(), "gains that fit a " + type, fault.what());
+  }
 }
 
 }  // namespace sampled_data_observers

@@ -1,9 +1,14 @@
 #include "sampled_data_observers/config/observer_config.h"
 
+#include <stdexcept>
+#include <utility>
+
 #include "sampled_data_observers/config/config_section.h"
 #include "sampled_data_observers/config/law_registry.h"
 #include "sampled_data_observers/config/plant_config.h"
 #include "sampled_data_observers/config/yaml_file.h"
+#include "sampled_data_observers/observer/delayed_jumps.h"
+#include "sampled_data_observers/observer/limited_jumps.h"
 
 namespace sampled_data_observers {
 namespace {
@@ -51,17 +56,40 @@ TopicSource read_sensor_source(ConfigSection section, std::size_t size) {
   return source;
 }
 
-TopicSource read_message_source(ConfigSection& root, const std::string& key, std::size_t size,
+TopicSource read_message_source(const ConfigSection& root, ConfigSection& section,
+                                const std::string& key, std::size_t size,
                                 const std::string& type) {
   TopicSource source;
-  source.topic = key;
+  source.topic = section.text("topic", key);
   source.type = type;
   source.size = size;
   source.origin = root.origin();
   source.path = key;
-  if (!root.has(key)) return source;
-  ConfigSection section = root.section(key);
-  source.topic = section.text("topic", key);
+  return source;
+}
+
+TopicSource read_input(ConfigSection& root, std::size_t size) {
+  ConfigSection section = root.section_or_empty("input");
+  TopicSource source = read_message_source(root, section, "input", size, kInputType);
+  section.finish();
+  return source;
+}
+
+/// The source of jumps, and what bounds and delays them around `law`.
+TopicSource read_jumps(ConfigSection& root, const Plant& plant,
+                       std::shared_ptr<const ObserverLaw>& law) {
+  ConfigSection section = root.section_or_empty("jumps");
+  TopicSource source = read_message_source(
+      root, section, "jumps", static_cast<std::size_t>(plant.outputs(SensorTiming::kAtJumps)),
+      kJumpType);
+  source.has_mode = plant.switches();
+  if (section.has("late") && section.choice("late", {"rewind", "delayed"}) == "delayed") {
+    law = std::make_shared<const DelayedJumps>(law);
+  }
+  JumpLimits limits;
+  limits.min_separation = from_seconds(section.number_in("min_separation", 0.0, kLongest, 1e-6));
+  limits.max_per_second = section.number_in("max_per_second", 1.0, 1e6, 1000.0);
+  law = std::make_shared<const LimitedJumps>(law, limits);
   section.finish();
   return source;
 }
@@ -80,35 +108,39 @@ Eigen::VectorXd read_named_values(ConfigSection& root, const std::string& key,
 
 }  // namespace
 
-ObserverConfig read_observer_config(const ConfigNode& tree) {
+ObserverConfig read_observer_config(const ConfigNode& tree, const PlantPluginLoader& load_plugin) {
   ConfigSection root(tree, "");
+  root.has("scenario");
   ObserverConfig config;
   config.type = root.choice("observer", observer_types());
-  config.plant = read_linear_plant(root);
-  const LinearPlantDescription& plant = config.plant->description();
+  PlantConfig plant_config = read_plant(root, load_plugin);
+  config.plant = plant_config.plant;
+  const Plant& plant = *config.plant;
 
   ConfigSection sensors = root.section("sensors");
-  for (const Sensor& sensor : plant.sensors) {
+  for (const Sensor& sensor : plant.sensors()) {
     ConfigSection section = sensors.section(sensor.name);
-    for (const char* key : {"C", "angular", "bias"}) section.has(key);
+    for (const char* key : {"C", "h", "output", "measured", "angular", "bias"}) section.has(key);
+    const bool in_jump_events = sensor.timing == SensorTiming::kAtJumps && !section.has("source");
     config.sensors.push_back(
-        read_sensor_source(section.section("source"), static_cast<std::size_t>(sensor.C.rows())));
+        in_jump_events
+            ? std::nullopt
+            : std::optional<TopicSource>(read_sensor_source(
+                  section.section("source"), static_cast<std::size_t>(sensor.outputs()))));
     section.finish();
-  }
-  if (config.plant->inputs() > 0) {
-    config.input = read_message_source(root, "input", plant.input_names.size(), kInputType);
-  }
-  if (config.plant->jumps()) {
-    config.jumps = read_message_source(root, "jumps", 0, kJumpType);
   }
 
   LawContext context;
-  context.plant = config.plant;
-  context.initial_estimate = read_named_values(root, "initial_estimate", plant.state_names);
-  context.initial_input = Eigen::VectorXd::Zero(config.plant->inputs());
+  context.observer.plant = config.plant;
+  context.observer.initial_estimate =
+      read_named_values(root, "initial_estimate", plant.state_names());
+  context.observer.initial_input = Eigen::VectorXd::Zero(plant.inputs());
+  context.names = std::move(plant_config.names);
   ConfigSection gains = root.section("gains");
   config.law = build_law(config.type, gains, context);
   gains.finish();
+  if (plant.inputs() > 0) config.input = read_input(root, plant.input_names().size());
+  if (plant.jumps()) config.jumps = read_jumps(root, plant, config.law);
 
   config.options.sampling = read_sampling(root);
   config.options.history = read_history(root);
@@ -130,10 +162,15 @@ ObserverConfig read_observer_config(const ConfigNode& tree) {
   return config;
 }
 
-ObserverConfig read_observer_config(const std::vector<std::string>& files) {
+ObserverConfig read_observer_config(const std::vector<std::string>& files,
+                                    const PlantPluginLoader& load_plugin) {
   std::vector<ConfigNode> trees;
   for (const std::string& file : files) trees.push_back(read_yaml_file(file));
-  return read_observer_config(merge(trees));
+  return read_observer_config(merge(trees), load_plugin);
+}
+
+std::shared_ptr<const PlantPlugin> no_plant_plugins(const std::string& type) {
+  throw std::runtime_error("this program loads no plug-ins, so not " + type);
 }
 
 }  // namespace sampled_data_observers

@@ -1,8 +1,13 @@
 #include "sampled_data_observers/config/plant_config.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <utility>
+
+#include "sampled_data_observers/config/expression_config.h"
+#include "sampled_data_observers/config/mode_config.h"
+#include "sampled_data_observers/plant/bias_states.h"
 
 namespace sampled_data_observers {
 namespace {
@@ -14,72 +19,185 @@ std::vector<std::string> read_names(ConfigSection& section, const std::string& k
   std::set<std::string> seen;
   for (const std::string& name : names) {
     if (name.empty()) throw section.error(key, "names that are not empty", "an empty one");
-    if (!seen.insert(name).second)
+    if (!seen.insert(name).second) {
       throw section.error(key, "different names", "'" + name + "' twice");
+    }
   }
   return names;
 }
 
-void read_sensor(ConfigSection section, const std::string& name, LinearPlantDescription& plant,
-                 std::vector<BiasState>& biases) {
-  Sensor sensor;
-  sensor.name = name;
-  sensor.C = section.matrix("C", -1, plant.A.rows());
-  const auto outputs = static_cast<std::size_t>(sensor.C.rows());
-  sensor.angular = section.has("angular") ? section.flags("angular", outputs)
-                                          : std::vector<bool>(outputs, false);
-  if (section.has("bias")) {
-    const std::vector<std::string> names = section.texts("bias", outputs);
-    for (std::size_t output = 0; output < outputs; ++output) {
-      if (names[output].empty()) continue;
-      const auto is_taken = [&](const std::string& taken) { return taken == names[output]; };
-      if (std::any_of(plant.state_names.begin(), plant.state_names.end(), is_taken) ||
-          std::any_of(biases.begin(), biases.end(),
-                      [&](const BiasState& bias) { return is_taken(bias.name); })) {
-        throw section.error("bias", "names that no other state has", "'" + names[output] + "'");
-      }
-      biases.push_back({names[output], plant.sensors.size(), static_cast<Eigen::Index>(output)});
-    }
-  }
-  plant.sensors.push_back(std::move(sensor));
+Integration read_integration(ConfigSection& plant) {
+  Integration integration;
+  if (!plant.has("integration")) return integration;
+  ConfigSection section = plant.section("integration");
+  const double step = section.number_in("step", 1e-9, 1e3, to_seconds(integration.step));
+  integration.step = from_seconds(step);
+  integration.horizon = from_seconds(section.number_in("horizon", step, 1e9, 1e5 * step));
+  section.finish();
+  return integration;
 }
 
-std::vector<std::string> sorted_sensor_names(const ConfigSection& sensors) {
+int read_label(const ConfigSection& modes, const std::string& key) {
+  const bool digits = !key.empty() && key.size() < 10 &&
+                      std::all_of(key.begin(), key.end(), [](char c) { return '0' <= c && c <= '9'; });
+  if (!digits) throw modes.error(key, "a whole number as label of the mode", "'" + key + "'");
+  return std::stoi(key);
+}
+
+SensorTiming read_timing(ConfigSection& sensor) {
+  if (!sensor.has("measured")) return SensorTiming::kSampled;
+  const std::string timing = sensor.choice("measured", {"sampled", "continuous", "at_jumps"});
+  if (timing == "continuous") return SensorTiming::kContinuous;
+  return timing == "at_jumps" ? SensorTiming::kAtJumps : SensorTiming::kSampled;
+}
+
+std::vector<std::string> sorted_keys(const ConfigSection& section) {
   // The parameter server knows no order of keys, so the file's order can't count.
-  std::vector<std::string> names = sensors.keys();
+  std::vector<std::string> names = section.keys();
   std::sort(names.begin(), names.end());
   return names;
 }
 
+class PlantReader {
+ public:
+  PlantReader(ConfigSection& root, const PlantPluginLoader& load_plugin)
+      : section_(root.section("plant")), sensors_(root.section("sensors")) {
+    names_.constants = read_constants(section_, "parameters");
+    if (section_.has("plugin")) {
+      read_plugin(load_plugin);
+    } else {
+      names_.x = read_names(section_, "states");
+      if (section_.has("inputs") || section_.has("B")) names_.u = read_names(section_, "inputs");
+      read_modes();
+    }
+    plant_.state_names = names_.x;
+    plant_.input_names = names_.u;
+    plant_.integration = read_integration(section_);
+    section_.finish();
+    if (sensors_.keys().empty()) throw root.error("sensors", "at least one sensor", "none");
+    for (const std::string& name : sorted_keys(sensors_)) read_sensor(name);
+    check_outputs_of_modes();
+  }
+
+  PlantConfig finish() {
+    PlantDescription extended = with_bias_states(std::move(plant_), biases_);
+    names_.x = extended.state_names;
+    return {std::make_shared<const Plant>(std::move(extended)), std::move(names_)};
+  }
+
+ private:
+  void read_plugin(const PlantPluginLoader& load_plugin) {
+    const std::string type = section_.text("plugin");
+    try {
+      const std::map<std::string, double> parameters(names_.constants.begin(),
+                                                     names_.constants.end());
+      compiled_ = load_plugin(type)->build(parameters);
+    } catch (const std::exception& fault) {
+      throw section_.error("plugin", "a plant that can be built", "'" + type + "': " + fault.what());
+    }
+    names_.x = compiled_.state_names;
+    names_.u = compiled_.input_names;
+    PlantMode mode;
+    mode.flow = compiled_.flow;
+    mode.jump = compiled_.jump;
+    plant_.modes.push_back(std::move(mode));
+  }
+
+  void read_modes() {
+    if (!section_.has("modes")) {
+      PlantMode mode;
+      mode.flow = read_flow_map(section_, names_);
+      mode.jump = read_jump_map(section_, names_);
+      plant_.modes.push_back(std::move(mode));
+      return;
+    }
+    ConfigSection modes = section_.section("modes");
+    std::map<int, std::string> keys;
+    for (const std::string& key : modes.keys()) keys.emplace(read_label(modes, key), key);
+    if (keys.empty()) throw section_.error("modes", "at least one mode", "none");
+    for (const auto& [label, key] : keys) {
+      PlantMode mode;
+      mode.label = label;
+      ConfigSection section = modes.section(key);
+      mode.flow = read_flow_map(section, names_);
+      mode.jump = read_jump_map(section, names_);
+      outputs_of_modes_.push_back(section.section_or_empty("outputs"));
+      section.finish();
+      plant_.modes.push_back(std::move(mode));
+    }
+    modes.finish();
+  }
+
+  void read_sensor(const std::string& name) {
+    ConfigSection section = sensors_.section(name);
+    const std::shared_ptr<const VectorMap> map = read_output(section);
+    Sensor sensor;
+    sensor.name = name;
+    sensor.timing = read_timing(section);
+    const auto outputs = static_cast<std::size_t>(map->size());
+    sensor.angular = section.has("angular") ? section.flags("angular", outputs)
+                                            : std::vector<bool>(outputs, false);
+    read_biases(section, outputs);
+    for (std::size_t mode = 0; mode < plant_.modes.size(); ++mode) {
+      plant_.modes[mode].outputs.push_back(output_in_mode(mode, name, map));
+    }
+    plant_.sensors.push_back(std::move(sensor));
+  }
+
+  std::shared_ptr<const VectorMap> read_output(ConfigSection& section) {
+    if (!section.has("output") || compiled_.flow == nullptr) {
+      return read_output_map(section, names_);
+    }
+    std::vector<std::string> known;
+    for (const auto& output : compiled_.outputs) known.push_back(output.first);
+    return compiled_.outputs.at(section.choice("output", known));
+  }
+
+  std::shared_ptr<const VectorMap> output_in_mode(std::size_t mode, const std::string& name,
+                                                  const std::shared_ptr<const VectorMap>& map) {
+    if (outputs_of_modes_.empty() || !outputs_of_modes_[mode].has(name)) return map;
+    ConfigSection section = outputs_of_modes_[mode].section(name);
+    std::shared_ptr<const VectorMap> own = read_output_map(section, names_);
+    section.finish();
+    if (own->size() != map->size()) {
+      throw outputs_of_modes_[mode].error(name, std::to_string(map->size()) + " outputs",
+                                          std::to_string(own->size()));
+    }
+    return own;
+  }
+
+  void read_biases(ConfigSection& section, std::size_t outputs) {
+    if (!section.has("bias")) return;
+    const std::vector<std::string> names = section.texts("bias", outputs);
+    for (std::size_t output = 0; output < outputs; ++output) {
+      if (names[output].empty()) continue;
+      const auto is_taken = [&](const std::string& taken) { return taken == names[output]; };
+      if (std::any_of(plant_.state_names.begin(), plant_.state_names.end(), is_taken) ||
+          std::any_of(biases_.begin(), biases_.end(),
+                      [&](const BiasState& bias) { return is_taken(bias.name); })) {
+        throw section.error("bias", "names that no other state has", "'" + names[output] + "'");
+      }
+      biases_.push_back({names[output], plant_.sensors.size(), static_cast<Eigen::Index>(output)});
+    }
+  }
+
+  void check_outputs_of_modes() const {
+    for (const ConfigSection& outputs : outputs_of_modes_) outputs.finish();
+  }
+
+  ConfigSection section_;
+  ConfigSection sensors_;
+  ExpressionNames names_;
+  PlantDescription plant_;
+  CompiledPlant compiled_;
+  std::vector<ConfigSection> outputs_of_modes_;
+  std::vector<BiasState> biases_;
+};
+
 }  // namespace
 
-std::shared_ptr<const LinearPlant> read_linear_plant(ConfigSection& root) {
-  ConfigSection section = root.section("plant");
-  LinearPlantDescription plant;
-  plant.state_names = read_names(section, "states");
-  const auto n = static_cast<Eigen::Index>(plant.state_names.size());
-  plant.A = section.matrix("A", n, n);
-  plant.B = Eigen::MatrixXd::Zero(n, 0);
-  if (section.has("inputs") || section.has("B")) {
-    plant.input_names = read_names(section, "inputs");
-    plant.B = section.matrix("B", n, static_cast<Eigen::Index>(plant.input_names.size()));
-  }
-  if (section.has("jump_map")) {
-    ConfigSection jump_map = section.section("jump_map");
-    plant.jump_map = AffineJumpMap{jump_map.matrix("A_d", n, n), Eigen::VectorXd::Zero(n)};
-    if (jump_map.has("b_d")) plant.jump_map->b_d = jump_map.vector("b_d", n);
-    jump_map.finish();
-  }
-  section.finish();
-
-  ConfigSection sensors = root.section("sensors");
-  const std::vector<std::string> names = sorted_sensor_names(sensors);
-  if (names.empty()) throw root.error("sensors", "at least one sensor", "none");
-  std::vector<BiasState> biases;
-  for (const std::string& name : names) {
-    read_sensor(sensors.section(name), name, plant, biases);
-  }
-  return std::make_shared<const LinearPlant>(with_bias_states(std::move(plant), biases));
+PlantConfig read_plant(ConfigSection& root, const PlantPluginLoader& load_plugin) {
+  return PlantReader(root, load_plugin).finish();
 }
 
 }  // namespace sampled_data_observers

@@ -1,6 +1,7 @@
 #include "sampled_data_observers/hybrid/timeline.h"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
 #include <utility>
@@ -21,12 +22,6 @@ bool is_usable(const Timeline::ConstStateRef& state) {
   return state.allFinite() && state.cwiseAbs().maxCoeff() <= kLargest;
 }
 
-std::size_t sample_channels(const HybridSystem& system) {
-  int channels = 0;
-  while (system.event_size(EventKind::kSample, channels) >= 0) ++channels;
-  return static_cast<std::size_t>(channels);
-}
-
 }  // namespace
 
 Timeline::Timeline(std::shared_ptr<const HybridSystem> system, Limits limits)
@@ -38,8 +33,9 @@ Timeline::Timeline(std::shared_ptr<const HybridSystem> system, Limits limits)
       states_(system_->state_size(), static_cast<Eigen::Index>(slots_.size())),
       order_(slots_.size()),
       base_state_(system_->state_size()),
-      base_samples_(sample_channels(*system_)),
+      base_samples_(system_->sensors()),
       workspace_(system_->workspace_size()) {
+  cursor_.state.resize(system_->state_size());
   std::iota(order_.begin(), order_.end(), std::size_t{0});
   for (std::size_t i = 0; i < slots_.size(); ++i) {
     slots_[i].event.values = values_.col(static_cast<Eigen::Index>(i)).data();
@@ -62,7 +58,7 @@ Timeline::InsertReport Timeline::insert(const Event& event) {
   report.rewound = size_ - position;
   report.insertion = report.rewound == 0 ? Insertion::kAppended : Insertion::kRewound;
   open_position(position, event);
-  report.effective = apply(position);
+  report.effect = apply(position);
   for (std::size_t later = position + 1; later < size_; ++later) apply(later);
 
   const Stamp horizon = slot(size_ - 1).event.stamp - limits_.history;
@@ -74,21 +70,19 @@ Timeline::Query Timeline::state_at(Stamp stamp, StateRef state, EventCounts& cou
   std::size_t position = size_;
   while (position > 0 && slot(position - 1).event.stamp > stamp) --position;
 
-  Stamp from = stamp;
   if (position > 0) {
-    from = slot(position - 1).event.stamp;
     state = state_after(position - 1);
     counts = slot(position - 1).counts;
+    flow_from(order(position - 1), stamp - slot(position - 1).event.stamp, state);
   } else if (!base_stamp_) {
     return size_ == 0 ? Query::kNoEvent : Query::kBeforeStart;
   } else if (*base_stamp_ > stamp) {
     return base_is_restart_ ? Query::kBeforeStart : Query::kBeforeWindow;
   } else {
-    from = *base_stamp_;
     state = base_state_;
     counts = base_counts_;
+    flow_from(base_origin(), stamp - *base_stamp_, state);
   }
-  system_->flow(stamp - from, state.data(), workspace_.data());
   if (is_usable(state)) return Query::kOk;
   if (position > 0) {
     state = state_after(position - 1);
@@ -101,6 +95,7 @@ Timeline::Query Timeline::state_at(Stamp stamp, StateRef state, EventCounts& cou
 void Timeline::restart(Stamp stamp, ConstStateRef state) {
   first_ = 0;
   size_ = 0;
+  cursor_.origin.reset();
   base_stamp_ = stamp;
   base_is_restart_ = true;
   base_counts_ = EventCounts{};
@@ -132,25 +127,43 @@ void Timeline::open_position(std::size_t position, const Event& event) {
   for (std::size_t i = size_; i > position; --i) order(i) = order(i - 1);
   order(position) = free_slot;
   ++size_;
+  if (cursor_.origin == free_slot) cursor_.origin.reset();
   const double* values = slots_[free_slot].event.values;
   values_.col(static_cast<Eigen::Index>(free_slot)).head(event.size) = event.vector();
   slots_[free_slot].event = event;
   slots_[free_slot].event.values = values;
 }
 
+/// Carries `state`, which holds after the event in slot `origin`, over `duration`.
+void Timeline::flow_from(std::size_t origin, Duration duration, StateRef state) const {
+  const Duration step = system_->flow_step();
+  if (duration > system_->flow_horizon()) {
+    state.setConstant(std::numeric_limits<double>::quiet_NaN());
+    return;
+  }
+  if (step == 0 || duration < step) {
+    system_->flow(duration, state.data(), workspace_.data());
+    return;
+  }
+  const Duration whole = duration - duration % step;
+  if (cursor_.origin != origin || cursor_.reached > whole) {
+    cursor_.origin = origin;
+    cursor_.reached = 0;
+    cursor_.state = state;
+  }
+  system_->flow(whole - cursor_.reached, cursor_.state.data(), workspace_.data());
+  cursor_.reached = whole;
+  state = cursor_.state;
+  system_->flow(duration - whole, state.data(), workspace_.data());
+}
+
 /// Computes the state after the event at `position` from what stands before it.
-/// Returns false when its reset was skipped as not finite.
-bool Timeline::apply(std::size_t position) {
+Timeline::Effect Timeline::apply(std::size_t position) {
   Slot& current = slots_[order(position)];
+  if (cursor_.origin == order(position)) cursor_.origin.reset();
   auto state = state_after(position);
   const bool is_first = position == 0;
   const Stamp now = current.event.stamp;
-  Stamp from = now;
-  if (!is_first) {
-    from = slot(position - 1).event.stamp;
-  } else if (base_stamp_) {
-    from = *base_stamp_;
-  }
   const auto restore = [&] {
     if (is_first) {
       state = base_state_;
@@ -158,25 +171,32 @@ bool Timeline::apply(std::size_t position) {
       state = state_after(position - 1);
     }
   };
+  const auto flow = [&] {
+    if (!is_first) {
+      flow_from(order(position - 1), now - slot(position - 1).event.stamp, state);
+    } else if (base_stamp_) {
+      flow_from(base_origin(), now - *base_stamp_, state);
+    }
+  };
   current.counts = is_first ? base_counts_ : slot(position - 1).counts;
   ++current.counts.events;
 
   restore();
-  system_->flow(now - from, state.data(), workspace_.data());
+  flow();
   const bool flow_is_finite = is_usable(state);
   if (!flow_is_finite) restore();
-  system_->reset(current.event, state.data(), workspace_.data());
+  if (!system_->reset(current.event, state.data(), workspace_.data())) return Effect::kRefused;
   if (!is_usable(state)) {
     restore();
-    if (flow_is_finite) system_->flow(now - from, state.data(), workspace_.data());
-    return false;
+    if (flow_is_finite) flow();
+    return Effect::kNotFinite;
   }
   if (current.event.kind == EventKind::kJump) ++current.counts.jumps;
   if (current.event.kind == EventKind::kSample) {
     ++current.counts.samples;
     current.counts.last_sample = now;
   }
-  return true;
+  return Effect::kApplied;
 }
 
 void Timeline::forget_oldest() {
@@ -184,6 +204,7 @@ void Timeline::forget_oldest() {
   if (oldest.kind == EventKind::kSample) {
     base_samples_[static_cast<std::size_t>(oldest.channel)] = oldest.stamp;
   }
+  if (cursor_.origin == base_origin()) cursor_.origin.reset();
   base_stamp_ = slot(0).event.stamp;
   base_is_restart_ = false;
   base_counts_ = slot(0).counts;

@@ -1,5 +1,6 @@
 #include "sampled_data_observers/observer/estimator.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -22,7 +23,14 @@ EventOutcome outcome_of(const Timeline::InsertReport& report) {
     case Timeline::Insertion::kRewound:
       break;
   }
-  if (!report.effective) return EventOutcome::kWouldOverflow;
+  switch (report.effect) {
+    case Timeline::Effect::kNotFinite:
+      return EventOutcome::kWouldOverflow;
+    case Timeline::Effect::kRefused:
+      return EventOutcome::kTooFrequent;
+    case Timeline::Effect::kApplied:
+      break;
+  }
   return report.insertion == Timeline::Insertion::kAppended ? EventOutcome::kUsed
                                                             : EventOutcome::kUsedLate;
 }
@@ -52,7 +60,10 @@ std::optional<EventOutcome> Estimator::objection(const Event& event, Stamp now) 
   if (event.stamp <= 0) return EventOutcome::kNoStamp;
   if (event.size != law_->event_size(event.kind, event.channel)) return EventOutcome::kWrongSize;
   if (!is_admissible(event.vector())) return EventOutcome::kNotFinite;
-  if (event.stamp - now > options_.future_tolerance) return EventOutcome::kInFuture;
+  if (!law_->knows_mode(event)) return EventOutcome::kUnknownMode;
+  if (std::max(event.stamp, event.release) - now > options_.future_tolerance) {
+    return EventOutcome::kInFuture;
+  }
   return std::nullopt;
 }
 
@@ -65,11 +76,19 @@ EventReport Estimator::submit(const Event& event, Stamp now) {
   const Timeline::InsertReport inserted = timeline_.insert(event);
   report.outcome = outcome_of(inserted);
   report.rewound = inserted.rewound;
+  if (report.used() && event.kind == EventKind::kJump && law_->delays_jumps()) {
+    insert_release(event.stamp, std::max(event.stamp, event.release > 0 ? event.release : now));
+  }
   if (report.used() && event.kind == EventKind::kSample && inserted.previous_sample) {
     report.interval = event.stamp - *inserted.previous_sample;
     report.interval_check = check(*report.interval, options_.sampling);
   }
   return report;
+}
+
+void Estimator::insert_release(Stamp jump, Stamp release) {
+  const auto delay = static_cast<double>(release - jump);
+  timeline_.insert({release, EventKind::kRelease, 0, &delay, 1});
 }
 
 Timeline::Query Estimator::estimate_at(Stamp stamp, Estimate& estimate) const {
@@ -89,7 +108,8 @@ void Estimator::prepare_restart(Stamp stamp) {
   law_->initialize(restart_state_.data());
   const Timeline::Query query = estimate_at(stamp, before_restart_);
   if (query == Timeline::Query::kOk || query == Timeline::Query::kHeld) {
-    law_->keep_input(before_restart_.state.data(), restart_state_.data());
+    law_->keep_held(before_restart_.state.data(), restart_state_.data());
+    law_->keep_mode(before_restart_.state.data(), restart_state_.data());
   }
 }
 
@@ -100,7 +120,7 @@ void Estimator::restart(Stamp stamp) {
 
 void Estimator::restart(Stamp stamp, Timeline::ConstStateRef estimate) {
   prepare_restart(stamp);
-  restart_state_.head(law_->estimate_size()) = estimate;
+  law_->start_from(estimate.data(), restart_state_.data());
   timeline_.restart(stamp, restart_state_);
 }
 

@@ -16,21 +16,37 @@ std::optional<double> root_mean(double squares, std::size_t size) {
   return std::sqrt(squares / static_cast<double>(size));
 }
 
-}  // namespace
-
-bool measures(const Sensor& sensor, Eigen::Index output, const Quantity& quantity) {
-  return sensor.C.row(output).transpose() == quantity.row;
+/// The row of C, where a sensor has one that holds in every mode.
+std::optional<Eigen::VectorXd> output_row(const Plant& plant, std::size_t sensor,
+                                          Eigen::Index output) {
+  std::optional<Eigen::VectorXd> row;
+  for (const PlantMode& mode : plant.modes()) {
+    const AffineMap* map = mode.outputs[sensor]->affine();
+    if (map == nullptr || map->c()(output) != 0.0 || !map->N().isZero(0.0)) return std::nullopt;
+    if (row && *row != map->M().row(output).transpose()) return std::nullopt;
+    row = map->M().row(output).transpose();
+  }
+  return row;
 }
 
-std::optional<Quantity> state_quantity(const LinearPlant& plant, const std::string& name) {
-  const std::vector<std::string>& names = plant.description().state_names;
+}  // namespace
+
+bool measures(const Plant& plant, std::size_t sensor, Eigen::Index output,
+              const Quantity& quantity) {
+  const std::optional<Eigen::VectorXd> row = output_row(plant, sensor, output);
+  return row && *row == quantity.row;
+}
+
+std::optional<Quantity> state_quantity(const Plant& plant, const std::string& name) {
+  const std::vector<std::string>& names = plant.state_names();
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end()) return std::nullopt;
   Quantity quantity{name, Eigen::VectorXd::Zero(plant.states()), false};
   quantity.row(found - names.begin()) = 1.0;
-  for (const Sensor& sensor : plant.sensors()) {
-    for (Eigen::Index output = 0; output < sensor.C.rows(); ++output) {
-      if (measures(sensor, output, quantity)) {
+  for (std::size_t i = 0; i < plant.sensors().size(); ++i) {
+    const Sensor& sensor = plant.sensors()[i];
+    for (Eigen::Index output = 0; output < sensor.outputs(); ++output) {
+      if (measures(plant, i, output, quantity)) {
         quantity.angular = quantity.angular || sensor.angular[static_cast<std::size_t>(output)];
       }
     }
@@ -38,27 +54,29 @@ std::optional<Quantity> state_quantity(const LinearPlant& plant, const std::stri
   return quantity;
 }
 
-Quantity output_quantity(const LinearPlant& plant, std::size_t sensor, Eigen::Index output) {
-  const Sensor& description = plant.sensors()[sensor];
-  for (const std::string& state : plant.description().state_names) {
+std::optional<Quantity> output_quantity(const Plant& plant, std::size_t sensor,
+                                        Eigen::Index output) {
+  const std::optional<Eigen::VectorXd> row = output_row(plant, sensor, output);
+  if (!row) return std::nullopt;
+  for (const std::string& state : plant.state_names()) {
     const std::optional<Quantity> quantity = state_quantity(plant, state);
-    if (measures(description, output, *quantity)) return *quantity;
+    if (measures(plant, sensor, output, *quantity)) return quantity;
   }
-  return {description.name + "[" + std::to_string(output) + "]",
-          description.C.row(output).transpose(),
-          description.angular[static_cast<std::size_t>(output)]};
+  const Sensor& description = plant.sensors()[sensor];
+  return Quantity{description.name + "[" + std::to_string(output) + "]", *row,
+                  description.angular[static_cast<std::size_t>(output)]};
 }
 
-Comparison::Comparison(std::vector<Quantity> quantities, const LinearPlant& plant)
+Comparison::Comparison(std::vector<Quantity> quantities, std::shared_ptr<const Plant> plant)
     : quantities_(std::move(quantities)),
-      sensors_(plant.sensors()),
+      plant_(std::move(plant)),
       held_(quantities_.size()),
       squares_(quantities_.size(), 0.0),
       hold_squares_(quantities_.size(), 0.0) {
   for (std::size_t i = 0; i < quantities_.size(); ++i) {
-    for (const Sensor& sensor : sensors_) {
-      for (Eigen::Index output = 0; output < sensor.C.rows(); ++output) {
-        if (measures(sensor, output, quantities_[i])) held_[i].is_measured = true;
+    for (std::size_t sensor = 0; sensor < plant_->sensors().size(); ++sensor) {
+      for (Eigen::Index output = 0; output < plant_->sensors()[sensor].outputs(); ++output) {
+        if (measures(*plant_, sensor, output, quantities_[i])) held_[i].is_measured = true;
       }
     }
   }
@@ -67,8 +85,8 @@ Comparison::Comparison(std::vector<Quantity> quantities, const LinearPlant& plan
 void Comparison::add_sample(std::size_t sensor, Stamp stamp, const double* values) {
   for (std::size_t i = 0; i < quantities_.size(); ++i) {
     Held& held = held_[i];
-    for (Eigen::Index output = 0; output < sensors_[sensor].C.rows(); ++output) {
-      if (!measures(sensors_[sensor], output, quantities_[i])) continue;
+    for (Eigen::Index output = 0; output < plant_->sensors()[sensor].outputs(); ++output) {
+      if (!measures(*plant_, sensor, output, quantities_[i])) continue;
       if (held.value && stamp < held.stamp) continue;
       held.value = values[output];
       held.stamp = stamp;

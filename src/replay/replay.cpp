@@ -32,7 +32,7 @@ class Replay {
     } else if (options.thinning) {
       truth_ = truth_from_samples(config, channels_);
     }
-    comparison_.emplace(truth_.quantities, *config.plant);
+    comparison_.emplace(truth_.quantities, config.plant);
     plotted_ = truth_.quantities;
     if (plotted_.empty()) {
       for (const std::string& state : config.law->estimate_names()) {
@@ -228,10 +228,9 @@ class Replay {
 
   void plot_sample(std::size_t sensor, const Event& event) {
     summary_.sample_times.push_back(plot_time(event.stamp));
-    const Sensor& description = config_.plant->sensors()[sensor];
     for (std::size_t i = 0; i < summary_.plots.size(); ++i) {
       for (Eigen::Index output = 0; output < event.size; ++output) {
-        if (measures(description, output, plotted_[i])) {
+        if (measures(*config_.plant, sensor, output, plotted_[i])) {
           plot(summary_.plots[i].samples, event.stamp, event.values[output]);
         }
       }

@@ -13,21 +13,21 @@
 namespace sampled_data_observers {
 namespace {
 
-Quantity quantity_of(const LinearPlant& plant, const std::string& state) {
+Quantity quantity_of(const Plant& plant, const std::string& state) {
   const std::optional<Quantity> quantity = state_quantity(plant, state);
   if (quantity) return *quantity;
   std::string known;
-  for (const std::string& name : plant.description().state_names) known += " " + name;
+  for (const std::string& name : plant.state_names()) known += " " + name;
   throw ReplayError("--compare: expected states of the plant (" + known.substr(1) + "), found '" +
                     state + "'");
 }
 
-Truth truth_from_states(const LinearPlant& plant,
+Truth truth_from_states(const Plant& plant,
                         const std::map<std::string, std::string>& fields) {
   Truth truth;
   std::vector<std::string> sources;
   if (fields.empty()) {
-    for (const std::string& state : plant.description().state_names) {
+    for (const std::string& state : plant.state_names()) {
       truth.quantities.push_back(quantity_of(plant, state));
       sources.push_back(state);
     }
@@ -55,7 +55,7 @@ Truth truth_from_states(const LinearPlant& plant,
   return truth;
 }
 
-Truth truth_from_fields(const LinearPlant& plant, const std::string& type,
+Truth truth_from_fields(const Plant& plant, const std::string& type,
                         const std::map<std::string, std::string>& fields) {
   Truth truth;
   TopicSource source;
@@ -112,8 +112,13 @@ Truth truth_from_samples(const ObserverConfig& config, const std::vector<BagChan
   const BagChannel& bound = channels.front();
   Truth truth;
   truth.topic = bound.topic;
-  for (Eigen::Index output = 0; output < config.plant->sensors().front().C.rows(); ++output) {
-    Quantity quantity = output_quantity(*config.plant, 0, output);
+  for (Eigen::Index output = 0; output < config.plant->sensors().front().outputs(); ++output) {
+    std::optional<Quantity> found = output_quantity(*config.plant, 0, output);
+    if (!found) {
+      throw ReplayError("samples of an output map that is not linear can't be the truth: name a "
+                        "topic with --truth");
+    }
+    Quantity quantity = std::move(*found);
     for (const Quantity& other : truth.quantities) {
       if (other.name == quantity.name) quantity.name += "[" + std::to_string(output) + "]";
     }

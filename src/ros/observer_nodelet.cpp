@@ -4,6 +4,7 @@
 
 #include "sampled_data_observers/ros/message_types.h"
 #include "sampled_data_observers/ros/parameter_tree.h"
+#include "sampled_data_observers/ros/plant_plugins.h"
 #include "sampled_data_observers/ros/time_conversion.h"
 #include "sampled_data_observers/ros/value_reader.h"
 
@@ -18,7 +19,8 @@ constexpr std::size_t kPoolSize = 16;
 
 void ObserverNodelet::onInit() {
   try {
-    const ObserverConfig config = read_observer_config(read_parameter_tree(getPrivateNodeHandle()));
+    const ObserverConfig config = read_observer_config(
+        read_parameter_tree(getPrivateNodeHandle()), load_plant_plugin);
     if (config.type != type_) {
       throw ConfigError("parameters of " + getPrivateNodeHandle().getNamespace(), "observer",
                         type_ + " (this nodelet's type)", config.type);

@@ -13,6 +13,7 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 }  // namespace
 
 static_assert(EventStatus::INPUT == static_cast<int>(EventKind::kInput));
+static_assert(EventStatus::OUTPUT == static_cast<int>(EventKind::kOutput));
 static_assert(EventStatus::JUMP == static_cast<int>(EventKind::kJump));
 static_assert(EventStatus::SAMPLE == static_cast<int>(EventKind::kSample));
 static_assert(EventStatus::USED == static_cast<int>(EventOutcome::kUsed));
@@ -24,6 +25,8 @@ static_assert(EventStatus::NO_STAMP == static_cast<int>(EventOutcome::kNoStamp))
 static_assert(EventStatus::WRONG_SIZE == static_cast<int>(EventOutcome::kWrongSize));
 static_assert(EventStatus::NOT_FINITE == static_cast<int>(EventOutcome::kNotFinite));
 static_assert(EventStatus::WOULD_OVERFLOW == static_cast<int>(EventOutcome::kWouldOverflow));
+static_assert(EventStatus::UNKNOWN_MODE == static_cast<int>(EventOutcome::kUnknownMode));
+static_assert(EventStatus::TOO_FREQUENT == static_cast<int>(EventOutcome::kTooFrequent));
 static_assert(EventStatus::INTERVAL_NONE == static_cast<int>(IntervalCheck::kNone));
 static_assert(EventStatus::INTERVAL_WITHIN == static_cast<int>(IntervalCheck::kWithin));
 static_assert(EventStatus::INTERVAL_SHORT == static_cast<int>(IntervalCheck::kShort));
@@ -49,6 +52,10 @@ const char* describe(EventOutcome outcome) {
       return "a value is not finite, or beyond 1e100";
     case EventOutcome::kWouldOverflow:
       return "the estimate would overflow";
+    case EventOutcome::kUnknownMode:
+      return "a mode that the plant does not have";
+    case EventOutcome::kTooFrequent:
+      return "jumps faster than jumps/min_separation or max_per_second allow";
   }
   return "";
 }
@@ -56,8 +63,11 @@ const char* describe(EventOutcome outcome) {
 std::vector<EventChannel> event_channels(const ObserverConfig& config) {
   std::vector<EventChannel> channels;
   for (std::size_t i = 0; i < config.sensors.size(); ++i) {
-    channels.push_back({EventKind::kSample, static_cast<int>(i), config.plant->sensors()[i].name,
-                        config.sensors[i]});
+    if (!config.sensors[i]) continue;
+    const Sensor& sensor = config.plant->sensors()[i];
+    const EventKind kind = sensor.timing == SensorTiming::kContinuous ? EventKind::kOutput
+                                                                      : EventKind::kSample;
+    channels.push_back({kind, static_cast<int>(i), sensor.name, *config.sensors[i]});
   }
   if (config.input) channels.push_back({EventKind::kInput, 0, "input", *config.input});
   if (config.jumps) channels.push_back({EventKind::kJump, 0, "jumps", *config.jumps});
@@ -141,6 +151,8 @@ void ObserverRuntime::write(const Estimate& estimate, StateEstimate& message) co
   message.header.frame_id = config_.frame_id;
   message.names = estimator_.law().estimate_names();
   message.state.assign(estimate.state.data(), estimate.state.data() + size);
+  const double* covariance = estimator_.law().covariance(estimate.state.data());
+  if (covariance != nullptr) message.covariance.assign(covariance, covariance + size * size);
   message.time_since_sample = estimate.counts.last_sample
                                   ? to_seconds(estimate.stamp - *estimate.counts.last_sample)
                                   : kNone;

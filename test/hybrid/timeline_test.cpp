@@ -241,7 +241,7 @@ TEST_F(TimelineTest, WhatWouldOverflowIsSkippedAndTheEstimateStaysFinite) {
   const OwnedEvent bad{kStart + kSecond, EventKind::kSample, 1, {kHuge, -kHuge}};
   const OwnedEvent worse{kStart + kSecond + 1, EventKind::kSample, 0, {-kHuge}};
   timeline.insert(bad.view());
-  EXPECT_FALSE(timeline.insert(worse.view()).effective);
+  EXPECT_EQ(Timeline::Effect::kNotFinite, timeline.insert(worse.view()).effect);
   const Snapshot after = snapshot(timeline, *law_, kStart + kSecond + 1);
   for (const double value : after.state) EXPECT_TRUE(std::isfinite(value));
   EXPECT_EQ(before.events + 2, after.events);
@@ -255,15 +255,15 @@ TEST_F(TimelineTest, AnOverflowingFlowHoldsTheLastFiniteState) {
   plant.B = Eigen::MatrixXd::Zero(1, 0);
   plant.sensors = {{"s", Eigen::MatrixXd::Identity(1, 1), {false}}};
   const auto law = std::make_shared<const ConstantGainObserver>(
-      std::make_shared<const LinearPlant>(plant),
-      std::vector<Eigen::MatrixXd>{Eigen::MatrixXd::Identity(1, 1)}, Eigen::VectorXd::Zero(1),
-      Eigen::VectorXd::Zero(0));
+      ObserverContext{make_linear_plant(plant), Eigen::VectorXd::Zero(1), Eigen::VectorXd::Zero(0)},
+      std::vector<Eigen::MatrixXd>{Eigen::MatrixXd::Identity(1, 1)});
   Timeline timeline(law, {kSecond, 10});
   timeline.insert(sample(kStart, 2.0).view());
   const Snapshot held = snapshot(timeline, *law, kStart + 100 * kSecond);
   EXPECT_EQ(Timeline::Query::kHeld, held.query);
   EXPECT_EQ(2.0, held.state.front());
-  EXPECT_TRUE(timeline.insert(sample(kStart + 100 * kSecond, 3.0).view()).effective);
+  EXPECT_EQ(Timeline::Effect::kApplied,
+            timeline.insert(sample(kStart + 100 * kSecond, 3.0).view()).effect);
   const Snapshot recovered = snapshot(timeline, *law, kStart + 100 * kSecond);
   EXPECT_EQ(Timeline::Query::kOk, recovered.query);
   EXPECT_EQ(3.0, recovered.state.front());

@@ -8,6 +8,7 @@
 
 #include "sampled_data_observers/hybrid/event.h"
 #include "sampled_data_observers/observer/constant_gain_observer.h"
+#include "sampled_data_observers/plant/linear_plant.h"
 
 namespace sampled_data_observers::test {
 
@@ -46,8 +47,9 @@ inline std::shared_ptr<const ConstantGainObserver> example_law() {
   Eigen::MatrixXd L_pose(3, 2);
   L_pose << 0.3, 0.0, 0.2, 0.1, 0.0, 0.7;
   return std::make_shared<const ConstantGainObserver>(
-      std::make_shared<const LinearPlant>(plant), std::vector<Eigen::MatrixXd>{L_position, L_pose},
-      Eigen::Vector3d(0.3, -0.2, 3.0), Eigen::Vector2d(0.1, 0.0));
+      ObserverContext{make_linear_plant(plant), Eigen::Vector3d(0.3, -0.2, 3.0),
+                      Eigen::Vector2d(0.1, 0.0)},
+      std::vector<Eigen::MatrixXd>{L_position, L_pose});
 }
 
 /// `size` events for example_law() in [start, start + span], some with equal stamps, no two equal.

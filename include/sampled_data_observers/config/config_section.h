@@ -4,6 +4,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sampled_data_observers/config/config_node.h"
@@ -40,6 +41,11 @@ class ConfigSection {
 
   /// A matrix as nested lists, row by row. A negative size is free.
   Eigen::MatrixXd matrix(const std::string& key, Eigen::Index rows, Eigen::Index cols);
+  /// Names and texts in order, as a list of maps of one key each.
+  std::vector<std::pair<std::string, std::string>> named_texts(const std::string& key);
+  /// A matrix of texts, as nested lists, row by row.
+  std::vector<std::vector<std::string>> text_matrix(const std::string& key, std::size_t rows,
+                                                    std::size_t cols);
   /// A list of `size` finite numbers.
   Eigen::VectorXd vector(const std::string& key, Eigen::Index size);
 
@@ -47,6 +53,8 @@ class ConfigSection {
   /// A map whose keys are names that the user chose.
   std::vector<std::string> keys() const;
   bool is_map(const std::string& key);
+  /// A section that has no keys where the key is missing.
+  ConfigSection section_or_empty(const std::string& key);
 
   /// @throws ConfigError for a key that was never asked for.
   void finish() const;

@@ -8,7 +8,8 @@
 #include "sampled_data_observers/config/config_node.h"
 #include "sampled_data_observers/observer/estimator.h"
 #include "sampled_data_observers/observer/observer_law.h"
-#include "sampled_data_observers/plant/linear_plant.h"
+#include "sampled_data_observers/config/plant_config.h"
+#include "sampled_data_observers/plant/plant.h"
 
 namespace sampled_data_observers {
 
@@ -21,8 +22,10 @@ struct TopicSource {
   /// One field path per value, such as "pose.position.x"; empty for types that carry the values in
   /// order themselves.
   std::vector<std::string> fields;
-  /// Number of values.
+  /// Number of values. A jump event may also carry none.
   std::size_t size = 0;
+  /// Whether a jump event carries the mode that follows.
+  bool has_mode = false;
   /// Where the configuration says so, for messages about it.
   std::string origin;
   std::string path;
@@ -32,26 +35,32 @@ struct TopicSource {
 struct ObserverConfig {
   /// Observer type, such as "ConstantGainObserver".
   std::string type;
-  std::shared_ptr<const LinearPlant> plant;
+  std::shared_ptr<const Plant> plant;
   std::shared_ptr<const ObserverLaw> law;
   Estimator::Options options;
   /// Period of the published estimates, and how long after its stamp each is computed [ns].
   Duration period = 0;
   Duration publish_delay = 0;
   std::string frame_id;
-  /// One per sensor, in the order of the plant's sensors.
-  std::vector<TopicSource> sensors;
+  /// One per sensor, in the order of the plant's sensors. Empty for a sensor that measures at jumps
+  /// and whose outputs the jump events carry.
+  std::vector<std::optional<TopicSource>> sensors;
   /// Set when the plant has inputs.
   std::optional<TopicSource> input;
-  /// Set when the plant has a jump map.
+  /// Set when the plant jumps; its size is the number of outputs measured at jumps.
   std::optional<TopicSource> jumps;
 };
 
-/// Reads and checks a whole configuration tree.
+/// Reads and checks a whole configuration tree. The key `scenario`, which `simulate` reads, is left
+/// alone.
 /// @throws ConfigError for the first fault found.
-ObserverConfig read_observer_config(const ConfigNode& root);
+ObserverConfig read_observer_config(const ConfigNode& root, const PlantPluginLoader& load_plugin);
 
 /// The same from YAML files, which are merged; a key may stand in one of them only.
-ObserverConfig read_observer_config(const std::vector<std::string>& files);
+ObserverConfig read_observer_config(const std::vector<std::string>& files,
+                                    const PlantPluginLoader& load_plugin);
+
+/// Refuses every plug-in: for programs that have no plug-ins.
+std::shared_ptr<const PlantPlugin> no_plant_plugins(const std::string& type);
 
 }  // namespace sampled_data_observers

@@ -8,18 +8,33 @@
 namespace sampled_data_observers {
 
 /// What an event does to the observer. The numbers are the order in which events of equal stamp
-/// take effect: a new input holds from its stamp on, so it comes first; a plant jump has priority
-/// over a sample, so a sample stamped at the instant of a jump measures the state after it.
-enum class EventKind : std::uint8_t { kInput = 0, kJump = 1, kSample = 2 };
+/// take effect: what is held from its stamp on comes first; a plant jump has priority over a sample,
+/// so a sample stamped at the instant of a jump measures the state after it.
+enum class EventKind : std::uint8_t {
+  kInput = 0,    ///< a known input, held until the next
+  kOutput = 1,   ///< a continuous output y_c, held until the next
+  kJump = 2,     ///< the plant jumped
+  kRelease = 3,  ///< a reset that was computed for an earlier jump takes effect
+  kSample = 4    ///< a sample of a sensor
+};
+
+/// Channels of jumps: the event carries the outputs y_d at the jump or does not.
+constexpr int kPlainJump = 0;
+constexpr int kMeasuredJump = 1;
 
 /// One event, as a view: the values belong to whoever made it.
 struct Event {
   Stamp stamp = 0;
   EventKind kind = EventKind::kSample;
-  /// Index of the sensor for samples, 0 otherwise.
+  /// Index of the sensor for samples and outputs, kPlainJump or kMeasuredJump for jumps, else 0.
   int channel = 0;
+  /// u of inputs, y of samples and outputs. Of jumps: the label of the mode that follows, where the
+  /// plant switches, then y_d. Of releases: the time since the jump [ns].
   const double* values = nullptr;
   Eigen::Index size = 0;
+  /// Of jumps: when the reset takes effect, for a law that delays jumps; 0 where that is when the
+  /// event arrives. It is no part of the jump itself.
+  Stamp release = 0;
 
   Eigen::Map<const Eigen::VectorXd> vector() const { return {values, size}; }
 };

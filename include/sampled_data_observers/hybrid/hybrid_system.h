@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 
 #include "sampled_data_observers/hybrid/event.h"
 #include "sampled_data_observers/hybrid/time.h"
@@ -24,11 +25,14 @@ class HybridSystem {
   virtual Eigen::Index workspace_size() const = 0;
 
   /// Number of values that an event of this kind and channel carries; -1 where there is no such
-  /// channel.
+  /// channel. Channels of samples are numbers of sensors; there are sensors().
   virtual Eigen::Index event_size(EventKind kind, int channel) const = 0;
 
   /// Largest event_size() of all channels.
   virtual Eigen::Index max_event_size() const = 0;
+
+  /// Number of sensors.
+  virtual std::size_t sensors() const = 0;
 
   /// The state before the first event.
   virtual void initialize(double* state) const = 0;
@@ -36,8 +40,17 @@ class HybridSystem {
   /// Flow map: carries the state over `duration` >= 0.
   virtual void flow(Duration duration, double* state, double* workspace) const = 0;
 
-  /// Reset map of an event that event_size() accepts.
-  virtual void reset(const Event& event, double* state, double* workspace) const = 0;
+  /// Where not 0: a flow may be split at whole multiples of this without changing a bit of its
+  /// result [ns]. It lets a query go on from where an earlier one came to.
+  virtual Duration flow_step() const { return 0; }
+
+  /// The longest flow from an event that can be computed in bearable time [ns]; longer ones count as
+  /// not finite.
+  virtual Duration flow_horizon() const { return std::numeric_limits<Duration>::max(); }
+
+  /// Reset map of an event that event_size() accepts. Returns false, and leaves the state alone,
+  /// where the event must not take effect: a jump that comes too soon after others.
+  virtual bool reset(const Event& event, double* state, double* workspace) const = 0;
 };
 
 }  // namespace sampled_data_observers

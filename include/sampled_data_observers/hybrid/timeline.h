@@ -32,8 +32,8 @@ struct EventCounts {
 /// event, or less when more than `max_events` events lie in it.
 ///
 /// A flow or reset whose result is not finite, or beyond 1e150, is skipped: the last good state is
-/// held. That, too, is a function of the events alone. A sample or jump whose reset is skipped
-/// counts as an event only.
+/// held. That, too, is a function of the events alone. A sample or jump whose reset is skipped, or
+/// refused by the system, counts as an event only.
 ///
 /// Everything is allocated by the constructor; afterwards nothing is.
 class Timeline {
@@ -55,11 +55,16 @@ class Timeline {
     kBeforeWindow,  ///< older than the history window; nothing changed
   };
 
+  enum class Effect {
+    kApplied,
+    kNotFinite,  ///< its reset was skipped: the result is not finite
+    kRefused     ///< HybridSystem::reset() returned false
+  };
+
   struct InsertReport {
     Insertion insertion = Insertion::kAppended;
     std::size_t rewound = 0;
-    /// False when its reset was skipped as not finite.
-    bool effective = true;
+    Effect effect = Effect::kApplied;
     /// For a sample: stamp of the newest one of the same channel before it.
     std::optional<Stamp> previous_sample;
   };
@@ -115,7 +120,9 @@ class Timeline {
   std::size_t position_after(const Event& event) const;
   bool is_before_window(Stamp stamp) const;
   void open_position(std::size_t position, const Event& event);
-  bool apply(std::size_t position);
+  Effect apply(std::size_t position);
+  void flow_from(std::size_t origin, Duration duration, StateRef state) const;
+  std::size_t base_origin() const { return slots_.size(); }
   void forget_oldest();
   std::optional<Stamp> previous_sample(std::size_t position, const Event& event) const;
   auto state_after(std::size_t position) {
@@ -147,6 +154,15 @@ class Timeline {
 
   /// Scratch of the maps; it makes even queries a matter of one thread at a time.
   mutable Eigen::VectorXd workspace_;
+
+  /// How far the flow from one event was computed already, where flows may be split: the slot of
+  /// that event (base_origin() for the base state), a whole number of flow steps, the state there.
+  struct Cursor {
+    std::optional<std::size_t> origin;
+    Duration reached = 0;
+    Eigen::VectorXd state;
+  };
+  mutable Cursor cursor_;
 };
 
 }  // namespace sampled_data_observers

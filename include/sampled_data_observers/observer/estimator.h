@@ -27,7 +27,9 @@ enum class EventOutcome : std::uint8_t {
   kNoStamp = 5,       ///< the stamp is zero, or was no time
   kWrongSize = 6,     ///< another number of values than the channel has
   kNotFinite = 7,     ///< a value is NaN, infinite or beyond kLargestValue
-  kWouldOverflow = 8  ///< taken in, but its effect is not finite and was skipped
+  kWouldOverflow = 8,  ///< taken in, but its effect is not finite and was skipped
+  kUnknownMode = 9,    ///< a jump into a mode that the plant does not have
+  kTooFrequent = 10    ///< taken in without effect: jumps come faster than the limits allow
 };
 
 /// How the time since the previous sample compares with the configured bounds.
@@ -104,6 +106,7 @@ class Estimator {
 
  private:
   std::optional<EventOutcome> objection(const Event& event, Stamp now) const;
+  void insert_release(Stamp jump, Stamp release);
   void prepare_restart(Stamp stamp);
 
   std::shared_ptr<const ObserverLaw> law_;

@@ -8,11 +8,12 @@
 
 namespace sampled_data_observers {
 
-/// An observer as a hybrid system: a flow map between events and reset maps for samples, plant
-/// jumps and inputs, over one state vector whose first entries are the estimate.
+/// An observer as a hybrid system: a flow map between events and reset maps at them, over one state
+/// vector whose first entries are the estimate.
 ///
-/// A law is built once from a valid configuration and is const ever after; see HybridSystem for
-/// what its maps may and may not do. A new observer type derives from this class.
+/// A law is built once from a valid configuration and is const ever after; see HybridSystem for what
+/// its maps may and may not do. An observer type derives from PlantObserver, which brings what all
+/// observers of a plant share.
 class ObserverLaw : public HybridSystem {
  public:
   /// Names of the estimated states, in the order of the state vector.
@@ -21,21 +22,27 @@ class ObserverLaw : public HybridSystem {
   /// Number of estimated states: the first entries of the state vector.
   Eigen::Index estimate_size() const { return static_cast<Eigen::Index>(estimate_names().size()); }
 
-  void reset(const Event& event, double* state, double* workspace) const final;
+  /// Whether the law knows the mode that a jump event names. @pre event_size() accepts the event
+  virtual bool knows_mode(const Event& event) const = 0;
 
-  /// Takes over the input that holds in state `from`, for a restart.
-  virtual void keep_input(const double* from, double* state) const = 0;
+  /// Takes over what is held in state `from`: the input and the continuous outputs.
+  virtual void keep_held(const double* from, double* state) const = 0;
 
- protected:
-  /// Reset map of a sample of sensor number `sensor`, y its outputs.
-  virtual void sample(std::size_t sensor, const double* y, double* state,
-                      double* workspace) const = 0;
+  /// Takes over the mode of state `from`.
+  virtual void keep_mode(const double* from, double* state) const = 0;
 
-  /// Reset map of a plant jump.
-  virtual void jump(double* state, double* workspace) const = 0;
+  /// Sets the estimate (estimate_size() entries) of an initialized state.
+  virtual void start_from(const double* estimate, double* state) const = 0;
 
-  /// Takes in the input that holds from now on.
-  virtual void input(const double* u, double* state) const = 0;
+  /// The covariance of the estimate in a state, a symmetric matrix of estimate_size() rows; null
+  /// where the law has none.
+  virtual const double* covariance(const double* state) const {
+    static_cast<void>(state);
+    return nullptr;
+  }
+
+  /// Whether a jump's reset waits for a release event (see DelayedJumps).
+  virtual bool delays_jumps() const { return false; }
 };
 
 }  // namespace sampled_data_observers

@@ -1,36 +1,30 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <string>
 #include <vector>
 
 namespace sampled_data_observers {
 
-/// A sensor of a linear plant: y = C x, with m outputs.
+/// When a sensor measures.
+enum class SensorTiming : std::uint8_t {
+  kSampled,     ///< sporadically: each value is a sample
+  kContinuous,  ///< all the time (y_c): a fast topic, each value held until the next
+  kAtJumps      ///< at jumps of the plant only (y_d): the output just before the jump
+};
+
+/// A sensor with m outputs. Its output map belongs to the plant, which may have one per mode.
 struct Sensor {
   std::string name;
-  /// m x n
-  Eigen::MatrixXd C;
+  SensorTiming timing = SensorTiming::kSampled;
   /// m entries: whether the output is an angle [rad], so that its innovation is wrapped.
   std::vector<bool> angular;
+
+  Eigen::Index outputs() const { return static_cast<Eigen::Index>(angular.size()); }
 };
 
 /// The angle in (-π, π] that differs from `angle` by a whole number of turns.
 double wrap_angle(double angle);
-
-/// innovation = y - C x, angular outputs wrapped to (-π, π]. `y` and `innovation`: m entries.
-inline void compute_innovation(const Sensor& sensor, const double* y, const double* x,
-                               double* innovation) {
-  const Eigen::Index outputs = sensor.C.rows();
-  const Eigen::Index states = sensor.C.cols();
-  for (Eigen::Index i = 0; i < outputs; ++i) {
-    // Left to right, for the reason given at add_product().
-    const double* entry = sensor.C.data() + i;
-    double difference = y[i];
-    for (Eigen::Index j = 0; j < states; ++j, entry += outputs) difference -= *entry * x[j];
-    innovation[i] =
-        sensor.angular[static_cast<std::size_t>(i)] ? wrap_angle(difference) : difference;
-  }
-}
 
 }  // namespace sampled_data_observers

@@ -2,12 +2,13 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "sampled_data_observers/hybrid/time.h"
-#include "sampled_data_observers/plant/linear_plant.h"
+#include "sampled_data_observers/plant/plant.h"
 
 namespace sampled_data_observers {
 
@@ -19,19 +20,20 @@ struct Quantity {
 };
 
 /// The state called `name` as a quantity; nothing where there is none.
-std::optional<Quantity> state_quantity(const LinearPlant& plant, const std::string& name);
+std::optional<Quantity> state_quantity(const Plant& plant, const std::string& name);
 
 /// An output of a sensor as a quantity, named after the state that it measures, or
-/// "sensor[output]".
-Quantity output_quantity(const LinearPlant& plant, std::size_t sensor, Eigen::Index output);
+/// "sensor[output]"; nothing where its output map is not linear.
+std::optional<Quantity> output_quantity(const Plant& plant, std::size_t sensor, Eigen::Index output);
 
 /// Whether an output of a sensor measures the quantity itself.
-bool measures(const Sensor& sensor, Eigen::Index output, const Quantity& quantity);
+bool measures(const Plant& plant, std::size_t sensor, Eigen::Index output,
+              const Quantity& quantity);
 
 /// Errors of the estimate and of holding the last sample, against the truth, on the same stamps.
 class Comparison {
  public:
-  Comparison(std::vector<Quantity> quantities, const LinearPlant& plant);
+  Comparison(std::vector<Quantity> quantities, std::shared_ptr<const Plant> plant);
 
   const std::vector<Quantity>& quantities() const { return quantities_; }
 
@@ -62,7 +64,7 @@ class Comparison {
   };
 
   std::vector<Quantity> quantities_;
-  std::vector<Sensor> sensors_;
+  std::shared_ptr<const Plant> plant_;
   std::vector<Held> held_;
   std::vector<double> squares_;
   std::vector<double> hold_squares_;

@@ -4,6 +4,7 @@
 #include <sampled_data_observers/JumpEvent.h>
 #include <sampled_data_observers/Measurement.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -79,16 +80,39 @@ class ValueReader<Input> : public ListReader<Input> {
   using ListReader::ListReader;
 };
 
+/// Jump events: the mode that follows where the plant switches, then the outputs where they come with
+/// the event.
 template <>
 class ValueReader<JumpEvent> {
  public:
-  explicit ValueReader(const TopicSource& source) { refuse_fields(source); }
+  explicit ValueReader(const TopicSource& source)
+      : size_(source.size),
+        first_output_(source.has_mode ? 1 : 0),
+        values_(source.size + 1) {
+    refuse_fields(source);
+  }
 
   void read(const JumpEvent& message, Event& event) {
     event.stamp = to_stamp(message.header.stamp);
-    event.values = nullptr;
-    event.size = 0;
+    event.release = to_stamp(message.release);
+    const bool is_measured = !message.values.empty();
+    event.channel = is_measured ? kMeasuredJump : kPlainJump;
+    if (first_output_ == 1) values_[0] = static_cast<double>(message.mode);
+    event.values = values_.data();
+    event.size = first_output_ + static_cast<Eigen::Index>(message.values.size());
+    if (message.values.size() > size_) {
+      event.size = kWrongSize;
+    } else {
+      std::copy(message.values.begin(), message.values.end(), values_.begin() + first_output_);
+    }
   }
+
+ private:
+  static constexpr Eigen::Index kWrongSize = -2;
+
+  std::size_t size_;
+  std::ptrdiff_t first_output_;
+  std::vector<double> values_;
 };
 
 }  // namespace sampled_data_observers

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "sampled_data_observers/config/config_section.h"
+#include "sampled_data_observers/plant/plant.h"
+
+namespace sampled_data_observers {
+
+/// One matrix of `rows` rows and m_i columns per sensor of a timing; of the others, empty ones. Below
+/// `key` stands a map from sensor names to matrices, or, where there is one such sensor only, its
+/// matrix.
+std::vector<Eigen::MatrixXd> read_gain_per_sensor(ConfigSection& gains, const std::string& key,
+                                                  const Plant& plant, SensorTiming timing,
+                                                  Eigen::Index rows);
+
+/// The same with one square matrix of m_i rows per sensor.
+std::vector<Eigen::MatrixXd> read_square_per_sensor(ConfigSection& gains, const std::string& key,
+                                                    const Plant& plant, SensorTiming timing);
+
+}  // namespace sampled_data_observers

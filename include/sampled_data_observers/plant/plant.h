@@ -1,0 +1,81 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sampled_data_observers/hybrid/time.h"
+#include "sampled_data_observers/plant/sensor.h"
+#include "sampled_data_observers/plant/vector_map.h"
+
+namespace sampled_data_observers {
+
+/// How a flow that has no closed form is integrated: by fixed steps from each event on.
+struct Integration {
+  Duration step = kNanosecondsPerSecond / 1000;     ///< ns, > 0
+  Duration horizon = 100 * kNanosecondsPerSecond;  ///< ns: longer flows without event are refused
+};
+
+/// The maps of a plant in one of its modes.
+struct PlantMode {
+  /// Number by which jump events name the mode.
+  int label = 0;
+  /// ẋ = f(x, u), n entries
+  std::shared_ptr<const VectorMap> flow;
+  /// x⁺ = g(x, u), n entries; null where the plant does not jump from this mode
+  std::shared_ptr<const VectorMap> jump;
+  /// y_i = h_i(x, u), one map per sensor
+  std::vector<std::shared_ptr<const VectorMap>> outputs;
+};
+
+/// What a plant that flows, is measured and may jump is made of. A switched plant has several
+/// modes; it starts in the first, and its jump events say which one follows.
+struct PlantDescription {
+  std::vector<std::string> state_names;  ///< n
+  std::vector<std::string> input_names;  ///< p
+  std::vector<Sensor> sensors;
+  std::vector<PlantMode> modes;
+  Integration integration;
+};
+
+/// A checked description. Immutable.
+class Plant {
+ public:
+  /// @throws std::invalid_argument naming the part that does not fit.
+  explicit Plant(PlantDescription description);
+
+  const std::vector<std::string>& state_names() const { return description_.state_names; }
+  const std::vector<std::string>& input_names() const { return description_.input_names; }
+  const std::vector<Sensor>& sensors() const { return description_.sensors; }
+  const std::vector<PlantMode>& modes() const { return description_.modes; }
+  const Integration& integration() const { return description_.integration; }
+
+  Eigen::Index states() const { return static_cast<Eigen::Index>(state_names().size()); }
+  Eigen::Index inputs() const { return static_cast<Eigen::Index>(input_names().size()); }
+
+  /// Whether the plant jumps, and whether its jump events carry a mode.
+  bool jumps() const;
+  bool switches() const { return modes().size() > 1; }
+
+  /// Position in modes() of a label; nothing where no mode has it.
+  std::optional<std::size_t> find_mode(double label) const;
+
+  /// Whether flow, jump and output maps of all modes are affine.
+  bool is_affine() const;
+
+  /// Largest number of outputs of a sensor, and the number of all outputs of one timing.
+  Eigen::Index max_outputs() const;
+  Eigen::Index outputs(SensorTiming timing) const;
+
+ private:
+  PlantDescription description_;
+};
+
+/// innovation ← y − h(x, u) of a sensor in a mode, angular outputs wrapped to (−π, π].
+/// `y` and `innovation`: m entries each, not overlapping.
+void compute_innovation(const Plant& plant, std::size_t mode, std::size_t sensor, const double* y,
+                        const double* x, const double* u, double* innovation);
+
+}  // namespace sampled_data_observers

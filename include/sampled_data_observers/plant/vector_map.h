@@ -1,0 +1,56 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace sampled_data_observers {
+
+class AffineMap;
+
+/// A map from a state x and an input u to a vector: a flow map f, a jump map g or an output map h.
+///
+/// evaluate() allocates nothing and throws nothing; where the map is not defined it gives NaN. A map
+/// may keep scratch memory, so that one object serves one thread at a time.
+class VectorMap {
+ public:
+  VectorMap() = default;
+  VectorMap(const VectorMap&) = delete;
+  VectorMap& operator=(const VectorMap&) = delete;
+  virtual ~VectorMap() = default;
+
+  /// Number of entries of the result.
+  virtual Eigen::Index size() const = 0;
+
+  /// out ← map(x, u). `out` has size() entries and overlaps neither x nor u.
+  virtual void evaluate(const double* x, const double* u, double* out) const = 0;
+
+  /// The map itself where it is affine, else null.
+  virtual const AffineMap* affine() const { return nullptr; }
+};
+
+/// M x + N u + c
+class AffineMap : public VectorMap {
+ public:
+  /// @param M  m x n
+  /// @param N  m x p; p may be 0
+  /// @param c  m
+  /// @throws std::invalid_argument for sizes that do not fit or entries that are not finite.
+  AffineMap(Eigen::MatrixXd M, Eigen::MatrixXd N, Eigen::VectorXd c);
+
+  /// M x
+  explicit AffineMap(Eigen::MatrixXd M);
+
+  const Eigen::MatrixXd& M() const { return M_; }
+  const Eigen::MatrixXd& N() const { return N_; }
+  const Eigen::VectorXd& c() const { return c_; }
+
+  Eigen::Index size() const override { return M_.rows(); }
+  void evaluate(const double* x, const double* u, double* out) const override;
+  const AffineMap* affine() const override { return this; }
+
+ private:
+  Eigen::MatrixXd M_;
+  Eigen::MatrixXd N_;
+  Eigen::VectorXd c_;
+};
+
+}  // namespace sampled_data_observers

@@ -1,0 +1,72 @@
+#include "sampled_data_observers/config/expression_config.h"
+
+#include <utility>
+
+namespace sampled_data_observers {
+
+void ExpressionReader::read_definitions(ConfigSection& section, const std::string& key) {
+  if (!section.has(key)) return;
+  for (auto& [name, formula] : section.named_texts(key)) {
+    definitions_.push_back({std::move(name), std::move(formula)});
+  }
+  make(section, key, {});  // reports faults where they stand
+}
+
+std::shared_ptr<const VectorMap> ExpressionReader::read_map(
+    ConfigSection& section, const std::string& key, const std::vector<std::string>& names) const {
+  ConfigSection formulas = section.section(key);
+  std::vector<NamedExpression> expressions;
+  for (const std::string& name : names) expressions.push_back({name, formulas.text(name)});
+  formulas.finish();
+  return make(section, key, expressions);
+}
+
+std::shared_ptr<const VectorMap> ExpressionReader::read_list(ConfigSection& section,
+                                                             const std::string& key,
+                                                             std::size_t size) const {
+  const std::vector<std::string> texts =
+      size == 0 ? section.texts(key) : section.texts(key, size);
+  if (texts.empty()) throw section.error(key, "at least one formula", "an empty list");
+  std::vector<NamedExpression> expressions;
+  for (const std::string& text : texts) {
+    expressions.push_back({std::to_string(expressions.size() + 1), text});
+  }
+  return make(section, key, expressions);
+}
+
+std::shared_ptr<const VectorMap> ExpressionReader::read_matrix(ConfigSection& section,
+                                                               const std::string& key,
+                                                               std::size_t rows,
+                                                               std::size_t cols) const {
+  std::vector<NamedExpression> expressions;
+  std::size_t i = 0;
+  for (const std::vector<std::string>& row : section.text_matrix(key, rows, cols)) {
+    ++i;
+    std::size_t j = 0;
+    for (const std::string& text : row) {
+      expressions.push_back(
+          {"row " + std::to_string(i) + ", column " + std::to_string(++j), text});
+    }
+  }
+  return make(section, key, expressions);
+}
+
+std::shared_ptr<const VectorMap> ExpressionReader::make(
+    ConfigSection& section, const std::string& key,
+    const std::vector<NamedExpression>& expressions) const {
+  try {
+    return std::make_shared<const ExpressionMap>(names_, definitions_, expressions);
+  } catch (const ExpressionError& fault) {
+    throw section.error(key, "formulas that can be evaluated", fault.name() + ": " + fault.what());
+  }
+}
+
+std::vector<std::pair<std::string, double>> read_constants(ConfigSection& root,
+                                                           const std::string& key) {
+  std::vector<std::pair<std::string, double>> constants;
+  ConfigSection section = root.section_or_empty(key);
+  for (const std::string& name : section.keys()) constants.emplace_back(name, section.number(name));
+  return constants;
+}
+
+}  // namespace sampled_data_observers

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <memory>
+
+#include "sampled_data_observers/config/law_registry.h"
+
+namespace sampled_data_observers {
+
+// One for each observer type, in a file of its own: the LawBuilder that reads its gains.
+std::shared_ptr<const ObserverLaw> build_constant_gain(ConfigSection& gains,
+                                                       const LawContext& context);
+
+}  // namespace sampled_data_observers

@@ -1,0 +1,14 @@
+#include "builders.h"
+#include "sampled_data_observers/config/gains_config.h"
+#include "sampled_data_observers/observer/constant_gain_observer.h"
+
+namespace sampled_data_observers {
+
+std::shared_ptr<const ObserverLaw> build_constant_gain(ConfigSection& gains,
+                                                       const LawContext& context) {
+  return std::make_shared<const ConstantGainObserver>(
+      context.observer, read_gain_per_sensor(gains, "L", context.plant(), SensorTiming::kSampled,
+                                             context.plant().states()));
+}
+
+}  // namespace sampled_data_observers

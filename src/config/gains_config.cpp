@@ -1,0 +1,44 @@
+#include "sampled_data_observers/config/gains_config.h"
+
+#include <algorithm>
+
+namespace sampled_data_observers {
+namespace {
+
+template <class Rows>
+std::vector<Eigen::MatrixXd> read_per_sensor(ConfigSection& gains, const std::string& key,
+                                             const Plant& plant, SensorTiming timing, Rows rows) {
+  const std::vector<Sensor>& sensors = plant.sensors();
+  std::vector<Eigen::MatrixXd> result(sensors.size());
+  const auto fits = [timing](const Sensor& sensor) { return sensor.timing == timing; };
+  if (std::count_if(sensors.begin(), sensors.end(), fits) == 1 && !gains.is_map(key)) {
+    const auto only = std::find_if(sensors.begin(), sensors.end(), fits);
+    result[static_cast<std::size_t>(only - sensors.begin())] =
+        gains.matrix(key, rows(*only), only->outputs());
+    return result;
+  }
+  ConfigSection section = gains.section(key);
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    if (fits(sensors[i])) {
+      result[i] = section.matrix(sensors[i].name, rows(sensors[i]), sensors[i].outputs());
+    }
+  }
+  section.finish();
+  return result;
+}
+
+}  // namespace
+
+std::vector<Eigen::MatrixXd> read_gain_per_sensor(ConfigSection& gains, const std::string& key,
+                                                  const Plant& plant, SensorTiming timing,
+                                                  Eigen::Index rows) {
+  return read_per_sensor(gains, key, plant, timing, [rows](const Sensor&) { return rows; });
+}
+
+std::vector<Eigen::MatrixXd> read_square_per_sensor(ConfigSection& gains, const std::string& key,
+                                                    const Plant& plant, SensorTiming timing) {
+  return read_per_sensor(gains, key, plant, timing,
+                         [](const Sensor& sensor) { return sensor.outputs(); });
+}
+
+}  // namespace sampled_data_observers

@@ -1,0 +1,82 @@
+#include "sampled_data_observers/config/mode_config.h"
+
+#include <utility>
+
+#include "sampled_data_observers/config/expression_config.h"
+#include "sampled_data_observers/plant/lipschitz_map.h"
+
+namespace sampled_data_observers {
+namespace {
+
+std::shared_ptr<const VectorMap> read_psi(ConfigSection& mode, const ExpressionNames& names,
+                                          Eigen::Index arguments) {
+  ExpressionNames of_psi;
+  for (Eigen::Index i = 1; i <= arguments; ++i) of_psi.x.push_back("v" + std::to_string(i));
+  of_psi.constants = names.constants;
+  return ExpressionReader(of_psi).read_list(mode, "psi", 0);
+}
+
+std::shared_ptr<const VectorMap> read_lipschitz_map(ConfigSection& mode,
+                                                    const ExpressionNames& names, Eigen::MatrixXd A,
+                                                    Eigen::MatrixXd B) {
+  const Eigen::Index n = A.rows();
+  LipschitzDescription map;
+  map.S = mode.matrix("S", -1, n);
+  map.psi = read_psi(mode, names, map.S.rows());
+  map.G = mode.matrix("G", n, map.psi->size());
+  map.A = std::move(A);
+  map.B = std::move(B);
+  if (mode.has("lipschitz_constant")) {
+    map.lipschitz_constant = mode.number_in("lipschitz_constant", 1e-300, 1e300, std::nullopt);
+  }
+  if (mode.has("vertices")) {
+    ConfigSection vertices = mode.section("vertices");
+    for (const std::string& name : vertices.keys()) {
+      map.vertices.push_back(vertices.matrix(name, n, n));
+    }
+  }
+  return std::make_shared<const LipschitzMap>(std::move(map));
+}
+
+}  // namespace
+
+std::shared_ptr<const VectorMap> read_flow_map(ConfigSection& mode, const ExpressionNames& names) {
+  if (mode.has("flow")) {
+    ExpressionReader reader(names);
+    reader.read_definitions(mode, "definitions");
+    return reader.read_map(mode, "flow", names.x);
+  }
+  const auto n = static_cast<Eigen::Index>(names.x.size());
+  const auto p = static_cast<Eigen::Index>(names.u.size());
+  Eigen::MatrixXd A = mode.matrix("A", n, n);
+  Eigen::MatrixXd B = p > 0 ? mode.matrix("B", n, p) : Eigen::MatrixXd::Zero(n, 0);
+  if (mode.has("psi")) return read_lipschitz_map(mode, names, std::move(A), std::move(B));
+  Eigen::VectorXd b = mode.has("b") ? mode.vector("b", n) : Eigen::VectorXd::Zero(n);
+  return std::make_shared<const AffineMap>(std::move(A), std::move(B), std::move(b));
+}
+
+std::shared_ptr<const VectorMap> read_jump_map(ConfigSection& mode, const ExpressionNames& names) {
+  if (!mode.has("jump_map")) return nullptr;
+  const auto n = static_cast<Eigen::Index>(names.x.size());
+  ConfigSection section = mode.section("jump_map");
+  std::shared_ptr<const VectorMap> map;
+  if (section.has("formulas")) {
+    map = ExpressionReader(names).read_map(section, "formulas", names.x);
+  } else {
+    Eigen::MatrixXd A_d = section.matrix("A_d", n, n);
+    Eigen::VectorXd b_d = section.has("b_d") ? section.vector("b_d", n) : Eigen::VectorXd::Zero(n);
+    map = std::make_shared<const AffineMap>(std::move(A_d), Eigen::MatrixXd::Zero(n, 0),
+                                            std::move(b_d));
+  }
+  section.finish();
+  return map;
+}
+
+std::shared_ptr<const VectorMap> read_output_map(ConfigSection& sensor,
+                                                 const ExpressionNames& names) {
+  if (sensor.has("h")) return ExpressionReader(names).read_list(sensor, "h", 0);
+  return std::make_shared<const AffineMap>(
+      sensor.matrix("C", -1, static_cast<Eigen::Index>(names.x.size())));
+}
+
+}  // namespace sampled_data_observers

@@ -1,0 +1,130 @@
+#include "sampled_data_observers/plant/expression_map.h"
+
+#include <muParser.h>
+
+#include <cctype>
+#include <limits>
+
+namespace sampled_data_observers {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+void check_name(const std::string& name) {
+  bool fits = !name.empty() && std::isdigit(static_cast<unsigned char>(name.front())) == 0;
+  for (const char c : name) {
+    fits = fits && (std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_');
+  }
+  if (!fits) {
+    throw ExpressionError(name, "formulas take names of letters, digits and '_' that start with no "
+                                "digit, not '" + name + "'");
+  }
+}
+
+/// muParser would let a formula change a variable.
+bool assigns(const std::string& text) {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] != '=') continue;
+    const bool starts = i + 1 < text.size() && text[i + 1] == '=';
+    const bool ends = i > 0 && std::string("=<>!").find(text[i - 1]) != std::string::npos;
+    if (!starts && !ends) return true;
+  }
+  return false;
+}
+
+double value_of(const mu::Parser& parser) {
+  try {
+    return parser.Eval();
+  } catch (const mu::ParserError&) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
+}  // namespace
+
+struct ExpressionMap::Program {
+  std::size_t states = 0;
+  std::size_t inputs = 0;
+  /// x, u, then the values of the definitions. The parsers know the addresses.
+  std::vector<double> values;
+  std::vector<std::string> names;
+  std::vector<std::pair<std::string, double>> constants;
+  std::vector<mu::Parser> definitions;
+  std::vector<mu::Parser> expressions;
+
+  /// A parser that knows the first `known` values.
+  mu::Parser parse(const NamedExpression& expression, std::size_t known) {
+    mu::Parser parser;
+    try {
+      parser.DefineConst("pi", kPi);
+      for (const auto& [name, value] : constants) parser.DefineConst(name, value);
+      for (std::size_t i = 0; i < known; ++i) parser.DefineVar(names[i], &values[i]);
+      if (assigns(expression.text)) {
+        throw ExpressionError(expression.name, "'" + expression.text + "' assigns; use == to compare");
+      }
+      parser.SetExpr(expression.text);
+      parser.Eval();  // compiles, so that later evaluations allocate nothing
+    } catch (const mu::ParserError& error) {
+      throw ExpressionError(expression.name,
+                            "'" + expression.text + "': " + error.GetMsg() + " (it may use" +
+                                known_names(known) + ")");
+    }
+    if (parser.GetNumResults() != 1) {
+      throw ExpressionError(expression.name, "'" + expression.text + "' has several values");
+    }
+    return parser;
+  }
+
+  std::string known_names(std::size_t known) const {
+    std::string text;
+    for (std::size_t i = 0; i < known; ++i) text += " " + names[i];
+    for (const auto& constant : constants) text += " " + constant.first;
+    return text + " pi";
+  }
+};
+
+ExpressionMap::ExpressionMap(const ExpressionNames& names,
+                             const std::vector<NamedExpression>& definitions,
+                             const std::vector<NamedExpression>& expressions)
+    : program_(std::make_unique<Program>()) {
+  Program& program = *program_;
+  program.states = names.x.size();
+  program.inputs = names.u.size();
+  program.constants = names.constants;
+  program.names = names.x;
+  program.names.insert(program.names.end(), names.u.begin(), names.u.end());
+  for (const NamedExpression& definition : definitions) program.names.push_back(definition.name);
+  for (const std::string& name : program.names) check_name(name);
+  for (const auto& constant : program.constants) check_name(constant.first);
+  program.values.assign(program.names.size(), 1.0);
+
+  std::size_t known = program.states + program.inputs;
+  program.definitions.reserve(definitions.size());
+  program.expressions.reserve(expressions.size());
+  for (const NamedExpression& definition : definitions) {
+    program.definitions.push_back(program.parse(definition, known++));
+  }
+  for (const NamedExpression& expression : expressions) {
+    program.expressions.push_back(program.parse(expression, known));
+  }
+  // Copying a parser makes it compile again, at its first evaluation.
+  for (const mu::Parser& parser : program.definitions) value_of(parser);
+  for (const mu::Parser& parser : program.expressions) value_of(parser);
+}
+
+ExpressionMap::~ExpressionMap() = default;
+
+Eigen::Index ExpressionMap::size() const {
+  return static_cast<Eigen::Index>(program_->expressions.size());
+}
+
+void ExpressionMap::evaluate(const double* x, const double* u, double* out) const {
+  Program& program = *program_;
+  double* value = program.values.data();
+  for (std::size_t i = 0; i < program.states; ++i) *value++ = x[i];
+  for (std::size_t i = 0; i < program.inputs; ++i) *value++ = u[i];
+  for (const mu::Parser& parser : program.definitions) *value++ = value_of(parser);
+  for (const mu::Parser& parser : program.expressions) *out++ = value_of(parser);
+}
+
+}  // namespace sampled_data_observers

@@ -1,0 +1,103 @@
+#include "sampled_data_observers/plant/plant.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+namespace sampled_data_observers {
+namespace {
+
+void require(bool holds, const std::string& what) {
+  if (!holds) throw std::invalid_argument("Plant: " + what);
+}
+
+void check_map(const std::shared_ptr<const VectorMap>& map, Eigen::Index size, Eigen::Index states,
+               Eigen::Index inputs, const std::string& name) {
+  require(map != nullptr, name + " is missing");
+  require(map->size() == size, name + " must have " + std::to_string(size) + " entries");
+  const AffineMap* affine = map->affine();
+  if (affine == nullptr) return;
+  require(affine->M().cols() == states, name + " must have one column per state");
+  require(affine->N().cols() == 0 || affine->N().cols() == inputs,
+          name + " must have one column per input");
+}
+
+PlantDescription checked(PlantDescription plant) {
+  const auto n = static_cast<Eigen::Index>(plant.state_names.size());
+  const auto p = static_cast<Eigen::Index>(plant.input_names.size());
+  require(n > 0, "at least one state");
+  require(!plant.modes.empty(), "at least one mode");
+  require(plant.integration.step > 0, "the integration step must be positive");
+  require(plant.integration.horizon >= plant.integration.step,
+          "the integration horizon must not be less than the step");
+  for (const Sensor& sensor : plant.sensors) {
+    require(sensor.outputs() > 0, "sensor '" + sensor.name + "' must have an output");
+  }
+  for (const PlantMode& mode : plant.modes) {
+    const std::string where = plant.modes.size() == 1 ? "" : " of mode " + std::to_string(mode.label);
+    const auto same = [&](const PlantMode& other) { return other.label == mode.label; };
+    require(std::count_if(plant.modes.begin(), plant.modes.end(), same) == 1,
+            "each mode needs a label of its own");
+    check_map(mode.flow, n, n, p, "the flow map" + where);
+    if (mode.jump) check_map(mode.jump, n, n, p, "the jump map" + where);
+    require(mode.outputs.size() == plant.sensors.size(), "one output map per sensor" + where);
+    for (std::size_t i = 0; i < plant.sensors.size(); ++i) {
+      check_map(mode.outputs[i], plant.sensors[i].outputs(), n, p,
+                "the output map of sensor '" + plant.sensors[i].name + "'" + where);
+    }
+  }
+  return plant;
+}
+
+}  // namespace
+
+Plant::Plant(PlantDescription description) : description_(checked(std::move(description))) {}
+
+bool Plant::jumps() const {
+  return switches() || std::any_of(modes().begin(), modes().end(),
+                                   [](const PlantMode& mode) { return mode.jump != nullptr; });
+}
+
+std::optional<std::size_t> Plant::find_mode(double label) const {
+  for (std::size_t i = 0; i < modes().size(); ++i) {
+    if (static_cast<double>(modes()[i].label) == label) return i;
+  }
+  return std::nullopt;
+}
+
+bool Plant::is_affine() const {
+  const auto affine = [](const std::shared_ptr<const VectorMap>& map) {
+    return !map || map->affine() != nullptr;
+  };
+  return std::all_of(modes().begin(), modes().end(), [&](const PlantMode& mode) {
+    return affine(mode.flow) && affine(mode.jump) &&
+           std::all_of(mode.outputs.begin(), mode.outputs.end(), affine);
+  });
+}
+
+Eigen::Index Plant::max_outputs() const {
+  Eigen::Index largest = 0;
+  for (const Sensor& sensor : sensors()) largest = std::max(largest, sensor.outputs());
+  return largest;
+}
+
+Eigen::Index Plant::outputs(SensorTiming timing) const {
+  Eigen::Index sum = 0;
+  for (const Sensor& sensor : sensors()) {
+    if (sensor.timing == timing) sum += sensor.outputs();
+  }
+  return sum;
+}
+
+void compute_innovation(const Plant& plant, std::size_t mode, std::size_t sensor, const double* y,
+                        const double* x, const double* u, double* innovation) {
+  plant.modes()[mode].outputs[sensor]->evaluate(x, u, innovation);
+  const Sensor& description = plant.sensors()[sensor];
+  for (Eigen::Index i = 0; i < description.outputs(); ++i) {
+    const double difference = y[i] - innovation[i];
+    innovation[i] =
+        description.angular[static_cast<std::size_t>(i)] ? wrap_angle(difference) : difference;
+  }
+}
+
+}  // namespace sampled_data_observers
