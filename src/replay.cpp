@@ -92,7 +92,8 @@ int run(int argc, char** argv) {
     return app.exit(error);
   }
 
-  const sdo::ObserverConfig config = sdo::read_observer_config(config_files, sdo::load_plant_plugin);
+  const sdo::ObserverConfig config =
+      sdo::read_observer_config(config_files, sdo::load_plant_plugin);
   const sdo::ReplaySummary summary = sdo::replay(config, options);
   sdo::print_table(summary, std::cout);
   if (!json_path.empty()) sdo::write_json(summary, json_path);

@@ -24,8 +24,7 @@ std::shared_ptr<const VectorMap> ExpressionReader::read_map(
 std::shared_ptr<const VectorMap> ExpressionReader::read_list(ConfigSection& section,
                                                              const std::string& key,
                                                              std::size_t size) const {
-  const std::vector<std::string> texts =
-      size == 0 ? section.texts(key) : section.texts(key, size);
+  const std::vector<std::string> texts = size == 0 ? section.texts(key) : section.texts(key, size);
   if (texts.empty()) throw section.error(key, "at least one formula", "an empty list");
   std::vector<NamedExpression> expressions;
   for (const std::string& text : texts) {
@@ -44,8 +43,7 @@ std::shared_ptr<const VectorMap> ExpressionReader::read_matrix(ConfigSection& se
     ++i;
     std::size_t j = 0;
     for (const std::string& text : row) {
-      expressions.push_back(
-          {"row " + std::to_string(i) + ", column " + std::to_string(++j), text});
+      expressions.push_back({"row " + std::to_string(i) + ", column " + std::to_string(++j), text});
     }
   }
   return make(section, key, expressions);

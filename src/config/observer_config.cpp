@@ -57,8 +57,7 @@ TopicSource read_sensor_source(ConfigSection section, std::size_t size) {
 }
 
 TopicSource read_message_source(const ConfigSection& root, ConfigSection& section,
-                                const std::string& key, std::size_t size,
-                                const std::string& type) {
+                                const std::string& key, std::size_t size, const std::string& type) {
   TopicSource source;
   source.topic = section.text("topic", key);
   source.type = type;
@@ -122,11 +121,10 @@ ObserverConfig read_observer_config(const ConfigNode& tree, const PlantPluginLoa
     ConfigSection section = sensors.section(sensor.name);
     for (const char* key : {"C", "h", "output", "measured", "angular", "bias"}) section.has(key);
     const bool in_jump_events = sensor.timing == SensorTiming::kAtJumps && !section.has("source");
-    config.sensors.push_back(
-        in_jump_events
-            ? std::nullopt
-            : std::optional<TopicSource>(read_sensor_source(
-                  section.section("source"), static_cast<std::size_t>(sensor.outputs()))));
+    config.sensors.push_back(in_jump_events ? std::nullopt
+                                            : std::optional<TopicSource>(read_sensor_source(
+                                                  section.section("source"),
+                                                  static_cast<std::size_t>(sensor.outputs()))));
     section.finish();
   }
 

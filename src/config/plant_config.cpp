@@ -38,8 +38,9 @@ Integration read_integration(ConfigSection& plant) {
 }
 
 int read_label(const ConfigSection& modes, const std::string& key) {
-  const bool digits = !key.empty() && key.size() < 10 &&
-                      std::all_of(key.begin(), key.end(), [](char c) { return '0' <= c && c <= '9'; });
+  const bool digits =
+      !key.empty() && key.size() < 10 &&
+      std::all_of(key.begin(), key.end(), [](char c) { return '0' <= c && c <= '9'; });
   if (!digits) throw modes.error(key, "a whole number as label of the mode", "'" + key + "'");
   return std::stoi(key);
 }
@@ -93,7 +94,8 @@ class PlantReader {
                                                      names_.constants.end());
       compiled_ = load_plugin(type)->build(parameters);
     } catch (const std::exception& fault) {
-      throw section_.error("plugin", "a plant that can be built", "'" + type + "': " + fault.what());
+      throw section_.error("plugin", "a plant that can be built",
+                           "'" + type + "': " + fault.what());
     }
     names_.x = compiled_.state_names;
     names_.u = compiled_.input_names;

@@ -44,8 +44,8 @@ bool LimitedJumps::reset(const Event& event, double* state, double* workspace) c
   double* numbers = own(state);
   if (numbers[kSince] < static_cast<double>(limits_.min_separation)) return false;
   // Filled up at jumps only, so that the number depends on the jumps alone.
-  const double tokens = std::min(limits_.max_per_second,
-                                 numbers[kTokens] + numbers[kSince] * 1e-9 * limits_.max_per_second);
+  const double tokens = std::min(
+      limits_.max_per_second, numbers[kTokens] + numbers[kSince] * 1e-9 * limits_.max_per_second);
   if (tokens < 1.0 || !law().reset(event, state, workspace)) return false;
   numbers[kTokens] = tokens - 1.0;
   numbers[kSince] = 0.0;

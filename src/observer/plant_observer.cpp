@@ -56,7 +56,8 @@ PlantObserver::PlantObserver(ObserverContext context, const Extras& extras,
   Eigen::Index at_jumps = 0;
   for (const Sensor& sensor : plant_->sensors()) {
     if (std::find(timings.begin(), timings.end(), sensor.timing) == timings.end()) {
-      throw std::invalid_argument("sensor '" + sensor.name + "': this observer takes no sensor that is " +
+      throw std::invalid_argument("sensor '" + sensor.name +
+                                  "': this observer takes no sensor that is " +
                                   describe(sensor.timing));
     }
     Eigen::Index& offset = sensor.timing == SensorTiming::kContinuous ? continuous : at_jumps;
@@ -190,9 +191,7 @@ PlantObserver::Held PlantObserver::held(const double* state) const {
   return result;
 }
 
-Duration PlantObserver::flow_step() const {
-  return numeric_flow_ ? plant_->integration().step : 0;
-}
+Duration PlantObserver::flow_step() const { return numeric_flow_ ? plant_->integration().step : 0; }
 
 Duration PlantObserver::flow_horizon() const {
   return numeric_flow_ ? plant_->integration().horizon : ObserverLaw::flow_horizon();
@@ -257,8 +256,8 @@ void PlantObserver::begin_jump(const Event& event, double* state, double* worksp
 }
 
 void PlantObserver::apply_jump(std::size_t next, double* state, double* workspace) const {
-  jump(held(state), next,
-       {state + layout_.jump_outputs, state + layout_.jump_outputs_known}, state, workspace);
+  jump(held(state), next, {state + layout_.jump_outputs, state + layout_.jump_outputs_known}, state,
+       workspace);
   state[layout_.timers] = 0.0;
   state[layout_.mode] = static_cast<double>(next);
 }

@@ -16,8 +16,10 @@ void check_name(const std::string& name) {
     fits = fits && (std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_');
   }
   if (!fits) {
-    throw ExpressionError(name, "formulas take names of letters, digits and '_' that start with no "
-                                "digit, not '" + name + "'");
+    throw ExpressionError(name,
+                          "formulas take names of letters, digits and '_' that start with no "
+                          "digit, not '" +
+                              name + "'");
   }
 }
 
@@ -60,14 +62,14 @@ struct ExpressionMap::Program {
       for (const auto& [name, value] : constants) parser.DefineConst(name, value);
       for (std::size_t i = 0; i < known; ++i) parser.DefineVar(names[i], &values[i]);
       if (assigns(expression.text)) {
-        throw ExpressionError(expression.name, "'" + expression.text + "' assigns; use == to compare");
+        throw ExpressionError(expression.name,
+                              "'" + expression.text + "' assigns; use == to compare");
       }
       parser.SetExpr(expression.text);
       parser.Eval();  // compiles, so that later evaluations allocate nothing
     } catch (const mu::ParserError& error) {
-      throw ExpressionError(expression.name,
-                            "'" + expression.text + "': " + error.GetMsg() + " (it may use" +
-                                known_names(known) + ")");
+      throw ExpressionError(expression.name, "'" + expression.text + "': " + error.GetMsg() +
+                                                 " (it may use" + known_names(known) + ")");
     }
     if (parser.GetNumResults() != 1) {
       throw ExpressionError(expression.name, "'" + expression.text + "' has several values");

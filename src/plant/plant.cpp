@@ -34,7 +34,8 @@ PlantDescription checked(PlantDescription plant) {
     require(sensor.outputs() > 0, "sensor '" + sensor.name + "' must have an output");
   }
   for (const PlantMode& mode : plant.modes) {
-    const std::string where = plant.modes.size() == 1 ? "" : " of mode " + std::to_string(mode.label);
+    const std::string where =
+        plant.modes.size() == 1 ? "" : " of mode " + std::to_string(mode.label);
     const auto same = [&](const PlantMode& other) { return other.label == mode.label; };
     require(std::count_if(plant.modes.begin(), plant.modes.end(), same) == 1,
             "each mode needs a label of its own");

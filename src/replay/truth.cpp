@@ -22,8 +22,7 @@ Quantity quantity_of(const Plant& plant, const std::string& state) {
                     state + "'");
 }
 
-Truth truth_from_states(const Plant& plant,
-                        const std::map<std::string, std::string>& fields) {
+Truth truth_from_states(const Plant& plant, const std::map<std::string, std::string>& fields) {
   Truth truth;
   std::vector<std::string> sources;
   if (fields.empty()) {
@@ -115,8 +114,9 @@ Truth truth_from_samples(const ObserverConfig& config, const std::vector<BagChan
   for (Eigen::Index output = 0; output < config.plant->sensors().front().outputs(); ++output) {
     std::optional<Quantity> found = output_quantity(*config.plant, 0, output);
     if (!found) {
-      throw ReplayError("samples of an output map that is not linear can't be the truth: name a "
-                        "topic with --truth");
+      throw ReplayError(
+          "samples of an output map that is not linear can't be the truth: name a "
+          "topic with --truth");
     }
     Quantity quantity = std::move(*found);
     for (const Quantity& other : truth.quantities) {

@@ -19,8 +19,8 @@ constexpr std::size_t kPoolSize = 16;
 
 void ObserverNodelet::onInit() {
   try {
-    const ObserverConfig config = read_observer_config(
-        read_parameter_tree(getPrivateNodeHandle()), load_plant_plugin);
+    const ObserverConfig config =
+        read_observer_config(read_parameter_tree(getPrivateNodeHandle()), load_plant_plugin);
     if (config.type != type_) {
       throw ConfigError("parameters of " + getPrivateNodeHandle().getNamespace(), "observer",
                         type_ + " (this nodelet's type)", config.type);

@@ -65,8 +65,8 @@ std::vector<EventChannel> event_channels(const ObserverConfig& config) {
   for (std::size_t i = 0; i < config.sensors.size(); ++i) {
     if (!config.sensors[i]) continue;
     const Sensor& sensor = config.plant->sensors()[i];
-    const EventKind kind = sensor.timing == SensorTiming::kContinuous ? EventKind::kOutput
-                                                                      : EventKind::kSample;
+    const EventKind kind =
+        sensor.timing == SensorTiming::kContinuous ? EventKind::kOutput : EventKind::kSample;
     channels.push_back({kind, static_cast<int>(i), sensor.name, *config.sensors[i]});
   }
   if (config.input) channels.push_back({EventKind::kInput, 0, "input", *config.input});

@@ -36,7 +36,7 @@ frame_id: map
 )";
 
 ObserverConfig parse(const std::string& text) {
-  return read_observer_config(read_yaml_text(text, "test.yaml"));
+  return read_observer_config(read_yaml_text(text, "test.yaml"), no_plant_plugins);
 }
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
@@ -56,19 +56,20 @@ std::string fault(const std::string& text) {
 
 TEST(ObserverConfigTest, ReadsEveryKey) {
   const ObserverConfig config = parse(kGood);
-  const LinearPlantDescription& plant = config.plant->description();
+  const Plant& plant = *config.plant;
+  const PlantMode& mode = plant.modes().front();
   EXPECT_EQ("ConstantGainObserver", config.type);
-  EXPECT_EQ((std::vector<std::string>{"p", "v", "c"}), plant.state_names);
-  EXPECT_EQ(-0.5, plant.A(1, 1));
-  EXPECT_EQ(1.5, plant.B(1, 0));
-  EXPECT_EQ(-0.8, plant.jump_map->A_d(1, 1));
-  EXPECT_EQ(0.1, plant.jump_map->b_d(1));
-  ASSERT_EQ(2u, plant.sensors.size());
-  EXPECT_EQ("camera", plant.sensors[0].name);  // sensors are in the order of their names
-  EXPECT_EQ((std::vector<bool>{true, false}), plant.sensors[0].angular);
-  EXPECT_EQ(1.0, plant.sensors[0].C(0, 2));
-  EXPECT_EQ("geometry_msgs/PointStamped", config.sensors[0].type);
-  EXPECT_EQ("sampled_data_observers/Measurement", config.sensors[1].type);
+  EXPECT_EQ((std::vector<std::string>{"p", "v", "c"}), plant.state_names());
+  EXPECT_EQ(-0.5, mode.flow->affine()->M()(1, 1));
+  EXPECT_EQ(1.5, mode.flow->affine()->N()(1, 0));
+  EXPECT_EQ(-0.8, mode.jump->affine()->M()(1, 1));
+  EXPECT_EQ(0.1, mode.jump->affine()->c()(1));
+  ASSERT_EQ(2u, plant.sensors().size());
+  EXPECT_EQ("camera", plant.sensors()[0].name);  // sensors are in the order of their names
+  EXPECT_EQ((std::vector<bool>{true, false}), plant.sensors()[0].angular);
+  EXPECT_EQ(1.0, mode.outputs[0]->affine()->M()(0, 2));
+  EXPECT_EQ("geometry_msgs/PointStamped", config.sensors[0]->type);
+  EXPECT_EQ("sampled_data_observers/Measurement", config.sensors[1]->type);
   EXPECT_EQ("input", config.input->topic);
   EXPECT_EQ("jumps", config.jumps->topic);
   EXPECT_EQ(20000000, config.period);
@@ -80,7 +81,7 @@ TEST(ObserverConfigTest, ReadsEveryKey) {
   EXPECT_EQ("map", config.frame_id);
   Eigen::VectorXd state(config.law->state_size());
   config.law->initialize(state.data());
-  EXPECT_EQ(Eigen::Vector4d(1.0, -2.0, 3.0, 0.0), state);
+  EXPECT_EQ(Eigen::Vector3d(1.0, -2.0, 3.0), state.head(3));
 }
 
 TEST(ObserverConfigTest, OptionalKeysHaveDefaults) {
@@ -227,10 +228,11 @@ TEST(ConfigFilesTest, UnreadableFilesAreFaults) {
 
 TEST(ShippedConfigTest, EveryShippedConfigurationIsValid) {
   const std::string folder = std::string(SDO_SOURCE_DIR) + "/config/";
-  EXPECT_NO_THROW(read_observer_config(std::vector<std::string>{
-      folder + "mass_spring_plant.yaml", folder + "mass_spring_gains.yaml"}));
-  EXPECT_NO_THROW(
-      read_observer_config(std::vector<std::string>{folder + "crazyflie_position.yaml"}));
+  EXPECT_NO_THROW(read_observer_config(std::vector<std::string>{folder + "mass_spring_plant.yaml",
+                                                                folder + "mass_spring_gains.yaml"},
+                                       no_plant_plugins));
+  EXPECT_NO_THROW(read_observer_config(std::vector<std::string>{folder + "crazyflie_position.yaml"},
+                                       no_plant_plugins));
 }
 
 }  // namespace

@@ -37,13 +37,10 @@ Snapshot snapshot(const Timeline& timeline, const HybridSystem& system, Stamp st
   return result;
 }
 
-void expect_identical(const Snapshot& a, const Snapshot& b) {
-  EXPECT_EQ(a.query, b.query);
-  EXPECT_EQ(a.events, b.events);
-  EXPECT_EQ(a.samples, b.samples);
-  EXPECT_EQ(a.jumps, b.jumps);
-  ASSERT_EQ(a.state.size(), b.state.size());
-  EXPECT_EQ(0, std::memcmp(a.state.data(), b.state.data(), a.state.size() * sizeof(double)));
+bool operator==(const Snapshot& a, const Snapshot& b) {
+  return a.query == b.query && a.events == b.events && a.samples == b.samples &&
+         a.jumps == b.jumps && a.state.size() == b.state.size() &&
+         std::memcmp(a.state.data(), b.state.data(), a.state.size() * sizeof(double)) == 0;
 }
 
 std::vector<Snapshot> snapshots(const Timeline& timeline, const HybridSystem& system) {
@@ -78,7 +75,7 @@ TEST_F(TimelineTest, EveryOrderOfArrivalGivesTheSameBits) {
       Timeline timeline = make();
       for (const OwnedEvent& event : events) timeline.insert(event.view());
       const std::vector<Snapshot> found = snapshots(timeline, *law_);
-      for (std::size_t i = 0; i < expected.size(); ++i) expect_identical(expected[i], found[i]);
+      EXPECT_TRUE(expected == found);
     }
   }
 }
@@ -99,7 +96,7 @@ TEST_F(TimelineTest, EveryOrderOfEventsWithOneStampGivesTheSameBits) {
   do {
     Timeline timeline = make();
     for (const OwnedEvent& event : events) timeline.insert(event.view());
-    expect_identical(expected, snapshot(timeline, *law_, kStart + kSecond));
+    EXPECT_TRUE(expected == snapshot(timeline, *law_, kStart + kSecond));
   } while (std::next_permutation(events.begin(), events.end(), less));
 }
 
@@ -117,7 +114,7 @@ TEST_F(TimelineTest, QueriesChangeNothing) {
     }
     const std::vector<Snapshot> expected = snapshots(quiet, *law_);
     const std::vector<Snapshot> found = snapshots(asked, *law_);
-    for (std::size_t i = 0; i < expected.size(); ++i) expect_identical(expected[i], found[i]);
+    EXPECT_TRUE(expected == found);
   }
 }
 
@@ -126,7 +123,7 @@ TEST_F(TimelineTest, TheEstimateRestsOnEventsUpToItsStampOnly) {
   timeline.insert(sample(kStart).view());
   const Snapshot before = snapshot(timeline, *law_, kStart + kSecond);
   timeline.insert(sample(kStart + kSecond + 1).view());
-  expect_identical(before, snapshot(timeline, *law_, kStart + kSecond));
+  EXPECT_TRUE(before == snapshot(timeline, *law_, kStart + kSecond));
   EXPECT_EQ(1u, before.events);
   EXPECT_EQ(2u, snapshot(timeline, *law_, kStart + kSecond + 1).events);
 }
@@ -171,7 +168,7 @@ TEST_F(TimelineTest, ADuplicateChangesNothing) {
   const std::vector<Snapshot> before = snapshots(timeline, *law_);
   EXPECT_EQ(Timeline::Insertion::kDuplicate, timeline.insert(sample(kStart).view()).insertion);
   const std::vector<Snapshot> after = snapshots(timeline, *law_);
-  for (std::size_t i = 0; i < before.size(); ++i) expect_identical(before[i], after[i]);
+  EXPECT_TRUE(before == after);
 }
 
 TEST_F(TimelineTest, AnEventBeforeTheWindowIsDropped) {
@@ -181,7 +178,7 @@ TEST_F(TimelineTest, AnEventBeforeTheWindowIsDropped) {
   const Snapshot before = snapshot(timeline, *law_, kStart + 2 * kSecond);
   EXPECT_EQ(Timeline::Insertion::kBeforeWindow,
             timeline.insert(sample(kStart + kSecond - 1).view()).insertion);
-  expect_identical(before, snapshot(timeline, *law_, kStart + 2 * kSecond));
+  EXPECT_TRUE(before == snapshot(timeline, *law_, kStart + 2 * kSecond));
   EXPECT_EQ(Timeline::Insertion::kRewound,
             timeline.insert(sample(kStart + kSecond).view()).insertion);
 }
@@ -197,8 +194,8 @@ TEST_F(TimelineTest, ForgettingOldEventsChangesNoEstimate) {
   Timeline by_number = make(10 * kSecond, 5);
   for (const OwnedEvent& event : events) {
     for (Timeline* timeline : {&all, &by_time, &by_number}) timeline->insert(event.view());
-    expect_identical(snapshot(all, *law_, event.stamp), snapshot(by_time, *law_, event.stamp));
-    expect_identical(snapshot(all, *law_, event.stamp), snapshot(by_number, *law_, event.stamp));
+    EXPECT_TRUE(snapshot(all, *law_, event.stamp) == snapshot(by_time, *law_, event.stamp));
+    EXPECT_TRUE(snapshot(all, *law_, event.stamp) == snapshot(by_number, *law_, event.stamp));
   }
   EXPECT_EQ(100u, all.size());
   EXPECT_EQ(5u, by_number.size());

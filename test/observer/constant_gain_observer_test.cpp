@@ -49,7 +49,8 @@ TEST_F(ConstantGainObserverTest, FlowsAsThePlantUnderTheInputHeld) {
   Eigen::Vector3d expected(0.3, -0.2, 3.0);
   const double u[] = {2.0, -1.0};
   Eigen::Vector3d scratch;
-  law_->plant().flow().apply(123456789, expected.data(), u, scratch.data());
+  const AffineMap& f = *law_->plant().modes().front().flow->affine();
+  LinearFlow(f.M(), f.N()).apply(123456789, expected.data(), u, scratch.data());
   law_->flow(123456789, state_.data(), workspace_.data());
   EXPECT_EQ(expected, estimate());
 }
@@ -65,15 +66,16 @@ TEST_F(ConstantGainObserverTest, KnowsItsChannels) {
 }
 
 TEST_F(ConstantGainObserverTest, RefusesGainsThatDoNotFit) {
-  const auto plant = std::make_shared<const LinearPlant>(law_->plant().description());
   const Eigen::VectorXd x = Eigen::VectorXd::Zero(3);
   const Eigen::VectorXd u = Eigen::VectorXd::Zero(2);
+  const auto plant = std::make_shared<const Plant>(law_->plant());
+  const ObserverContext context{plant, x, u};
   const std::vector<Eigen::MatrixXd> good = {Eigen::MatrixXd(3, 1), Eigen::MatrixXd(3, 2)};
-  EXPECT_NO_THROW(ConstantGainObserver(plant, good, x, u));
-  EXPECT_THROW(ConstantGainObserver(plant, {good[0]}, x, u), std::invalid_argument);
-  EXPECT_THROW(ConstantGainObserver(plant, {good[1], good[0]}, x, u), std::invalid_argument);
-  EXPECT_THROW(ConstantGainObserver(plant, good, u, u), std::invalid_argument);
-  EXPECT_THROW(ConstantGainObserver(plant, good, x, x), std::invalid_argument);
+  EXPECT_NO_THROW(ConstantGainObserver(context, good));
+  EXPECT_THROW(ConstantGainObserver(context, {good[0]}), std::invalid_argument);
+  EXPECT_THROW(ConstantGainObserver(context, {good[1], good[0]}), std::invalid_argument);
+  EXPECT_THROW(ConstantGainObserver({plant, u, u}, good), std::invalid_argument);
+  EXPECT_THROW(ConstantGainObserver({plant, x, x}, good), std::invalid_argument);
 }
 
 }  // namespace

@@ -101,9 +101,8 @@ TEST_F(EstimatorTest, NoSampleHoweverLargeMakesItDeaf) {
   plant.B = Eigen::MatrixXd::Zero(1, 0);
   plant.sensors = {{"s", Eigen::MatrixXd::Ones(1, 1), {false}}};
   const auto law = std::make_shared<const ConstantGainObserver>(
-      std::make_shared<const LinearPlant>(plant),
-      std::vector<Eigen::MatrixXd>{Eigen::MatrixXd::Constant(1, 1, 0.5)}, Eigen::VectorXd::Zero(1),
-      Eigen::VectorXd::Zero(0));
+      ObserverContext{make_linear_plant(plant), Eigen::VectorXd::Zero(1), Eigen::VectorXd::Zero(0)},
+      std::vector<Eigen::MatrixXd>{Eigen::MatrixXd::Constant(1, 1, 0.5)});
   Estimator estimator(law, options());
   const auto take = [&](Stamp stamp, double value) {
     return estimator.submit(sample(stamp, value).view(), stamp).outcome;

@@ -8,6 +8,7 @@
 #include "sampled_data_observers/config/observer_config.h"
 #include "sampled_data_observers/observer/constant_gain_observer.h"
 #include "sampled_data_observers/observer/estimator.h"
+#include "sampled_data_observers/plant/linear_plant.h"
 
 namespace sampled_data_observers {
 namespace {
@@ -27,7 +28,7 @@ class ScalarExample {
     plant.A = Eigen::MatrixXd::Ones(1, 1);
     plant.B = Eigen::MatrixXd::Zero(1, 0);
     plant.sensors = {{"y", Eigen::MatrixXd::Ones(1, 1), {false}}};
-    plant_ = std::make_shared<const LinearPlant>(plant);
+    plant_ = make_linear_plant(plant);
   }
 
   Estimator estimator(double initial_estimate) const {
@@ -35,8 +36,9 @@ class ScalarExample {
     options.history = {20 * kNanosecondsPerSecond, 1000};
     options.sampling = {kNanosecondsPerSecond, kNanosecondsPerSecond};
     return Estimator(std::make_shared<const ConstantGainObserver>(
-                         plant_, std::vector<Eigen::MatrixXd>{Eigen::MatrixXd::Constant(1, 1, kL)},
-                         Eigen::VectorXd::Constant(1, initial_estimate), Eigen::VectorXd::Zero(0)),
+                         ObserverContext{plant_, Eigen::VectorXd::Constant(1, initial_estimate),
+                                         Eigen::VectorXd::Zero(0)},
+                         std::vector<Eigen::MatrixXd>{Eigen::MatrixXd::Constant(1, 1, kL)}),
                      options);
   }
 
@@ -46,7 +48,7 @@ class ScalarExample {
   /// gamma = R = |theta| T2 / (1 + T2), both from (20a) with T2 = 1.
   static double gamma() { return -theta() / 2.0; }
 
-  std::shared_ptr<const LinearPlant> plant_;
+  std::shared_ptr<const Plant> plant_;
 };
 
 const double ScalarExample::kL = 1.1 - std::exp(-1.0);
@@ -95,9 +97,13 @@ class MassSpringExample : public ::testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(MassSpringExample, TheErrorFallsBelowAMillionthOfItsStart) {
   const std::string folder = std::string(SDO_SOURCE_DIR) + "/config/";
-  ObserverConfig config = read_observer_config(std::vector<std::string>{
-      folder + "mass_spring_plant.yaml", folder + "mass_spring_gains.yaml"});
-  const LinearPlant& plant = *config.plant;
+  ObserverConfig config =
+      read_observer_config(std::vector<std::string>{folder + "mass_spring_plant.yaml",
+                                                    folder + "mass_spring_gains.yaml"},
+                           no_plant_plugins);
+  const Plant& plant = *config.plant;
+  const AffineMap& f = *plant.modes()[0].flow->affine();
+  const LinearFlow flow(f.M(), f.N());
   ASSERT_EQ(5, plant.states());
   config.options.history = {4 * kNanosecondsPerSecond, 1000};
   Estimator estimator(config.law, config.options);
@@ -122,7 +128,7 @@ TEST_P(MassSpringExample, TheErrorFallsBelowAMillionthOfItsStart) {
       next_input += kHold;
     }
     if (now == next_sample) {
-      const Eigen::VectorXd y = plant.sensors()[0].C * x;
+      const Eigen::VectorXd y = plant.modes()[0].outputs[0]->affine()->M() * x;
       const EventReport report = estimator.submit({now, EventKind::kSample, 0, y.data(), 1}, now);
       ASSERT_TRUE(report.used());
       ASSERT_NE(IntervalCheck::kShort, report.interval_check);
@@ -132,7 +138,7 @@ TEST_P(MassSpringExample, TheErrorFallsBelowAMillionthOfItsStart) {
     ASSERT_EQ(Timeline::Query::kOk, estimator.estimate_at(now, estimate));
     error = (x - estimate.state.head(5)).norm();
     const Stamp next = std::min(next_input, next_sample);
-    plant.flow().apply(next - now, x.data(), &u, scratch.data());
+    flow.apply(next - now, x.data(), &u, scratch.data());
     now = next;
   }
   EXPECT_LT(error, 1e-6 * initial_error);

@@ -4,10 +4,12 @@
 
 #include <cmath>
 
+#include "sampled_data_observers/plant/linear_plant.h"
+
 namespace sampled_data_observers {
 namespace {
 
-LinearPlant plant() {
+std::shared_ptr<const Plant> plant() {
   LinearPlantDescription description;
   description.state_names = {"p", "v", "yaw"};
   description.A = Eigen::MatrixXd::Zero(3, 3);
@@ -15,19 +17,20 @@ LinearPlant plant() {
   Eigen::MatrixXd C(3, 3);
   C << 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 0.0;
   description.sensors = {{"s", C, {false, true, false}}};
-  return LinearPlant(description);
+  return make_linear_plant(description);
 }
 
 TEST(ComparisonTest, QuantitiesAreNamedAfterTheStatesTheyMeasure) {
-  EXPECT_EQ("p", output_quantity(plant(), 0, 0).name);
-  EXPECT_EQ("yaw", output_quantity(plant(), 0, 1).name);
-  EXPECT_TRUE(output_quantity(plant(), 0, 1).angular);
-  EXPECT_EQ("s[2]", output_quantity(plant(), 0, 2).name);
-  EXPECT_FALSE(state_quantity(plant(), "nothing"));
+  EXPECT_EQ("p", output_quantity(*plant(), 0, 0)->name);
+  EXPECT_EQ("yaw", output_quantity(*plant(), 0, 1)->name);
+  EXPECT_TRUE(output_quantity(*plant(), 0, 1)->angular);
+  EXPECT_EQ("s[2]", output_quantity(*plant(), 0, 2)->name);
+  EXPECT_FALSE(state_quantity(*plant(), "nothing"));
 }
 
 TEST(ComparisonTest, TakesRootMeanSquaresOfEstimateAndHeldSample) {
-  Comparison comparison({*state_quantity(plant(), "p"), *state_quantity(plant(), "yaw")}, plant());
+  Comparison comparison({*state_quantity(*plant(), "p"), *state_quantity(*plant(), "yaw")},
+                        plant());
   const double x[] = {1.0, 7.0, 3.0};
   comparison.add_truth({9.0, 9.0}, x);  // nothing sampled yet: not compared
   EXPECT_EQ(0u, comparison.size());
@@ -48,7 +51,7 @@ TEST(ComparisonTest, TakesRootMeanSquaresOfEstimateAndHeldSample) {
 }
 
 TEST(ComparisonTest, WhatNoSensorMeasuresHasNoHeldSample) {
-  Comparison comparison({*state_quantity(plant(), "v")}, plant());
+  Comparison comparison({*state_quantity(*plant(), "v")}, plant());
   const double x[] = {1.0, 7.0, 3.0};
   comparison.add_truth({6.0}, x);
   EXPECT_DOUBLE_EQ(1.0, *comparison.rmse()[0]);

@@ -58,7 +58,8 @@ TEST(BadInputTest, OnlyTheGoodEventsCountAndEachHasItsStatus) {
 
   // The same good events in order, in this process.
   const ObserverConfig config = read_observer_config(
-      std::vector<std::string>{std::string(SDO_SOURCE_DIR) + "/test/ros/position.yaml"});
+      std::vector<std::string>{std::string(SDO_SOURCE_DIR) + "/test/ros/position.yaml"},
+      no_plant_plugins);
   Estimator reference(config.law, config.options);
   const auto take = [&](double seconds, EventKind kind, std::vector<double> values) {
     const Stamp stamp = to_stamp(at(seconds));

@@ -121,7 +121,8 @@ gains: {L: [[1], [5]]}
 rate: 100
 frame_id: map
 )",
-                                               "test.yaml"));
+                                               "test.yaml"),
+                                no_plant_plugins);
   }
   EventReport receive(Stamp stamp, double value) {
     return runtime_.receive(channels_[0], {stamp, EventKind::kSample, 0, &value, 1}, stamp,

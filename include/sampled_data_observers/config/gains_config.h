@@ -9,9 +9,9 @@
 
 namespace sampled_data_observers {
 
-/// One matrix of `rows` rows and m_i columns per sensor of a timing; of the others, empty ones. Below
-/// `key` stands a map from sensor names to matrices, or, where there is one such sensor only, its
-/// matrix.
+/// One matrix of `rows` rows and m_i columns per sensor of a timing; of the others, empty ones.
+/// Below `key` stands a map from sensor names to matrices, or, where there is one such sensor only,
+/// its matrix.
 std::vector<Eigen::MatrixXd> read_gain_per_sensor(ConfigSection& gains, const std::string& key,
                                                   const Plant& plant, SensorTiming timing,
                                                   Eigen::Index rows);

@@ -9,7 +9,8 @@
 
 namespace sampled_data_observers {
 
-/// Reads the flow map of one mode: linear (A, B, b), Lipschitz (A, B, G, S, psi) or formulas (flow).
+/// Reads the flow map of one mode: linear (A, B, b), Lipschitz (A, B, G, S, psi) or formulas
+/// (flow).
 std::shared_ptr<const VectorMap> read_flow_map(ConfigSection& mode, const ExpressionNames& names);
 
 /// Reads the jump map of one mode, affine (A_d, b_d) or by formulas; null where there is none.

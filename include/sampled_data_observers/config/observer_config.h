@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "sampled_data_observers/config/config_node.h"
+#include "sampled_data_observers/config/plant_config.h"
 #include "sampled_data_observers/observer/estimator.h"
 #include "sampled_data_observers/observer/observer_law.h"
-#include "sampled_data_observers/config/plant_config.h"
 #include "sampled_data_observers/plant/plant.h"
 
 namespace sampled_data_observers {

@@ -8,8 +8,8 @@
 namespace sampled_data_observers {
 
 /// What an event does to the observer. The numbers are the order in which events of equal stamp
-/// take effect: what is held from its stamp on comes first; a plant jump has priority over a sample,
-/// so a sample stamped at the instant of a jump measures the state after it.
+/// take effect: what is held from its stamp on comes first; a plant jump has priority over a
+/// sample, so a sample stamped at the instant of a jump measures the state after it.
 enum class EventKind : std::uint8_t {
   kInput = 0,    ///< a known input, held until the next
   kOutput = 1,   ///< a continuous output y_c, held until the next

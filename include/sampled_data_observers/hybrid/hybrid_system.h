@@ -44,8 +44,8 @@ class HybridSystem {
   /// result [ns]. It lets a query go on from where an earlier one came to.
   virtual Duration flow_step() const { return 0; }
 
-  /// The longest flow from an event that can be computed in bearable time [ns]; longer ones count as
-  /// not finite.
+  /// The longest flow from an event that can be computed in bearable time [ns]; longer ones count
+  /// as not finite.
   virtual Duration flow_horizon() const { return std::numeric_limits<Duration>::max(); }
 
   /// Reset map of an event that event_size() accepts. Returns false, and leaves the state alone,

@@ -19,14 +19,14 @@ bool is_admissible(const Eigen::Ref<const Eigen::VectorXd>& values);
 
 /// What became of a received event.
 enum class EventOutcome : std::uint8_t {
-  kUsed = 0,          ///< taken in as the newest event
-  kUsedLate = 1,      ///< taken in before events already there, which were applied again
-  kDuplicate = 2,     ///< the same event was taken in before
-  kTooOld = 3,        ///< before the history window, the start or the last reset
-  kInFuture = 4,      ///< stamped later than now plus the tolerance
-  kNoStamp = 5,       ///< the stamp is zero, or was no time
-  kWrongSize = 6,     ///< another number of values than the channel has
-  kNotFinite = 7,     ///< a value is NaN, infinite or beyond kLargestValue
+  kUsed = 0,           ///< taken in as the newest event
+  kUsedLate = 1,       ///< taken in before events already there, which were applied again
+  kDuplicate = 2,      ///< the same event was taken in before
+  kTooOld = 3,         ///< before the history window, the start or the last reset
+  kInFuture = 4,       ///< stamped later than now plus the tolerance
+  kNoStamp = 5,        ///< the stamp is zero, or was no time
+  kWrongSize = 6,      ///< another number of values than the channel has
+  kNotFinite = 7,      ///< a value is NaN, infinite or beyond kLargestValue
   kWouldOverflow = 8,  ///< taken in, but its effect is not finite and was skipped
   kUnknownMode = 9,    ///< a jump into a mode that the plant does not have
   kTooFrequent = 10    ///< taken in without effect: jumps come faster than the limits allow

@@ -13,9 +13,7 @@ namespace sampled_data_observers {
 /// of its own behind.
 class LawDecorator : public ObserverLaw {
  public:
-  const std::vector<std::string>& estimate_names() const override {
-    return law_->estimate_names();
-  }
+  const std::vector<std::string>& estimate_names() const override { return law_->estimate_names(); }
   Eigen::Index state_size() const override { return inner_size() + own_size_; }
   Eigen::Index workspace_size() const override { return law_->workspace_size(); }
   Eigen::Index event_size(EventKind kind, int channel) const override {
@@ -26,12 +24,8 @@ class LawDecorator : public ObserverLaw {
   Duration flow_step() const override { return law_->flow_step(); }
   Duration flow_horizon() const override { return law_->flow_horizon(); }
   bool knows_mode(const Event& event) const override { return law_->knows_mode(event); }
-  void keep_held(const double* from, double* state) const override {
-    law_->keep_held(from, state);
-  }
-  void keep_mode(const double* from, double* state) const override {
-    law_->keep_mode(from, state);
-  }
+  void keep_held(const double* from, double* state) const override { law_->keep_held(from, state); }
+  void keep_mode(const double* from, double* state) const override { law_->keep_mode(from, state); }
   void start_from(const double* estimate, double* state) const override {
     law_->start_from(estimate, state);
   }

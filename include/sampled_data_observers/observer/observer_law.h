@@ -11,9 +11,9 @@ namespace sampled_data_observers {
 /// An observer as a hybrid system: a flow map between events and reset maps at them, over one state
 /// vector whose first entries are the estimate.
 ///
-/// A law is built once from a valid configuration and is const ever after; see HybridSystem for what
-/// its maps may and may not do. An observer type derives from PlantObserver, which brings what all
-/// observers of a plant share.
+/// A law is built once from a valid configuration and is const ever after; see HybridSystem for
+/// what its maps may and may not do. An observer type derives from PlantObserver, which brings what
+/// all observers of a plant share.
 class ObserverLaw : public HybridSystem {
  public:
   /// Names of the estimated states, in the order of the state vector.

@@ -29,11 +29,11 @@ struct ObserverContext {
 /// affine in state, input and outputs held: the matrices are then read off derivative() itself.
 /// Otherwise it is integrated by Runge–Kutta steps.
 ///
-/// Outputs measured at jumps (y_d) come with the jump event, or as samples of equal stamp, before or
-/// after it: a snapshot of the state before the jump lets the jump be applied again with them.
+/// Outputs measured at jumps (y_d) come with the jump event, or as samples of equal stamp, before
+/// or after it: a snapshot of the state before the jump lets the jump be applied again with them.
 ///
-/// State: s | constants | time since jump, timers | mode | u | y_c | 1 | y_c known | snapshot of all
-/// before u | mode after the jump | y_d | y_d known, where s = (x̂, extra) flows.
+/// State: s | constants | time since jump, timers | mode | u | y_c | 1 | y_c known | snapshot of
+/// all before u | mode after the jump | y_d | y_d known, where s = (x̂, extra) flows.
 class PlantObserver : public ObserverLaw {
  public:
   const Plant& plant() const { return *plant_; }
@@ -95,8 +95,8 @@ class PlantObserver : public ObserverLaw {
   virtual void sample(std::size_t sensor, const double* y, const Held& held, double* state,
                       double* workspace) const = 0;
 
-  /// Reset map of a jump into mode `next` from held.mode; the time since the jump before it is still
-  /// since_jump().
+  /// Reset map of a jump into mode `next` from held.mode; the time since the jump before it is
+  /// still since_jump().
   virtual void jump(const Held& held, std::size_t next, const JumpOutputs& outputs, double* state,
                     double* workspace) const;
 

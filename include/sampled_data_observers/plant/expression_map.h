@@ -39,8 +39,8 @@ struct ExpressionNames {
 /// A vector map by formulas such as "-2*sin(x1) - 3*x2 + x3", evaluated by muParser: the usual
 /// operators and functions, `^` for powers, `c ? a : b`, and the constant `pi`.
 ///
-/// Definitions are formulas that the later ones may use by their names; they are evaluated once each
-/// time. Where a formula has no value (the root of -1, say), its entry is NaN or infinite.
+/// Definitions are formulas that the later ones may use by their names; they are evaluated once
+/// each time. Where a formula has no value (the root of -1, say), its entry is NaN or infinite.
 class ExpressionMap : public VectorMap {
  public:
   /// @throws ExpressionError for a formula that does not parse or uses an unknown name, and for a

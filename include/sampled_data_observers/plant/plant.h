@@ -14,7 +14,7 @@ namespace sampled_data_observers {
 
 /// How a flow that has no closed form is integrated: by fixed steps from each event on.
 struct Integration {
-  Duration step = kNanosecondsPerSecond / 1000;     ///< ns, > 0
+  Duration step = kNanosecondsPerSecond / 1000;    ///< ns, > 0
   Duration horizon = 100 * kNanosecondsPerSecond;  ///< ns: longer flows without event are refused
 };
 

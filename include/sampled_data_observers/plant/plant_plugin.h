@@ -11,16 +11,16 @@ namespace sampled_data_observers {
 
 /// The maps of a plant written in C++.
 struct CompiledPlant {
-  std::vector<std::string> state_names;  ///< n
-  std::vector<std::string> input_names;  ///< p
+  std::vector<std::string> state_names;   ///< n
+  std::vector<std::string> input_names;   ///< p
   std::shared_ptr<const VectorMap> flow;  ///< f: n
   std::shared_ptr<const VectorMap> jump;  ///< g: n; null where the plant does not jump
   /// Output maps by the names by which configurations choose them.
   std::map<std::string, std::shared_ptr<const VectorMap>> outputs;
 };
 
-/// Base class of plants in plug-ins (pluginlib), for models that formulas can't express or that must
-/// be fast. A configuration names the class in plant/plugin.
+/// Base class of plants in plug-ins (pluginlib), for models that formulas can't express or that
+/// must be fast. A configuration names the class in plant/plugin.
 class PlantPlugin {
  public:
   virtual ~PlantPlugin() = default;

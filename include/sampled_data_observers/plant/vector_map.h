@@ -8,8 +8,8 @@ class AffineMap;
 
 /// A map from a state x and an input u to a vector: a flow map f, a jump map g or an output map h.
 ///
-/// evaluate() allocates nothing and throws nothing; where the map is not defined it gives NaN. A map
-/// may keep scratch memory, so that one object serves one thread at a time.
+/// evaluate() allocates nothing and throws nothing; where the map is not defined it gives NaN. A
+/// map may keep scratch memory, so that one object serves one thread at a time.
 class VectorMap {
  public:
   VectorMap() = default;

@@ -24,7 +24,8 @@ std::optional<Quantity> state_quantity(const Plant& plant, const std::string& na
 
 /// An output of a sensor as a quantity, named after the state that it measures, or
 /// "sensor[output]"; nothing where its output map is not linear.
-std::optional<Quantity> output_quantity(const Plant& plant, std::size_t sensor, Eigen::Index output);
+std::optional<Quantity> output_quantity(const Plant& plant, std::size_t sensor,
+                                        Eigen::Index output);
 
 /// Whether an output of a sensor measures the quantity itself.
 bool measures(const Plant& plant, std::size_t sensor, Eigen::Index output,

@@ -80,15 +80,13 @@ class ValueReader<Input> : public ListReader<Input> {
   using ListReader::ListReader;
 };
 
-/// Jump events: the mode that follows where the plant switches, then the outputs where they come with
-/// the event.
+/// Jump events: the mode that follows where the plant switches, then the outputs where they come
+/// with the event.
 template <>
 class ValueReader<JumpEvent> {
  public:
   explicit ValueReader(const TopicSource& source)
-      : size_(source.size),
-        first_output_(source.has_mode ? 1 : 0),
-        values_(source.size + 1) {
+      : size_(source.size), first_output_(source.has_mode ? 1 : 0), values_(source.size + 1) {
     refuse_fields(source);
   }
 
