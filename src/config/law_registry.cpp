@@ -11,6 +11,9 @@ namespace {
 std::map<std::string, LawBuilder>& builders() {
   static std::map<std::string, LawBuilder> all = {
       {"ConstantGainObserver", build_constant_gain},
+      {"IntersampleInjectionObserver", build_intersample_injection},
+      {"SampleAndHoldObserver", build_sample_and_hold},
+      {"SynchronizedObserver", build_synchronized},
   };
   return all;
 }

@@ -294,6 +294,15 @@ void PlantObserver::derivative(const Held& held, const double* s, double* ds,
   std::fill(ds + n(), ds + flowing_size(), 0.0);
 }
 
+void PlantObserver::sample(std::size_t sensor, const double* y, const Held& held, double* state,
+                           double* workspace) const {
+  static_cast<void>(sensor);
+  static_cast<void>(y);
+  static_cast<void>(held);
+  static_cast<void>(state);
+  static_cast<void>(workspace);
+}
+
 void PlantObserver::jump(const Held& held, std::size_t next, const JumpOutputs& outputs,
                          double* state, double* workspace) const {
   static_cast<void>(next);

@@ -4,13 +4,17 @@
 
 #include "sampled_data_observers/ros/observer_nodelet.h"
 
-namespace sampled_data_observers {
+// One nodelet per observer type. They differ in their names only: the configuration makes the law.
+#define SDO_OBSERVER_NODELET(TYPE)               \
+  namespace sampled_data_observers {             \
+  class TYPE##Nodelet : public ObserverNodelet { \
+   public:                                       \
+    TYPE##Nodelet() : ObserverNodelet(#TYPE) {}  \
+  };                                             \
+  }                                              \
+  PLUGINLIB_EXPORT_CLASS(sampled_data_observers::TYPE##Nodelet, nodelet::Nodelet)
 
-class ConstantGainObserverNodelet : public ObserverNodelet {
- public:
-  ConstantGainObserverNodelet() : ObserverNodelet("ConstantGainObserver") {}
-};
-
-}  // namespace sampled_data_observers
-
-PLUGINLIB_EXPORT_CLASS(sampled_data_observers::ConstantGainObserverNodelet, nodelet::Nodelet)
+SDO_OBSERVER_NODELET(ConstantGainObserver)
+SDO_OBSERVER_NODELET(IntersampleInjectionObserver)
+SDO_OBSERVER_NODELET(SampleAndHoldObserver)
+SDO_OBSERVER_NODELET(SynchronizedObserver)

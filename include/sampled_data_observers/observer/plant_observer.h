@@ -91,9 +91,10 @@ class PlantObserver : public ObserverLaw {
   /// ds ← ṡ
   virtual void derivative(const Held& held, const double* s, double* ds, double* workspace) const;
 
-  /// Reset map of a sample y of a sensor that is sampled.
+  /// Reset map of a sample y of a sensor that is sampled. By default nothing, for laws that take no
+  /// such sensor.
   virtual void sample(std::size_t sensor, const double* y, const Held& held, double* state,
-                      double* workspace) const = 0;
+                      double* workspace) const;
 
   /// Reset map of a jump into mode `next` from held.mode; the time since the jump before it is
   /// still since_jump().

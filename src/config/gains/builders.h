@@ -9,5 +9,11 @@ namespace sampled_data_observers {
 // One for each observer type, in a file of its own: the LawBuilder that reads its gains.
 std::shared_ptr<const ObserverLaw> build_constant_gain(ConfigSection& gains,
                                                        const LawContext& context);
+std::shared_ptr<const ObserverLaw> build_intersample_injection(ConfigSection& gains,
+                                                               const LawContext& context);
+std::shared_ptr<const ObserverLaw> build_sample_and_hold(ConfigSection& gains,
+                                                         const LawContext& context);
+std::shared_ptr<const ObserverLaw> build_synchronized(ConfigSection& gains,
+                                                      const LawContext& context);
 
 }  // namespace sampled_data_observers

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "sampled_data_observers/observer/plant_observer.h"
+
+namespace sampled_data_observers {
+
+/// A state that the flow map takes from a continuous output instead of from the estimate.
+struct OutputInjection {
+  Eigen::Index state = 0;
+  /// A sensor that measures continuously and has one output.
+  std::size_t sensor = 0;
+};
+
+/// The gains of a synchronized observer. Either may be zero: L_c alone makes it flow-based, L_d
+/// alone jump-based.
+struct SynchronizedGains {
+  std::vector<Eigen::MatrixXd> L_c;  ///< per sensor that measures continuously, n x m_i
+  std::vector<Eigen::MatrixXd> L_d;  ///< per sensor that measures at jumps, n x m_i
+  std::vector<OutputInjection> output_injections;
+};
+
+/// The observer that jumps when the plant does (bernard2022, (13)), with innovation in the flow
+/// from continuous outputs y_c, at jumps from outputs y_d measured just before them, or both:
+///
+///   ẋ̂ = f(x̂, u) + Σ L_c,i (y_c,i − h_i(x̂))      while the plant flows
+///   x̂⁺ = g(x̂) + Σ L_d,i (y_d,i − h_i(x̂))         when it jumps
+///
+/// y_c is held between its messages; before the first of each continuous sensor nothing is
+/// injected. A jump without y_d is the plant's own. With output injections, f takes the named
+/// states from y_c (the neuron of bernard2022, section 7.2). Innovations of angular outputs are
+/// wrapped.
+class SynchronizedObserver : public PlantObserver {
+ public:
+  /// @throws std::invalid_argument when a size does not fit the plant.
+  SynchronizedObserver(ObserverContext context, SynchronizedGains gains);
+
+ protected:
+  bool flow_is_affine() const override;
+  void derivative(const Held& held, const double* s, double* ds, double* workspace) const override;
+  void jump(const Held& held, std::size_t next, const JumpOutputs& outputs, double* state,
+            double* workspace) const override;
+
+ private:
+  SynchronizedGains gains_;
+};
+
+}  // namespace sampled_data_observers

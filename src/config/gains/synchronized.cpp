@@ -1,0 +1,55 @@
+#include <algorithm>
+
+#include "builders.h"
+#include "sampled_data_observers/config/gains_config.h"
+#include "sampled_data_observers/observer/synchronized_observer.h"
+
+namespace sampled_data_observers {
+namespace {
+
+/// Zero gains where the key is missing.
+std::vector<Eigen::MatrixXd> read_gains(ConfigSection& gains, const std::string& key,
+                                        const Plant& plant, SensorTiming timing) {
+  if (gains.has(key)) return read_gain_per_sensor(gains, key, plant, timing, plant.states());
+  std::vector<Eigen::MatrixXd> result;
+  for (const Sensor& sensor : plant.sensors()) {
+    result.push_back(Eigen::MatrixXd::Zero(plant.states(), sensor.outputs()));
+  }
+  return result;
+}
+
+std::vector<OutputInjection> read_output_injections(ConfigSection& gains, const Plant& plant) {
+  std::vector<OutputInjection> result;
+  ConfigSection section = gains.section_or_empty("output_injection");
+  for (std::size_t state = 0; state < plant.state_names().size(); ++state) {
+    const std::string& name = plant.state_names()[state];
+    if (!section.has(name)) continue;
+    const std::string sensor = section.text(name);
+    const auto found = std::find_if(plant.sensors().begin(), plant.sensors().end(),
+                                    [&](const Sensor& other) { return other.name == sensor; });
+    if (found == plant.sensors().end()) {
+      throw section.error(name, "the name of a sensor", "'" + sensor + "'");
+    }
+    result.push_back({static_cast<Eigen::Index>(state),
+                      static_cast<std::size_t>(found - plant.sensors().begin())});
+  }
+  section.finish();
+  return result;
+}
+
+}  // namespace
+
+std::shared_ptr<const ObserverLaw> build_synchronized(ConfigSection& gains,
+                                                      const LawContext& context) {
+  const Plant& plant = context.plant();
+  if (!gains.has("L_c") && !gains.has("L_d")) {
+    throw ConfigError(gains.origin(), gains.path(), "L_c, L_d or both", "neither");
+  }
+  SynchronizedGains result;
+  result.L_c = read_gains(gains, "L_c", plant, SensorTiming::kContinuous);
+  result.L_d = read_gains(gains, "L_d", plant, SensorTiming::kAtJumps);
+  result.output_injections = read_output_injections(gains, plant);
+  return std::make_shared<const SynchronizedObserver>(context.observer, std::move(result));
+}
+
+}  // namespace sampled_data_observers

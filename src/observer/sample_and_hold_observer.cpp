@@ -1,0 +1,23 @@
+#include "sampled_data_observers/observer/sample_and_hold_observer.h"
+
+#include <utility>
+
+namespace sampled_data_observers {
+namespace {
+
+std::vector<IntersampleGains> held_innovation(const std::vector<Eigen::MatrixXd>& L) {
+  std::vector<IntersampleGains> gains;
+  for (const Eigen::MatrixXd& gain : L) {
+    gains.push_back({-gain, Eigen::MatrixXd::Zero(gain.cols(), gain.cols()),
+                     Eigen::VectorXd::Zero(gain.cols())});
+  }
+  return gains;
+}
+
+}  // namespace
+
+SampleAndHoldObserver::SampleAndHoldObserver(ObserverContext context,
+                                             const std::vector<Eigen::MatrixXd>& L)
+    : IntersampleInjectionObserver(std::move(context), held_innovation(L)) {}
+
+}  // namespace sampled_data_observers
