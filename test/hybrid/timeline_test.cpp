@@ -218,7 +218,9 @@ TEST_F(TimelineTest, TheStateBeginsWithTheFirstEvent) {
 TEST_F(TimelineTest, ARestartForgetsAndRefusesWhatCameBefore) {
   Timeline timeline = make();
   timeline.insert(sample(kStart).view());
-  const Eigen::VectorXd state = Eigen::VectorXd::LinSpaced(law_->state_size(), 1.0, 2.0);
+  Eigen::VectorXd state(law_->state_size());
+  law_->initialize(state.data());
+  state(0) = 1.0;
   timeline.restart(kStart + kSecond, state);
   const Snapshot found = snapshot(timeline, *law_, kStart + kSecond);
   EXPECT_EQ(0u, found.events);
