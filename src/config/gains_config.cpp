@@ -5,13 +5,30 @@
 namespace sampled_data_observers {
 namespace {
 
+/// As the key `measured` of a sensor has it.
+const char* describe(SensorTiming timing) {
+  switch (timing) {
+    case SensorTiming::kSampled:
+      return "sampled";
+    case SensorTiming::kContinuous:
+      return "continuous";
+    case SensorTiming::kAtJumps:
+      break;
+  }
+  return "at_jumps";
+}
+
 template <class Rows>
 std::vector<Eigen::MatrixXd> read_per_sensor(ConfigSection& gains, const std::string& key,
                                              const Plant& plant, SensorTiming timing, Rows rows) {
   const std::vector<Sensor>& sensors = plant.sensors();
   std::vector<Eigen::MatrixXd> result(sensors.size());
   const auto fits = [timing](const Sensor& sensor) { return sensor.timing == timing; };
-  if (std::count_if(sensors.begin(), sensors.end(), fits) == 1 && !gains.is_map(key)) {
+  const auto count = std::count_if(sensors.begin(), sensors.end(), fits);
+  if (count == 0) {
+    throw gains.error(key, std::string("a sensor with measured: ") + describe(timing), "none");
+  }
+  if (count == 1 && !gains.is_map(key)) {
     const auto only = std::find_if(sensors.begin(), sensors.end(), fits);
     result[static_cast<std::size_t>(only - sensors.begin())] =
         gains.matrix(key, rows(*only), only->outputs());

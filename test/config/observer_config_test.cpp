@@ -4,7 +4,7 @@
 
 #include "sampled_data_observers/config/config_section.h"
 #include "sampled_data_observers/config/yaml_file.h"
-#include "sampled_data_observers/observer/constant_gain_observer.h"
+#include "support/config_faults.h"
 
 namespace sampled_data_observers {
 namespace {
@@ -35,24 +35,10 @@ future_tolerance: 0.25
 frame_id: map
 )";
 
-ObserverConfig parse(const std::string& text) {
-  return read_observer_config(read_yaml_text(text, "test.yaml"), no_plant_plugins);
-}
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(std::string::npos, at) << from;
-  return text.replace(at, from.size(), to);
-}
-
-std::string fault(const std::string& text) {
-  try {
-    parse(text);
-  } catch (const ConfigError& error) {
-    return error.what();
-  }
-  return "no fault";
-}
+using test::Fault;
+using test::fault;
+using test::parse;
+using test::replaced;
 
 TEST(ObserverConfigTest, ReadsEveryKey) {
   const ObserverConfig config = parse(kGood);
@@ -101,20 +87,11 @@ gains: {L: [[0.5]]}
   EXPECT_FALSE(config.jumps);
 }
 
-struct Fault {
-  const char* from;
-  const char* to;
-  /// Parts that the message must have: place, path, expected, found.
-  std::vector<const char*> message;
-};
-
 class BadConfigTest : public ::testing::TestWithParam<Fault> {};
 
 TEST_P(BadConfigTest, IsRefusedWithAMessageThatHelps) {
   const std::string found = fault(replaced(kGood, GetParam().from, GetParam().to));
-  for (const char* part : GetParam().message) {
-    EXPECT_NE(std::string::npos, found.find(part)) << "missing: " << part << "\nin: " << found;
-  }
+  EXPECT_EQ("", test::missing_parts(GetParam(), found)) << found;
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -1,0 +1,63 @@
+// Faults in the gains of the observer types.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "support/config_faults.h"
+
+namespace sampled_data_observers {
+namespace {
+
+/// A configuration of test/types with one thing changed.
+struct BadGains {
+  const char* example;
+  test::Fault fault;
+};
+
+std::string read_example(const std::string& name) {
+  std::ifstream file(std::string(SDO_SOURCE_DIR) + "/test/types/" + name + ".yaml");
+  std::ostringstream text;
+  text << file.rdbuf();
+  EXPECT_TRUE(file.good()) << name;
+  return text.str();
+}
+
+class BadGainsTest : public ::testing::TestWithParam<BadGains> {};
+
+TEST_P(BadGainsTest, AreRefusedWithAMessageThatHelps) {
+  const test::Fault& change = GetParam().fault;
+  const std::string found =
+      test::fault(test::replaced(read_example(GetParam().example), change.from, change.to));
+  EXPECT_EQ("", test::missing_parts(change, found)) << found;
+}
+
+const char kInjection[] = "intersample_injection";
+const char kPredictor[] = "intersample_injection_lipschitz";
+
+INSTANTIATE_TEST_SUITE_P(
+    Faults, BadGainsTest,
+    ::testing::Values(
+        BadGains{kInjection, {"a: [[-0.9]]", "a: [[-0.9, 0]]", {"gains/H/a", "1 x 1", "1 x 2"}}},
+        BadGains{kInjection, {", b: [[-0.5, 0.1], [0, -0.3]]", "", {"gains/H/b", "missing"}}},
+        BadGains{kInjection,
+                 {"theta0: {a: [0.3]}", "theta0: {a: [1, 2]}", {"gains/theta0/a", "1"}}},
+        BadGains{kInjection, {"theta0: {a: [0.3]}", "theta0: {z: [1]}", {"gains/theta0/z"}}},
+        BadGains{kInjection, {"theta0: {a: [0.3]}", "variant: predictor", {"gains/H", "unknown"}}},
+        BadGains{kPredictor,
+                 {"variant: predictor", "variant: magic", {"zero_order_hold", "'magic'"}}},
+        BadGains{kPredictor, {", variant: predictor", "", {"gains/H", "missing"}}},
+        BadGains{kPredictor, {"C: [[1, 0]]", "h: [\"p^2\"]", {"gains/variant", "'s'"}}},
+        BadGains{"sample_and_hold",
+                 {"[[-1.5], [-0.4]]", "[[-1.5]]", {"gains/L", "2 x 1", "1 x 1"}}},
+        BadGains{"synchronized",
+                 {"e: [[0.2, 0], [0, -0.2]]", "e: [[1]]", {"gains/L_d/e", "2 x 2"}}},
+        BadGains{"synchronized_nonlinear_delayed",
+                 {"{angle: c}", "{angle: z}", {"gains/output_injection/angle", "'z'"}}},
+        BadGains{"synchronized_nonlinear_delayed",
+                 {"{angle: c}", "{angel: c}", {"gains/output_injection/angel", "unknown"}}},
+        BadGains{"synchronized_nonlinear_delayed",
+                 {"{angle: c}", "{angle: d}", {"gains", "'d'", "continuously"}}}));
+
+}  // namespace
+}  // namespace sampled_data_observers
