@@ -7,10 +7,10 @@
 #include <memory>
 #include <unsupported/Eigen/MatrixFunctions>
 
+#include "allocations.h"
 #include "sampled_data_observers/hybrid/timeline.h"
 #include "sampled_data_observers/observer/constant_gain_observer.h"
 #include "sampled_data_observers/plant/linear_plant.h"
-#include "support/allocation_counter.h"
 
 namespace sampled_data_observers {
 namespace {
@@ -35,21 +35,6 @@ std::shared_ptr<const ConstantGainObserver> example_law(Eigen::Index n) {
       ObserverContext{make_linear_plant(plant), Eigen::VectorXd::Ones(n), Eigen::VectorXd::Zero(0)},
       std::vector<Eigen::MatrixXd>{Eigen::MatrixXd::Constant(n, 1, 0.1)});
 }
-
-/// Counts the heap allocations of a loop.
-class Allocations {
- public:
-  explicit Allocations(benchmark::State& state) : state_(state), before_(test::allocations()) {}
-  ~Allocations() {
-    const auto count = static_cast<double>(test::allocations() - before_);
-    state_.counters["allocations"] =
-        benchmark::Counter(count / static_cast<double>(state_.iterations()));
-  }
-
- private:
-  benchmark::State& state_;
-  std::size_t before_;
-};
 
 void BareFlow(benchmark::State& state) {
   const Eigen::Index n = state.range(0);

@@ -226,11 +226,13 @@ bool PlantObserver::reset(const Event& event, double* state, double* workspace) 
       begin_jump(event, state, workspace);
       break;
     case EventKind::kSample:
-      if (plant_->sensors()[sensor].timing == SensorTiming::kAtJumps) {
-        pair_with_jump(event, state, workspace);
-      } else {
-        sample(sensor, event.values, held(state), state, workspace);
+      if (plant_->sensors()[sensor].timing == SensorTiming::kSampled) {
+        const Held now = held(state);
+        sample(sensor, event.values, now, state, workspace);
+        complete(now, state, workspace);
+        return true;
       }
+      pair_with_jump(event, state, workspace);
       break;
     case EventKind::kRelease:
       return false;

@@ -52,7 +52,20 @@ PlantDescription checked(PlantDescription plant) {
 
 }  // namespace
 
-Plant::Plant(PlantDescription description) : description_(checked(std::move(description))) {}
+Plant::Plant(PlantDescription description) : description_(checked(std::move(description))) {
+  for (const PlantMode& mode : modes()) {
+    for (std::size_t i = 0; i < sensors().size(); ++i) {
+      const std::vector<bool>& angular = sensors()[i].angular;
+      const bool has_angle = std::find(angular.begin(), angular.end(), true) != angular.end();
+      const AffineMap* affine = mode.outputs[i]->affine();
+      const bool is_linear =
+          affine != nullptr && affine->c().isZero(0.0) && affine->N().isZero(0.0);
+      outputs_.push_back({mode.outputs[i].get(), sensors()[i].outputs(), states(),
+                          is_linear ? affine->M().data() : nullptr,
+                          has_angle ? &angular : nullptr});
+    }
+  }
+}
 
 bool Plant::jumps() const {
   return switches() || std::any_of(modes().begin(), modes().end(),
@@ -88,17 +101,6 @@ Eigen::Index Plant::outputs(SensorTiming timing) const {
     if (sensor.timing == timing) sum += sensor.outputs();
   }
   return sum;
-}
-
-void compute_innovation(const Plant& plant, std::size_t mode, std::size_t sensor, const double* y,
-                        const double* x, const double* u, double* innovation) {
-  plant.modes()[mode].outputs[sensor]->evaluate(x, u, innovation);
-  const Sensor& description = plant.sensors()[sensor];
-  for (Eigen::Index i = 0; i < description.outputs(); ++i) {
-    const double difference = y[i] - innovation[i];
-    innovation[i] =
-        description.angular[static_cast<std::size_t>(i)] ? wrap_angle(difference) : difference;
-  }
 }
 
 }  // namespace sampled_data_observers

@@ -14,4 +14,10 @@ double wrap_angle(double angle) {
   return wrapped <= -kPi ? kPi : wrapped;
 }
 
+void wrap_angles(const std::vector<bool>& angular, double* values) {
+  for (std::size_t i = 0; i < angular.size(); ++i) {
+    if (angular[i]) values[i] = wrap_angle(values[i]);
+  }
+}
+
 }  // namespace sampled_data_observers

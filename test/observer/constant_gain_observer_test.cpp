@@ -68,7 +68,14 @@ TEST_F(ConstantGainObserverTest, KnowsItsChannels) {
 TEST_F(ConstantGainObserverTest, RefusesGainsThatDoNotFit) {
   const Eigen::VectorXd x = Eigen::VectorXd::Zero(3);
   const Eigen::VectorXd u = Eigen::VectorXd::Zero(2);
-  const auto plant = std::make_shared<const Plant>(law_->plant());
+  LinearPlantDescription description;
+  description.state_names = law_->plant().state_names();
+  description.input_names = law_->plant().input_names();
+  description.A = Eigen::MatrixXd::Zero(3, 3);
+  description.B = Eigen::MatrixXd::Zero(3, 2);
+  description.sensors = {{"a", Eigen::MatrixXd::Zero(1, 3), {false}},
+                         {"b", Eigen::MatrixXd::Zero(2, 3), {false, false}}};
+  const auto plant = make_linear_plant(description);
   const ObserverContext context{plant, x, u};
   const std::vector<Eigen::MatrixXd> good = {Eigen::MatrixXd(3, 1), Eigen::MatrixXd(3, 2)};
   EXPECT_NO_THROW(ConstantGainObserver(context, good));

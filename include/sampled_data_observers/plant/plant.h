@@ -46,6 +46,10 @@ class Plant {
   /// @throws std::invalid_argument naming the part that does not fit.
   explicit Plant(PlantDescription description);
 
+  // Its outputs point into its own description.
+  Plant(const Plant&) = delete;
+  Plant& operator=(const Plant&) = delete;
+
   const std::vector<std::string>& state_names() const { return description_.state_names; }
   const std::vector<std::string>& input_names() const { return description_.input_names; }
   const std::vector<Sensor>& sensors() const { return description_.sensors; }
@@ -65,17 +69,50 @@ class Plant {
   /// Whether flow, jump and output maps of all modes are affine.
   bool is_affine() const;
 
+  /// A sensor's output map in one mode, as compute_innovation() needs it.
+  struct Output {
+    const VectorMap* map = nullptr;
+    Eigen::Index size = 0;
+    Eigen::Index states = 0;
+    /// size x states, column-major, where the map is C x; else null.
+    const double* C = nullptr;
+    /// Null where no output is an angle.
+    const std::vector<bool>* angular = nullptr;
+  };
+  const Output& output(std::size_t mode, std::size_t sensor) const {
+    return outputs_[mode * sensors().size() + sensor];
+  }
+
   /// Largest number of outputs of a sensor, and the number of all outputs of one timing.
   Eigen::Index max_outputs() const;
   Eigen::Index outputs(SensorTiming timing) const;
 
  private:
   PlantDescription description_;
+  std::vector<Output> outputs_;
 };
 
 /// innovation ← y − h(x, u) of a sensor in a mode, angular outputs wrapped to (−π, π].
 /// `y` and `innovation`: m entries each, not overlapping.
-void compute_innovation(const Plant& plant, std::size_t mode, std::size_t sensor, const double* y,
-                        const double* x, const double* u, double* innovation);
+inline void compute_innovation(const Plant& plant, std::size_t mode, std::size_t sensor,
+                               const double* y, const double* x, const double* u,
+                               double* innovation) {
+  const Plant::Output& output = plant.output(mode, sensor);
+  if (output.C == nullptr) {
+    output.map->evaluate(x, u, innovation);
+    for (Eigen::Index i = 0; i < output.size; ++i) innovation[i] = y[i] - innovation[i];
+  } else {
+    // The common case, inline. Left to right, for the reason given at add_product().
+    for (Eigen::Index i = 0; i < output.size; ++i) {
+      const double* entry = output.C + i;
+      double difference = y[i];
+      for (Eigen::Index j = 0; j < output.states; ++j, entry += output.size) {
+        difference -= *entry * x[j];
+      }
+      innovation[i] = difference;
+    }
+  }
+  if (output.angular != nullptr) wrap_angles(*output.angular, innovation);
+}
 
 }  // namespace sampled_data_observers

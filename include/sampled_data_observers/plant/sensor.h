@@ -27,4 +27,7 @@ struct Sensor {
 /// The angle in (-π, π] that differs from `angle` by a whole number of turns.
 double wrap_angle(double angle);
 
+/// Wraps those values whose flag is set.
+void wrap_angles(const std::vector<bool>& angular, double* values);
+
 }  // namespace sampled_data_observers
