@@ -234,6 +234,34 @@ Eigen::VectorXd ConfigSection::vector(const std::string& key, Eigen::Index size)
   return result;
 }
 
+std::vector<Eigen::VectorXd> ConfigSection::vectors(const std::string& key) {
+  const std::string expected = "a list of finite numbers, or a list of such lists";
+  const ConfigNode& node = required(key, expected);
+  if (node.kind != ConfigNode::Kind::kSequence || node.items.empty()) {
+    throw error(key, expected, node.describe());
+  }
+  const bool nested = node.items.front().kind == ConfigNode::Kind::kSequence;
+  std::vector<const ConfigNode*> lists;
+  if (!nested) lists.push_back(&node);
+  for (const ConfigNode& item : node.items) {
+    if ((item.kind == ConfigNode::Kind::kSequence) != nested) {
+      throw error(key, expected, item.describe() + " in it");
+    }
+    if (nested) lists.push_back(&item);
+  }
+  std::vector<Eigen::VectorXd> result;
+  for (const ConfigNode* list : lists) {
+    Eigen::VectorXd values(static_cast<Eigen::Index>(list->items.size()));
+    for (std::size_t i = 0; i < list->items.size(); ++i) {
+      const std::optional<double> value = as_number(list->items[i]);
+      if (!value) throw error(key, expected, list->items[i].describe() + " in it");
+      values(static_cast<Eigen::Index>(i)) = *value;
+    }
+    result.push_back(std::move(values));
+  }
+  return result;
+}
+
 ConfigSection ConfigSection::section(const std::string& key) {
   return ConfigSection(required(key, "a map of keys"), path_of(key));
 }

@@ -33,6 +33,11 @@ std::shared_ptr<const VectorMap> ExpressionReader::read_list(ConfigSection& sect
   return make(section, key, expressions);
 }
 
+std::shared_ptr<const VectorMap> ExpressionReader::read_text(ConfigSection& section,
+                                                             const std::string& key) const {
+  return make(section, key, {{key, section.text(key)}});
+}
+
 std::shared_ptr<const VectorMap> ExpressionReader::read_matrix(ConfigSection& section,
                                                                const std::string& key,
                                                                std::size_t rows,

@@ -11,8 +11,10 @@ namespace {
 std::map<std::string, LawBuilder>& builders() {
   static std::map<std::string, LawBuilder> all = {
       {"ConstantGainObserver", build_constant_gain},
+      {"HighGainObserver", build_high_gain},
       {"IntersampleInjectionObserver", build_intersample_injection},
       {"SampleAndHoldObserver", build_sample_and_hold},
+      {"SwitchedObserver", build_switched},
       {"SynchronizedObserver", build_synchronized},
   };
   return all;

@@ -48,6 +48,8 @@ class ConfigSection {
                                                     std::size_t cols);
   /// A list of `size` finite numbers.
   Eigen::VectorXd vector(const std::string& key, Eigen::Index size);
+  /// A list of lists of finite numbers, each of any length; or one such list alone.
+  std::vector<Eigen::VectorXd> vectors(const std::string& key);
 
   ConfigSection section(const std::string& key);
   /// A map whose keys are names that the user chose.

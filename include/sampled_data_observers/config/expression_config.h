@@ -26,6 +26,9 @@ class ExpressionReader {
   std::shared_ptr<const VectorMap> read_list(ConfigSection& section, const std::string& key,
                                              std::size_t size) const;
 
+  /// The map to one entry by the formula below `key`.
+  std::shared_ptr<const VectorMap> read_text(ConfigSection& section, const std::string& key) const;
+
   /// The map whose entries are those of a matrix, row by row.
   std::shared_ptr<const VectorMap> read_matrix(ConfigSection& section, const std::string& key,
                                                std::size_t rows, std::size_t cols) const;

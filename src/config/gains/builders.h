@@ -16,4 +16,7 @@ std::shared_ptr<const ObserverLaw> build_sample_and_hold(ConfigSection& gains,
 std::shared_ptr<const ObserverLaw> build_synchronized(ConfigSection& gains,
                                                       const LawContext& context);
 
+std::shared_ptr<const ObserverLaw> build_high_gain(ConfigSection& gains, const LawContext& context);
+std::shared_ptr<const ObserverLaw> build_switched(ConfigSection& gains, const LawContext& context);
+
 }  // namespace sampled_data_observers

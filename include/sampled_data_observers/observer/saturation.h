@@ -1,0 +1,30 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace sampled_data_observers {
+
+/// Bounds within which states are known to stay, sat(x) in bernard2022 (21) and example 4.3.
+class Saturation {
+ public:
+  /// No bounds for n states.
+  explicit Saturation(Eigen::Index n);
+
+  /// @throws std::invalid_argument unless low < high, both finite, and 0 <= state < n.
+  void bound(Eigen::Index state, double low, double high);
+
+  Eigen::Index size() const { return low_.size(); }
+
+  /// Brings each entry of x (n entries) into its bounds; a bounded one that is NaN to its lower
+  /// one.
+  void apply(double* x) const;
+
+  /// A size of a state's usual changes: half the width of its bounds, 1 where it has none.
+  double scale(Eigen::Index state) const;
+
+ private:
+  Eigen::VectorXd low_;
+  Eigen::VectorXd high_;
+};
+
+}  // namespace sampled_data_observers

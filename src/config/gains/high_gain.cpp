@@ -1,0 +1,96 @@
+#include <algorithm>
+#include <utility>
+
+#include "builders.h"
+#include "sampled_data_observers/config/expression_config.h"
+#include "sampled_data_observers/observer/high_gain_observer.h"
+
+namespace sampled_data_observers {
+namespace {
+
+Saturation read_saturations(ConfigSection& gains, const std::vector<std::string>& states) {
+  Saturation saturation(static_cast<Eigen::Index>(states.size()));
+  if (!gains.has("saturations")) return saturation;
+  ConfigSection section = gains.section("saturations");
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    if (!section.has(states[i])) continue;
+    const Eigen::VectorXd bounds = section.vector(states[i], 2);
+    if (!(bounds(0) < bounds(1))) {
+      throw section.error(states[i], "a lower bound and a higher one", "low >= high");
+    }
+    saturation.bound(static_cast<Eigen::Index>(i), bounds(0), bounds(1));
+  }
+  section.finish();
+  return saturation;
+}
+
+/// T: as many formulas of the states as K has numbers.
+std::shared_ptr<const VectorMap> read_T(ConfigSection& gains, const ExpressionNames& names) {
+  ExpressionNames of_T = names;
+  of_T.u.clear();
+  return ExpressionReader(of_T).read_list(gains, "T", 0);
+}
+
+bool has_name(const ExpressionNames& names, const std::string& name) {
+  const auto is_it = [&](const auto& constant) { return constant.first == name; };
+  return std::count(names.x.begin(), names.x.end(), name) > 0 ||
+         std::count(names.u.begin(), names.u.end(), name) > 0 ||
+         std::any_of(names.constants.begin(), names.constants.end(), is_it);
+}
+
+void check_names(ConfigSection& gains, const ExpressionNames& names,
+                 const std::vector<std::string>& z) {
+  for (const std::string& name : z) {
+    if (!has_name(names, name)) continue;
+    throw gains.error("form", "a plant whose names leave z1, z2, … to the transformed state",
+                      "'" + name + "' among them");
+  }
+  if (!gains.has("definitions")) return;
+  for (const auto& definition : gains.named_texts("definitions")) {
+    const std::string& name = definition.first;
+    if (!has_name(names, name) && std::count(z.begin(), z.end(), name) == 0) continue;
+    throw gains.error("definitions", "names that nothing else has", "'" + name + "'");
+  }
+}
+
+std::shared_ptr<const ObserverLaw> build_transformed(ConfigSection& gains,
+                                                     const LawContext& context,
+                                                     const Saturation& saturation, double ell) {
+  TransformedHighGainObserver::Maps maps;
+  maps.T = read_T(gains, context.names);
+  ExpressionNames of_z;
+  for (Eigen::Index i = 1; i <= maps.T->size(); ++i) of_z.x.push_back("z" + std::to_string(i));
+  check_names(gains, context.names, of_z.x);
+  of_z.constants = context.names.constants;
+  ExpressionNames of_z_and_x = of_z;
+  of_z_and_x.x.insert(of_z_and_x.x.end(), context.names.x.begin(), context.names.x.end());
+  of_z_and_x.u = context.names.u;
+
+  ExpressionReader theta(of_z);
+  theta.read_definitions(gains, "definitions");
+  maps.Theta = theta.read_map(gains, "Theta", context.names.x);
+  ExpressionReader phi(of_z_and_x);
+  phi.read_definitions(gains, "definitions");
+  maps.Phi = phi.read_text(gains, "Phi");
+  return std::make_shared<const TransformedHighGainObserver>(
+      context.observer, saturation, ell, gains.vector("K", maps.T->size()), std::move(maps));
+}
+
+}  // namespace
+
+std::shared_ptr<const ObserverLaw> build_high_gain(ConfigSection& gains,
+                                                   const LawContext& context) {
+  const std::string form = gains.choice("form", {"linear", "transformed", "original"});
+  const double ell = gains.number("ell");
+  const Saturation saturation = read_saturations(gains, context.plant().state_names());
+  if (form == "linear") {
+    return std::make_shared<const LinearHighGainObserver>(context.observer, saturation, ell,
+                                                          gains.vectors("K"));
+  }
+  if (form == "transformed") return build_transformed(gains, context, saturation, ell);
+  const std::shared_ptr<const VectorMap> T = read_T(gains, context.names);
+  return std::make_shared<const OriginalHighGainObserver>(context.observer, saturation, ell,
+                                                          gains.vector("K", T->size()), T);
+}
+
+}  // namespace sampled_data_observers

@@ -1,0 +1,40 @@
+#include "sampled_data_observers/observer/saturation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace sampled_data_observers {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+Saturation::Saturation(Eigen::Index n)
+    : low_(Eigen::VectorXd::Constant(n, -kInfinity)),
+      high_(Eigen::VectorXd::Constant(n, kInfinity)) {}
+
+void Saturation::bound(Eigen::Index state, double low, double high) {
+  if (state < 0 || state >= size()) throw std::invalid_argument("Saturation: no such state");
+  if (!std::isfinite(low) || !std::isfinite(high) || !(low < high)) {
+    throw std::invalid_argument("Saturation: low < high must hold, both finite");
+  }
+  low_(state) = low;
+  high_(state) = high;
+}
+
+void Saturation::apply(double* x) const {
+  for (Eigen::Index i = 0; i < size(); ++i) {
+    if (low_(i) == -kInfinity) continue;
+    // std::max gives its first argument where the second is NaN.
+    x[i] = std::min(std::max(low_(i), x[i]), high_(i));
+  }
+}
+
+double Saturation::scale(Eigen::Index state) const {
+  return low_(state) == -kInfinity ? 1.0 : 0.5 * (high_(state) - low_(state));
+}
+
+}  // namespace sampled_data_observers

@@ -1,0 +1,81 @@
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "support/config_faults.h"
+
+namespace sampled_data_observers {
+namespace {
+
+using test::fault;
+
+const char kGood[] = R"(
+observer: SwitchedObserver
+plant:
+  states: [x1, x2]
+  parameters: {k: 0.5}
+  modes:
+    1: {A: [[0, 1], [-1, 0]]}
+    7: {A: [[0, 1], [-4, 0]], jump_map: {A_d: [[1, 0], [0, -1]]}}
+sensors:
+  c: {C: [[1, 0]], measured: continuous, source: {topic: c}}
+  d: {C: [[0, 1]], measured: at_jumps}
+sampling: {T1: 0.01, T2: 0.01}
+gains:
+  L_c:
+    1: [[2], [0.5]]
+    7: {c: [[3], [-1]]}
+  L_d:
+    1: [[1], [k*cos(tau)]]
+    7: {d: [[0.1], [tau]]}
+  projection: {1: [[2, 0.5], [0.5, 1]]}
+)";
+
+TEST(SwitchedConfigTest, EachKindOfGainMayBeMissingButNotAll) {
+  EXPECT_EQ("no fault", fault(kGood));
+  const std::string text = kGood;
+  const std::size_t gains = text.find("  L_c:\n");
+  const std::size_t at_jumps = text.find("  L_d:\n");
+  const std::size_t projection = text.find("  projection:");
+  const std::string head = text.substr(0, gains);
+  EXPECT_EQ("no fault", fault(head + text.substr(gains, projection - gains)));
+  EXPECT_EQ("no fault", fault(head + text.substr(at_jumps)));
+  EXPECT_EQ("no fault", fault(head + text.substr(projection)));
+  const std::string none = fault(text.substr(0, text.find("gains:")) + "gains: {}\n");
+  EXPECT_NE(std::string::npos, none.find("at least one of L_c, L_d and projection")) << none;
+}
+
+using test::Fault;
+
+class BadSwitchedTest : public ::testing::TestWithParam<Fault> {};
+
+TEST_P(BadSwitchedTest, IsRefusedWithAMessageThatHelps) {
+  const std::string found = fault(test::replaced(kGood, GetParam().from, GetParam().to));
+  EXPECT_EQ("", test::missing_parts(GetParam(), found)) << found;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Faults, BadSwitchedTest,
+    ::testing::Values(
+        Fault{"    7: {c: [[3], [-1]]}\n", "", {"gains/L_c/7", "missing"}},
+        Fault{"7: {c: [[3], [-1]]}", "8: {c: [[3], [-1]]}", {"gains/L_c/7", "missing"}},
+        Fault{"    1: [[2], [0.5]]\n",
+              "    1: [[2], [0.5]]\n    2: [[2], [0.5]]\n",
+              {"gains/L_c/2", "unknown"}},
+        Fault{"{c: [[3], [-1]]}", "{d: [[3], [-1]]}", {"gains/L_c/7/c", "missing"}},
+        Fault{"{c: [[3], [-1]]}", "{c: [[3]]}", {"gains/L_c/7/c", "2 x 1", "1 x 1"}},
+        Fault{"[k*cos(tau)]", "[k*cos(t)]", {"gains/L_d/1", "row 2, column 1", "tau"}},
+        Fault{"[k*cos(tau)]", "[x1]", {"gains/L_d/1", "x1"}},
+        Fault{"[[1], [k*cos(tau)]]", "[[1, 2], [0, 0]]", {"gains/L_d/1", "2 x 1"}},
+        Fault{"{d: [[0.1], [tau]]}", "{c: [[0.1], [tau]]}", {"gains/L_d/7/d", "missing"}},
+        Fault{"{1: [[2, 0.5], [0.5, 1]]}", "{1: [[2, 0.5], [0, 1]]}", {"mode 1", "symmetric"}},
+        Fault{"{1: [[2, 0.5], [0.5, 1]]}", "{1: [[2, 0.5]]}", {"gains/projection/1", "2 x 2"}},
+        Fault{"{1: [[2, 0.5], [0.5, 1]]}", "{7: [[1, 0], [0, 1]]}", {"mode 7", "jump map"}},
+        Fault{"{1: [[2, 0.5], [0.5, 1]]}",
+              "{3: [[1, 0], [0, 1]]}",
+              {"gains/projection/3", "unknown"}},
+        Fault{"measured: at_jumps", "source: {topic: d}", {"gains/L_d/1"}}));
+
+}  // namespace
+}  // namespace sampled_data_observers

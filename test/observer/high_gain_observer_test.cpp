@@ -1,0 +1,355 @@
+#include "sampled_data_observers/observer/high_gain_observer.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <string>
+
+#include "sampled_data_observers/observer/estimator.h"
+#include "sampled_data_observers/observer/ordered_solve.h"
+#include "sampled_data_observers/plant/expression_map.h"
+#include "support/allocation_counter.h"
+#include "support/random_events.h"
+
+namespace sampled_data_observers {
+namespace {
+
+using test::OwnedEvent;
+
+constexpr Stamp kStart = 1000 * kNanosecondsPerSecond;
+
+/// Position and velocity with a measured position, which bounces: x⁺ = (x1, −2 x2).
+std::shared_ptr<const Plant> cart(bool angular) {
+  PlantDescription plant;
+  plant.state_names = {"p", "v"};
+  plant.sensors = {{"position", SensorTiming::kContinuous, {angular}}};
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2, 2);
+  A(0, 1) = 1.0;
+  Eigen::MatrixXd C = Eigen::MatrixXd::Zero(1, 2);
+  C(0, 0) = 1.0;
+  Eigen::MatrixXd A_d = Eigen::MatrixXd::Identity(2, 2);
+  A_d(1, 1) = -2.0;
+  PlantMode mode;
+  mode.flow = std::make_shared<const AffineMap>(A);
+  mode.jump = std::make_shared<const AffineMap>(A_d);
+  mode.outputs = {std::make_shared<const AffineMap>(C)};
+  plant.modes = {mode};
+  return std::make_shared<const Plant>(plant);
+}
+
+Saturation no_bounds() { return Saturation(2); }
+
+/// Eigenvalues −ℓ and −2 ℓ.
+std::shared_ptr<const LinearHighGainObserver> cart_observer(
+    double ell, const Saturation& saturation = no_bounds(), bool angular = false) {
+  const ObserverContext context{cart(angular), Eigen::Vector2d(1.0, -2.0), Eigen::VectorXd(0)};
+  return std::make_shared<const LinearHighGainObserver>(
+      context, saturation, ell, std::vector<Eigen::VectorXd>{Eigen::Vector2d(2.0, 3.0)});
+}
+
+/// A law with its state.
+struct Body {
+  explicit Body(std::shared_ptr<const ObserverLaw> of)
+      : law(std::move(of)), state(law->state_size()), workspace(law->workspace_size()) {
+    law->initialize(state.data());
+  }
+  void take(EventKind kind, std::vector<double> values) {
+    const OwnedEvent event{kStart, kind, 0, std::move(values)};
+    law->reset(event.view(), state.data(), workspace.data());
+  }
+  void flow(double seconds) { law->flow(from_seconds(seconds), state.data(), workspace.data()); }
+  std::shared_ptr<const ObserverLaw> law;
+  Eigen::VectorXd state;
+  Eigen::VectorXd workspace;
+};
+
+TEST(LinearHighGainTest, TheErrorDecaysExactlyAsTheEigenvaluesSay) {
+  // The plant rests at p = 3, so that holding y_c is exact. With L_c = (3 ℓ, 2 ℓ²) the error is
+  // e1 = c1 e^{-ℓt} + c2 e^{-2ℓt}, e2 = 2ℓ c1 e^{-ℓt} + ℓ c2 e^{-2ℓt}.
+  for (const double ell : {0.5, 3.0, 20.0}) {
+    const auto law = cart_observer(ell);
+    EXPECT_NEAR(3.0 * ell, law->L_c()(0, 0), 1e-12 * ell);
+    EXPECT_NEAR(2.0 * ell * ell, law->L_c()(1, 0), 1e-12 * ell * ell);
+    Body body(law);
+    body.take(EventKind::kOutput, {3.0});
+    const Eigen::Vector2d e(3.0 - 1.0, 0.0 + 2.0);
+    const double c1 = e(1) / ell - e(0);
+    const double c2 = e(0) - c1;
+    double t = 0.0;
+    for (const double step : {0.01, 0.123456789, 0.4, 1.0}) {
+      body.flow(step);
+      t += step;
+      const double slow = c1 * std::exp(-ell * t);
+      const double fast = c2 * std::exp(-2.0 * ell * t);
+      EXPECT_NEAR(3.0 - slow - fast, body.state(0), 1e-13 * (1.0 + std::abs(c2)));
+      EXPECT_NEAR(-2.0 * ell * slow - ell * fast, body.state(1),
+                  1e-12 * ell * (1.0 + std::abs(c2)));
+    }
+  }
+}
+
+TEST(LinearHighGainTest, FlowsAsThePlantBeforeTheFirstOutput) {
+  Body body(cart_observer(5.0));
+  body.flow(0.5);
+  EXPECT_NEAR(0.0, body.state(0), 1e-15);
+  EXPECT_EQ(-2.0, body.state(1));
+}
+
+TEST(LinearHighGainTest, AJumpIsThePlantsWithinTheBounds) {
+  Saturation bounds(2);
+  bounds.bound(1, -3.0, 3.0);
+  Body body(cart_observer(5.0, bounds));
+  body.take(EventKind::kJump, {});
+  EXPECT_EQ(1.0, body.state(0));
+  EXPECT_EQ(3.0, body.state(1));
+  body.flow(1.0);  // the flow knows no bounds
+  EXPECT_NEAR(4.0, body.state(0), 1e-15);
+}
+
+TEST(LinearHighGainTest, AnAngularOutputIsWrapped) {
+  // The angle 3.0 + 2 pi is 3.0: the estimate must go there the short way.
+  const double turn = 2.0 * 3.14159265358979323846;
+  Body body(cart_observer(3.0, no_bounds(), true));
+  body.take(EventKind::kOutput, {3.0 + turn});
+  EXPECT_EQ(from_seconds(0.001), body.law->flow_step());
+  for (int i = 0; i < 10; ++i) body.flow(1.0);
+  EXPECT_NEAR(3.0, body.state(0), 1e-9);
+}
+
+std::shared_ptr<const VectorMap> formulas(std::vector<std::string> names,
+                                          const std::vector<std::string>& texts) {
+  std::vector<NamedExpression> expressions;
+  for (const std::string& text : texts) expressions.push_back({"formula", text});
+  return std::make_shared<const ExpressionMap>(ExpressionNames{std::move(names), {}, {}},
+                                               std::vector<NamedExpression>{}, expressions);
+}
+
+/// An oscillator: ẋ1 = x2 + 0.5 sin x1, ẋ2 = −x1 − 0.1 x2, y = x1; x2⁺ = −0.9 x2 at jumps.
+/// T(x) = (x1, x2 + 0.5 sin x1) is invertible everywhere.
+ObserverContext oscillator(const Eigen::Vector2d& start) {
+  PlantDescription plant;
+  plant.state_names = {"x1", "x2"};
+  plant.sensors = {{"y", SensorTiming::kContinuous, {false}}};
+  PlantMode mode;
+  mode.flow = formulas({"x1", "x2"}, {"x2 + 0.5*sin(x1)", "-x1 - 0.1*x2"});
+  mode.jump = formulas({"x1", "x2"}, {"x1", "-0.9*x2"});
+  mode.outputs = {formulas({"x1", "x2"}, {"x1"})};
+  plant.modes = {mode};
+  return {std::make_shared<const Plant>(plant), start, Eigen::VectorXd(0)};
+}
+
+std::shared_ptr<const VectorMap> oscillator_T() {
+  return formulas({"x1", "x2"}, {"x1", "x2 + 0.5*sin(x1)"});
+}
+
+TransformedHighGainObserver::Maps oscillator_maps() {
+  return {oscillator_T(), formulas({"z1", "z2", "x1", "x2"}, {"-x1 - 0.1*x2 + 0.5*cos(x1)*z2"}),
+          formulas({"z1", "z2"}, {"z1", "z2 - 0.5*sin(z1)"})};
+}
+
+const Eigen::Vector2d kK(2.0, 1.0);  // (s + 1)²
+
+std::shared_ptr<const ObserverLaw> transformed(const Eigen::Vector2d& start,
+                                               const Saturation& bounds = no_bounds()) {
+  return std::make_shared<const TransformedHighGainObserver>(oscillator(start), bounds, 5.0, kK,
+                                                             oscillator_maps());
+}
+
+std::shared_ptr<const ObserverLaw> original(const Eigen::Vector2d& start,
+                                            const Saturation& bounds = no_bounds()) {
+  return std::make_shared<const OriginalHighGainObserver>(oscillator(start), bounds, 5.0, kK,
+                                                          oscillator_T());
+}
+
+TEST(NonlinearHighGainTest, BothFormsAreOneObserverWhereNothingSaturates) {
+  const Eigen::Vector2d start(0.7, -1.2);
+  Body in_z(transformed(start));
+  Body in_x(original(start));
+  for (int i = 0; i < 200; ++i) {
+    for (Body* body : {&in_z, &in_x}) {
+      if (i > 10) body->take(EventKind::kOutput, {std::sin(0.03 * i)});
+      body->flow(0.0173);
+      if (i % 60 == 59) body->take(EventKind::kJump, {});
+    }
+    ASSERT_LT((in_z.state.head(2) - in_x.state.head(2)).norm(), 1e-7) << i;
+  }
+  EXPECT_GT((in_z.state.head(2) - start).norm(), 0.1);
+}
+
+TEST(NonlinearHighGainTest, BothFormsConvergeThroughJumps) {
+  // Copied jumps, y_c every millisecond: what the hold leaves is in proportion to ẏ times 1 ms.
+  const auto bound = [](double low, double high) {
+    Saturation result(2);
+    result.bound(0, low, high);
+    result.bound(1, low, high);
+    return result;
+  };
+  const Eigen::Vector2d start(-1.5, 2.0);
+  for (const auto& law :
+       {transformed(start, bound(-3.0, 3.0)), original(start, bound(-3.0, 3.0))}) {
+    Body body(law);
+    Body plant(original(Eigen::Vector2d(1.0, 0.5)));  // without outputs it is the plant
+    for (int i = 0; i < 8000; ++i) {
+      body.take(EventKind::kOutput, {plant.state(0)});
+      body.flow(0.001);
+      plant.flow(0.001);
+      if (i % 1700 == 1699) {
+        body.take(EventKind::kJump, {});
+        plant.take(EventKind::kJump, {});
+      }
+    }
+    EXPECT_LT((body.state.head(2) - plant.state.head(2)).norm(), 0.02);
+    EXPECT_GT(plant.state.head(2).norm(), 0.3);
+  }
+}
+
+TEST(TransformedHighGainTest, JumpsAndStartsInItsCoordinates) {
+  Saturation bounds(2);
+  bounds.bound(1, -1.0, 1.0);
+  Body body(transformed(Eigen::Vector2d(0.7, -1.2), bounds));
+  const auto expect_state = [&body](double x1, double x2) {
+    EXPECT_NEAR(x1, body.state(0), 1e-15);
+    EXPECT_NEAR(x2, body.state(1), 1e-15);
+    EXPECT_NEAR(x1, body.state(2), 1e-15);
+    EXPECT_NEAR(x2 + 0.5 * std::sin(x1), body.state(3), 1e-15);
+  };
+  expect_state(0.7, -1.2);
+  body.take(EventKind::kJump, {});  // x2⁺ = 1.08
+  expect_state(0.7, 1.0);
+  const Eigen::Vector2d other(-0.2, 0.4);
+  body.law->start_from(other.data(), body.state.data());
+  expect_state(-0.2, 0.4);
+}
+
+TEST(TransformedHighGainTest, KeepsTheEstimateWithinTheBounds) {
+  Saturation bounds(2);
+  bounds.bound(1, -0.25, 0.25);
+  Body body(transformed(Eigen::Vector2d(0.0, 0.0), bounds));
+  body.take(EventKind::kOutput, {10.0});
+  body.flow(0.2);
+  EXPECT_EQ(0.25, body.state(1));
+  EXPECT_GT(body.state(3), 1.0);
+}
+
+TEST(HighGainObserverTest, TheEstimateDependsOnEventsNotOnTheirArrival) {
+  Saturation bounds(2);
+  bounds.bound(0, -2.0, 2.0);
+  for (const auto& law : {std::shared_ptr<const ObserverLaw>(cart_observer(2.0, bounds)),
+                          transformed(Eigen::Vector2d(0.3, 0.2), bounds),
+                          original(Eigen::Vector2d(0.3, 0.2), bounds)}) {
+    std::mt19937_64 generator(7);
+    std::uniform_real_distribution<double> value(-2.0, 2.0);
+    std::vector<OwnedEvent> events = {{kStart, EventKind::kOutput, 0, {0.1}}};
+    for (int i = 1; i < 60; ++i) {
+      const Stamp stamp = kStart + i * 7654321;
+      if (i % 7 == 0) events.push_back({stamp, EventKind::kJump, 0, {}});
+      events.push_back({stamp, EventKind::kOutput, 0, {value(generator)}});
+    }
+    Estimator::Options options;
+    options.history = {10 * kNanosecondsPerSecond, 1000};
+    options.sampling = {1, 1};
+    const Stamp end = kStart + kNanosecondsPerSecond;
+    Eigen::VectorXd first;
+    for (int order = 0; order < 4; ++order) {
+      Estimator estimator(law, options);
+      Estimate estimate = estimator.make_estimate();
+      const std::size_t before = test::allocations();
+      for (const OwnedEvent& event : events) {
+        EXPECT_TRUE(estimator.submit(event.view(), end).used());
+        estimator.estimate_at(event.stamp + 1234567, estimate);
+      }
+      estimator.estimate_at(end, estimate);
+      if (test::allocations_are_counted()) {
+        EXPECT_EQ(before, test::allocations());
+      }
+      if (order == 0) first = estimate.state;
+      EXPECT_EQ(first, estimate.state);
+      std::shuffle(events.begin(), events.end(), generator);
+    }
+    EXPECT_GT(first.head(2).norm(), 1e-3);
+  }
+}
+
+template <class Make>
+std::string fault(Make make) {
+  try {
+    make();
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "no fault";
+}
+
+TEST(HighGainObserverTest, RefusesWhatDoesNotFit) {
+  const ObserverContext linear{cart(false), Eigen::Vector2d::Zero(), Eigen::VectorXd(0)};
+  const ObserverContext nonlinear = oscillator(Eigen::Vector2d::Zero());
+  using Lists = std::vector<Eigen::VectorXd>;
+  const auto contains = [](const std::string& text, const char* part) {
+    EXPECT_NE(std::string::npos, text.find(part)) << text;
+  };
+  contains(fault([&] { LinearHighGainObserver(linear, Saturation(3), 1.0, Lists{kK}); }),
+           "saturations");
+  contains(fault([&] { LinearHighGainObserver(nonlinear, no_bounds(), 1.0, Lists{kK}); }),
+           "a flow by matrices");
+  const auto make_transformed = [&](double ell, const Eigen::VectorXd& K,
+                                    TransformedHighGainObserver::Maps maps) {
+    return fault(
+        [&] { TransformedHighGainObserver(nonlinear, no_bounds(), ell, K, std::move(maps)); });
+  };
+  TransformedHighGainObserver::Maps maps = oscillator_maps();
+  EXPECT_EQ("no fault", make_transformed(1.0, kK, maps));
+  contains(make_transformed(-1.0, kK, maps), "ell must be positive");
+  contains(make_transformed(1.0, Eigen::Vector2d(1.0, -1.0), maps), "not Hurwitz");
+  contains(make_transformed(1.0, Eigen::Vector3d(3.0, 3.0, 1.0), maps), "T: as many");
+  maps.Theta = formulas({"z1", "z2"}, {"z1"});
+  contains(make_transformed(1.0, kK, maps), "Theta: one entry per state");
+  maps = oscillator_maps();
+  maps.Theta = formulas({"z1", "z2"}, {"z1", "z2/z1"});
+  contains(make_transformed(1.0, kK, maps), "not defined at the initial estimate");
+  contains(fault([&] {
+             OriginalHighGainObserver(nonlinear, no_bounds(), 1.0, kK,
+                                      formulas({"x1", "x2"}, {"x1", "x1"}));
+           }),
+           "not defined at the initial estimate");
+}
+
+TEST(SaturationTest, BoundsEachEntryAndGivesAValueWhereThereIsNone) {
+  Saturation bounds(3);
+  bounds.bound(0, -1.0, 2.0);
+  bounds.bound(1, 5.0, 9.0);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  double x[] = {-3.0, nan, nan};
+  bounds.apply(x);
+  EXPECT_EQ(-1.0, x[0]);
+  EXPECT_EQ(5.0, x[1]);
+  EXPECT_TRUE(std::isnan(x[2]));
+  x[0] = std::numeric_limits<double>::infinity();
+  bounds.apply(x);
+  EXPECT_EQ(2.0, x[0]);
+  EXPECT_EQ(1.5, bounds.scale(0));
+  EXPECT_EQ(1.0, bounds.scale(2));
+  EXPECT_THROW(bounds.bound(2, 1.0, 1.0), std::invalid_argument);
+  EXPECT_THROW(bounds.bound(3, 1.0, 2.0), std::invalid_argument);
+}
+
+TEST(OrderedSolveTest, SolvesWithPivotsAndTellsSingularMatrices) {
+  Eigen::Matrix3d M;
+  M << 0.0, 2.0, 1.0, 1e-20, 1.0, 3.0, 4.0, -1.0, 0.5;
+  const Eigen::Vector3d x(1.0, -2.0, 3.0);
+  Eigen::Matrix3d destroyed = M;
+  Eigen::Vector3d b = M * x;
+  solve_in_place(destroyed.data(), b.data(), 3);
+  EXPECT_LT((x - b).norm(), 1e-14);
+  Eigen::Matrix2d singular;
+  singular << 1.0, 2.0, 2.0, 4.0;
+  Eigen::Vector2d c(1.0, 1.0);
+  solve_in_place(singular.data(), c.data(), 2);
+  EXPECT_TRUE(c.array().isNaN().all());
+}
+
+}  // namespace
+}  // namespace sampled_data_observers
