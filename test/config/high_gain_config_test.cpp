@@ -71,9 +71,8 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{kLinear, {"{v: [-5, 5]}", "{v: [5]}", {"gains/saturations/v", "2 finite numbers"}}},
         Fault{kLinear, {"{v: [-5, 5]}", "{u: [-5, 5]}", {"gains/saturations/u", "unknown"}}},
         Fault{kLinear, {"form: linear", "form: linear, T: [p]", {"gains/T", "unknown"}}},
-        Fault{
-  kLinear, "measured: continuous, source: {topic: a}", "source: {topic: a}", { "sampled" }}
-},
+        Fault{kLinear,
+              {"measured: continuous, source: {topic: a}", "source: {topic: a}", {"sampled"}}},
         Fault{kTransformed, {"K: [2, 1]", "K: [2, 1, 1]", {"gains/K", "2 finite numbers"}}},
         Fault{kTransformed, {"K: [2, 1]", "K: [2, -1]", {"gains", "not Hurwitz"}}},
         Fault{kTransformed, {"T: [x1, x2]", "T: [x1, z2]", {"gains/T", "z2"}}},
@@ -85,7 +84,8 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{kTransformed, {"[{cube: z1^3}]", "[{cube: x1^3}]", {"gains/definitions", "x1"}}},
         Fault{kTransformed, {"{k: 2}", "{k: 2, z2: 1}", {"gains/form", "'z2'"}}},
         Fault{kTransformed, {"form: transformed", "form: original", {"gains/definitions"}}},
-        Fault{kTransformed, {"h: [x1]", "h: [x1, x2]", {"one continuous sensor with one output"}}}));
+        Fault{kTransformed,
+              {"h: [x1]", "h: [x1, x2]", {"one continuous sensor with one output"}}}));
 
 }  // namespace
 }  // namespace sampled_data_observers

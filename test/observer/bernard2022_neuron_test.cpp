@@ -144,7 +144,7 @@ TEST(Bernard2022Neuron, ItsCoordinatesFollowThePlant) {
 
 TEST(Bernard2022Neuron, TheParametersAreFoundAsInThePaper) {
   // Holding y_c for 1 ms, half of it on average, delays what the observer sees: that leaves an
-  // error of 0.0001 in a and 0.0004 in b (a tenth of it with 0.1 ms).
+  // error of 0.0001 in a and 0.0004 in b (below 0.00001 with 0.1 ms).
   Simulation simulation(shipped(), false);
   simulation.run_until(20.0);
   EXPECT_EQ(1, simulation.jumps());
