@@ -20,7 +20,10 @@ const char kMeasurementType[] = "sampled_data_observers/Measurement";
 const char kInputType[] = "sampled_data_observers/Input";
 const char kJumpType[] = "sampled_data_observers/JumpEvent";
 
-SamplingBounds read_sampling(ConfigSection& root) {
+/// Required where samples come; a plant that is measured in the flow or at jumps only has none.
+SamplingBounds read_sampling(ConfigSection& root, const Plant& plant) {
+  const bool is_sampled = plant.outputs(SensorTiming::kSampled) > 0;
+  if (!is_sampled && !root.has("sampling")) return {1, from_seconds(kLongest)};
   ConfigSection section = root.section("sampling");
   const double T1 = section.number_in("T1", kShortest, kLongest, std::nullopt);
   const double T2 = section.number_in("T2", kShortest, kLongest, std::nullopt);
@@ -140,7 +143,7 @@ ObserverConfig read_observer_config(const ConfigNode& tree, const PlantPluginLoa
   if (plant.inputs() > 0) config.input = read_input(root, plant.input_names().size());
   if (plant.jumps()) config.jumps = read_jumps(root, plant, config.law);
 
-  config.options.sampling = read_sampling(root);
+  config.options.sampling = read_sampling(root, plant);
   config.options.history = read_history(root);
   config.options.future_tolerance =
       from_seconds(root.number_in("future_tolerance", 0.0, kLongest, 0.5));

@@ -61,16 +61,6 @@ void HighGainObserver::check_start() const {
   }
 }
 
-void HighGainObserver::sample(std::size_t sensor, const double* y, const Held& held, double* state,
-                              double* workspace) const {
-  // No sensor is sampled.
-  static_cast<void>(sensor);
-  static_cast<void>(y);
-  static_cast<void>(held);
-  static_cast<void>(state);
-  static_cast<void>(workspace);
-}
-
 void HighGainObserver::jump(const Held& held, std::size_t next, const JumpOutputs& outputs,
                             double* state, double* workspace) const {
   PlantObserver::jump(held, next, outputs, state, workspace);

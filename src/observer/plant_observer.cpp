@@ -255,6 +255,8 @@ void PlantObserver::begin_jump(const Event& event, double* state, double* worksp
     std::fill_n(state + layout_.jump_outputs_known, sensors(), measured ? 1.0 : 0.0);
   }
   apply_jump(next, state, workspace);
+  // What was measured before the jump says nothing of the state after it.
+  std::fill(state + layout_.outputs_known, state + layout_.snapshot, 0.0);
 }
 
 void PlantObserver::apply_jump(std::size_t next, double* state, double* workspace) const {

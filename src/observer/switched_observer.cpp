@@ -130,16 +130,6 @@ void SwitchedObserver::derivative(const Held& held, const double* s, double* ds,
   }
 }
 
-void SwitchedObserver::sample(std::size_t sensor, const double* y, const Held& held, double* state,
-                              double* workspace) const {
-  // No sensor is sampled.
-  static_cast<void>(sensor);
-  static_cast<void>(y);
-  static_cast<void>(held);
-  static_cast<void>(state);
-  static_cast<void>(workspace);
-}
-
 void SwitchedObserver::jump(const Held& held, std::size_t next, const JumpOutputs& outputs,
                             double* state, double* workspace) const {
   static_cast<void>(next);

@@ -8,13 +8,13 @@
 namespace sampled_data_observers {
 
 /// What an event does to the observer. The numbers are the order in which events of equal stamp
-/// take effect: what is held from its stamp on comes first; a plant jump has priority over a
-/// sample, so a sample stamped at the instant of a jump measures the state after it.
+/// take effect: a new input holds from its stamp on, so it comes first; a plant jump has priority
+/// over what is measured, so an output or sample stamped at the instant of a jump is one after it.
 enum class EventKind : std::uint8_t {
   kInput = 0,    ///< a known input, held until the next
-  kOutput = 1,   ///< a continuous output y_c, held until the next
-  kJump = 2,     ///< the plant jumped
-  kRelease = 3,  ///< a reset that was computed for an earlier jump takes effect
+  kJump = 1,     ///< the plant jumped
+  kRelease = 2,  ///< a reset that was computed for an earlier jump takes effect
+  kOutput = 3,   ///< a continuous output y_c, held until the next or a jump
   kSample = 4    ///< a sample of a sensor
 };
 

@@ -12,15 +12,14 @@ namespace sampled_data_observers {
 /// High-gain observers (bernard2022, section 4.2): the flow is corrected by the innovation of the
 /// continuous outputs y_c with a gain that grows with powers of ℓ, and jumps are copied from the
 /// plant, x̂⁺ = sat(g(x̂)) (21). The outputs are held between their stamps; before each of them came
-/// once the flow is the plant's. The innovation of angular outputs is wrapped.
+/// once, at the start and after each jump, the flow is the plant's. The innovation of angular
+/// outputs is wrapped.
 ///
 /// The plant has one mode. There are three forms, one class each.
 class HighGainObserver : public PlantObserver {
  protected:
   HighGainObserver(const ObserverContext& context, const Extras& extras, Saturation saturation);
 
-  void sample(std::size_t sensor, const double* y, const Held& held, double* state,
-              double* workspace) const override;
   void jump(const Held& held, std::size_t next, const JumpOutputs& outputs, double* state,
             double* workspace) const override;
 

@@ -67,7 +67,8 @@ class PlantObserver : public ObserverLaw {
   struct Held {
     std::size_t mode = 0;  ///< position in plant().modes()
     const double* u = nullptr;
-    /// The continuous outputs, sensor after sensor; null before each of them came once.
+    /// The continuous outputs, sensor after sensor; null before each of them came once, anew
+    /// after each jump.
     const double* y_c = nullptr;
   };
 

@@ -44,8 +44,6 @@ class SwitchedObserver final : public PlantObserver {
  protected:
   bool flow_is_affine() const override;
   void derivative(const Held& held, const double* s, double* ds, double* workspace) const override;
-  void sample(std::size_t sensor, const double* y, const Held& held, double* state,
-              double* workspace) const override;
   void jump(const Held& held, std::size_t next, const JumpOutputs& outputs, double* state,
             double* workspace) const override;
 

@@ -29,10 +29,10 @@ struct SynchronizedGains {
 ///   ẋ̂ = f(x̂, u) + Σ L_c,i (y_c,i − h_i(x̂))      while the plant flows
 ///   x̂⁺ = g(x̂) + Σ L_d,i (y_d,i − h_i(x̂))         when it jumps
 ///
-/// y_c is held between its messages; before the first of each continuous sensor nothing is
-/// injected. A jump without y_d is the plant's own. With output injections, f takes the named
-/// states from y_c (the neuron of bernard2022, section 7.2). Innovations of angular outputs are
-/// wrapped.
+/// y_c is held between its messages; before the first of each continuous sensor, at the start and
+/// after each jump, nothing is injected. A jump without y_d is the plant's own. With output
+/// injections, f takes the named states from y_c (the neuron of bernard2022, section 7.2).
+/// Innovations of angular outputs are wrapped.
 class SynchronizedObserver : public PlantObserver {
  public:
   /// @throws std::invalid_argument when a size does not fit the plant.
