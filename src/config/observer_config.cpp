@@ -16,10 +16,6 @@ namespace {
 constexpr double kShortest = 1e-9;  // s: one tick of the clock
 constexpr double kLongest = 1e6;    // s
 
-const char kMeasurementType[] = "sampled_data_observers/Measurement";
-const char kInputType[] = "sampled_data_observers/Input";
-const char kJumpType[] = "sampled_data_observers/JumpEvent";
-
 /// Required where samples come; a plant that is measured in the flow or at jumps only has none.
 SamplingBounds read_sampling(ConfigSection& root, const Plant& plant) {
   const bool is_sampled = plant.outputs(SensorTiming::kSampled) > 0;
@@ -44,47 +40,11 @@ Timeline::Limits read_history(ConfigSection& root) {
   return limits;
 }
 
-TopicSource read_sensor_source(ConfigSection section, std::size_t size) {
-  TopicSource source;
-  source.topic = section.text("topic");
-  source.type = section.text("type", kMeasurementType);
-  if (source.type == kInputType || source.type == kJumpType) {
-    throw section.error("type", "a type that holds a sample", "'" + source.type + "'");
-  }
-  if (section.has("fields")) source.fields = section.texts("fields", size);
-  source.size = size;
-  source.origin = section.origin();
-  source.path = section.path();
-  section.finish();
-  return source;
-}
-
-TopicSource read_message_source(const ConfigSection& root, ConfigSection& section,
-                                const std::string& key, std::size_t size, const std::string& type) {
-  TopicSource source;
-  source.topic = section.text("topic", key);
-  source.type = type;
-  source.size = size;
-  source.origin = root.origin();
-  source.path = key;
-  return source;
-}
-
-TopicSource read_input(ConfigSection& root, std::size_t size) {
-  ConfigSection section = root.section_or_empty("input");
-  TopicSource source = read_message_source(root, section, "input", size, kInputType);
-  section.finish();
-  return source;
-}
-
 /// The source of jumps, and what bounds and delays them around `law`.
 TopicSource read_jumps(ConfigSection& root, const Plant& plant,
                        std::shared_ptr<const ObserverLaw>& law) {
   ConfigSection section = root.section_or_empty("jumps");
-  TopicSource source = read_message_source(
-      root, section, "jumps", static_cast<std::size_t>(plant.outputs(SensorTiming::kAtJumps)),
-      kJumpType);
-  source.has_mode = plant.switches();
+  TopicSource source = read_jump_source(root, section, plant);
   if (section.has("late") && section.choice("late", {"rewind", "delayed"}) == "delayed") {
     law = std::make_shared<const DelayedJumps>(law);
   }
@@ -119,17 +79,7 @@ ObserverConfig read_observer_config(const ConfigNode& tree, const PlantPluginLoa
   config.plant = plant_config.plant;
   const Plant& plant = *config.plant;
 
-  ConfigSection sensors = root.section("sensors");
-  for (const Sensor& sensor : plant.sensors()) {
-    ConfigSection section = sensors.section(sensor.name);
-    for (const char* key : {"C", "h", "output", "measured", "angular", "bias"}) section.has(key);
-    const bool in_jump_events = sensor.timing == SensorTiming::kAtJumps && !section.has("source");
-    config.sensors.push_back(in_jump_events ? std::nullopt
-                                            : std::optional<TopicSource>(read_sensor_source(
-                                                  section.section("source"),
-                                                  static_cast<std::size_t>(sensor.outputs()))));
-    section.finish();
-  }
+  config.sensors = read_sensor_sources(root, plant);
 
   LawContext context;
   context.observer.plant = config.plant;
@@ -140,7 +90,7 @@ ObserverConfig read_observer_config(const ConfigNode& tree, const PlantPluginLoa
   ConfigSection gains = root.section("gains");
   config.law = build_law(config.type, gains, context);
   gains.finish();
-  if (plant.inputs() > 0) config.input = read_input(root, plant.input_names().size());
+  if (plant.inputs() > 0) config.input = read_input_source(root, plant);
   if (plant.jumps()) config.jumps = read_jumps(root, plant, config.law);
 
   config.options.sampling = read_sampling(root, plant);

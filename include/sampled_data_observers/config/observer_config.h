@@ -7,29 +7,12 @@
 
 #include "sampled_data_observers/config/config_node.h"
 #include "sampled_data_observers/config/plant_config.h"
+#include "sampled_data_observers/config/topic_config.h"
 #include "sampled_data_observers/observer/estimator.h"
 #include "sampled_data_observers/observer/observer_law.h"
 #include "sampled_data_observers/plant/plant.h"
 
 namespace sampled_data_observers {
-
-/// Where the values of events come from.
-struct TopicSource {
-  /// Name of the topic, relative or absolute.
-  std::string topic;
-  /// Message type, such as "geometry_msgs/PoseStamped".
-  std::string type;
-  /// One field path per value, such as "pose.position.x"; empty for types that carry the values in
-  /// order themselves.
-  std::vector<std::string> fields;
-  /// Number of values. A jump event may also carry none.
-  std::size_t size = 0;
-  /// Whether a jump event carries the mode that follows.
-  bool has_mode = false;
-  /// Where the configuration says so, for messages about it.
-  std::string origin;
-  std::string path;
-};
 
 /// Everything that a configuration says, checked. doc/configuration.md describes each key.
 struct ObserverConfig {

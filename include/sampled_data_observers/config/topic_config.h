@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sampled_data_observers/config/config_section.h"
+#include "sampled_data_observers/plant/plant.h"
+
+namespace sampled_data_observers {
+
+/// Where the values of events come from.
+struct TopicSource {
+  /// Name of the topic, relative or absolute.
+  std::string topic;
+  /// Message type, such as "geometry_msgs/PoseStamped".
+  std::string type;
+  /// One field path per value, such as "pose.position.x"; empty for types that carry the values in
+  /// order themselves.
+  std::vector<std::string> fields;
+  /// Number of values. A jump event may also carry none.
+  std::size_t size = 0;
+  /// Whether a jump event carries the mode that follows.
+  bool has_mode = false;
+  /// Where the configuration says so, for messages about it.
+  std::string origin;
+  std::string path;
+};
+
+/// Reads the source of each sensor, below `sensors`; nothing for a sensor that measures at jumps
+/// and whose outputs the jump events carry.
+std::vector<std::optional<TopicSource>> read_sensor_sources(ConfigSection& root,
+                                                            const Plant& plant);
+
+/// Reads the source of inputs, the section `input`.
+TopicSource read_input_source(ConfigSection& root, const Plant& plant);
+
+/// Reads the source of jump events from `section`, which is the section `jumps` of `root`; other
+/// keys of it are left alone.
+TopicSource read_jump_source(const ConfigSection& root, ConfigSection& section, const Plant& plant);
+
+}  // namespace sampled_data_observers

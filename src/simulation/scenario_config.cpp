@@ -1,0 +1,274 @@
+#include "sampled_data_observers/simulation/scenario_config.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "sampled_data_observers/config/config_section.h"
+#include "sampled_data_observers/config/expression_config.h"
+#include "sampled_data_observers/config/topic_config.h"
+#include "sampled_data_observers/config/yaml_file.h"
+#include "schedule_config.h"
+
+namespace sampled_data_observers {
+namespace {
+
+constexpr double kShortest = 1e-9;    // s: one tick of the clock
+constexpr double kLongest = 1e6;      // s
+constexpr double kLatestStart = 4e9;  // s: ros::Time ends at 2^32 s
+constexpr std::size_t kLargestSeed = std::size_t{1} << 53;
+
+const char kMeasurementType[] = "sampled_data_observers/Measurement";
+const char kTimeName[] = "t";
+
+/// What only an observer reads from the same tree.
+const char* const kObserverKeys[] = {"observer",      "gains",    "sampling",
+                                     "history",       "rate",     "initial_estimate",
+                                     "publish_delay", "frame_id", "future_tolerance"};
+
+class ScenarioReader {
+ public:
+  ScenarioReader(ConfigSection& root, const PlantPluginLoader& load_plugin)
+      : root_(root), names_(read_plant_into(load_plugin)), section_(root.section("scenario")) {}
+
+  Scenario read() {
+    read_clock();
+    read_start();
+    read_truth();
+    if (plant().inputs() > 0) read_input();
+    if (section_.has("disturbance")) read_disturbance();
+    read_sensors();
+    read_jumps();
+    section_.finish();
+    return std::move(scenario_);
+  }
+
+ private:
+  const Plant& plant() const { return *scenario_.plant; }
+
+  ExpressionNames read_plant_into(const PlantPluginLoader& load_plugin) {
+    PlantConfig config = read_plant(root_, load_plugin);
+    scenario_.plant = std::move(config.plant);
+    return std::move(config.names);
+  }
+
+  void read_clock() {
+    scenario_.duration =
+        from_seconds(section_.number_in("duration", kShortest, kLongest, std::nullopt));
+    scenario_.start = from_seconds(section_.number_in("start", 1.0, kLatestStart, 1000.0));
+    scenario_.seed = section_.count("seed", 0, kLargestSeed, 1);
+  }
+
+  void read_start() {
+    scenario_.initial_state.resize(plant().states());
+    ConfigSection values = section_.section("initial_state");
+    for (Eigen::Index i = 0; i < plant().states(); ++i) {
+      scenario_.initial_state(i) =
+          values.number(plant().state_names()[static_cast<std::size_t>(i)]);
+    }
+    values.finish();
+    if (!plant().switches()) return;
+    if (!section_.has("initial_mode")) return;
+    const std::optional<std::size_t> mode = plant().find_mode(section_.number("initial_mode"));
+    if (!mode) {
+      throw section_.error("initial_mode", "the label of a mode (" + labels() + ")",
+                           "'" + section_.text("initial_mode") + "'");
+    }
+    scenario_.initial_mode = *mode;
+  }
+
+  std::string labels() const {
+    std::string text;
+    for (const PlantMode& mode : plant().modes()) {
+      text += (text.empty() ? "" : ", ") + std::to_string(mode.label);
+    }
+    return text;
+  }
+
+  void read_truth() {
+    ConfigSection truth = section_.section_or_empty("truth");
+    scenario_.truth_topic = truth.text("topic", "truth");
+    scenario_.truth_period = from_seconds(1.0 / truth.number_in("rate", 1e-3, 1e5, 100.0));
+    truth.finish();
+  }
+
+  /// Names for formulas of the time, and of the states where `with_states`.
+  ExpressionNames timed_names(const ConfigSection& section, const std::string& key,
+                              bool with_states) const {
+    ExpressionNames names;
+    names.x = {kTimeName};
+    names.constants = names_.constants;
+    if (with_states) names.x.insert(names.x.end(), names_.x.begin(), names_.x.end());
+    const auto is_time = [](const auto& constant) { return constant.first == kTimeName; };
+    if (std::count(names.x.begin(), names.x.end(), kTimeName) > 1 ||
+        std::any_of(names.constants.begin(), names.constants.end(), is_time)) {
+      throw section.error(key, "formulas in which t is the time",
+                          "a state or parameter that is called t as well");
+    }
+    return names;
+  }
+
+  void read_input() {
+    ConfigSection section = section_.section("input");
+    InputScenario input;
+    input.topic = read_input_source(root_, plant()).topic;
+    input.period = from_seconds(1.0 / section.number_in("rate", 1e-3, 1e5, 100.0));
+    input.formulas = ExpressionReader(timed_names(section, "formulas", true))
+                         .read_map(section, "formulas", plant().input_names());
+    section.finish();
+    scenario_.input = std::move(input);
+  }
+
+  void read_disturbance() {
+    ConfigSection section = section_.section("disturbance");
+    Disturbance disturbance;
+    disturbance.N = section.matrix("N", plant().states(), -1);
+    disturbance.formulas =
+        ExpressionReader(timed_names(section, "formulas", false))
+            .read_list(section, "formulas", static_cast<std::size_t>(disturbance.N.cols()));
+    section.finish();
+    scenario_.disturbance = std::move(disturbance);
+  }
+
+  void read_sensors() {
+    const auto sources = read_sensor_sources(root_, plant());
+    ConfigSection sensors = section_.section_or_empty("sensors");
+    for (std::size_t i = 0; i < sources.size(); ++i) {
+      const Sensor& sensor = plant().sensors()[i];
+      SensorScenario scenario;
+      if (sources[i]) {
+        if (sources[i]->type != kMeasurementType) {
+          throw ConfigError(sources[i]->origin, sources[i]->path + "/type",
+                            std::string(kMeasurementType) + " (no other type can be simulated)",
+                            "'" + sources[i]->type + "'");
+        }
+        scenario.topic = sources[i]->topic;
+      }
+      const bool at_jumps = sensor.timing == SensorTiming::kAtJumps;
+      ConfigSection section =
+          at_jumps ? sensors.section_or_empty(sensor.name) : sensors.section(sensor.name);
+      if (!at_jumps) {
+        scenario.schedule = read_schedule(section, FirstOfPeriod::kAtStart);
+      } else if (section.has("schedule")) {
+        throw section.error("schedule", "none for a sensor that measures at jumps", "one");
+      }
+      scenario.noise = read_noise(section, static_cast<std::size_t>(sensor.outputs()));
+      if (sources[i]) scenario.delivery = read_delivery(section);
+      section.finish();
+      scenario_.sensors.push_back(std::move(scenario));
+    }
+    sensors.finish();
+  }
+
+  Noise read_noise(ConfigSection& sensor, std::size_t outputs) const {
+    Noise noise;
+    if (!sensor.has("noise")) return noise;
+    ConfigSection section = sensor.section("noise");
+    const std::string key = only_key(section, {"uniform", "gaussian", "formulas"});
+    if (key == "formulas") {
+      noise.kind = Noise::Kind::kFormulas;
+      noise.formulas =
+          ExpressionReader(timed_names(section, key, false)).read_list(section, key, outputs);
+    } else {
+      noise.kind = key == "gaussian" ? Noise::Kind::kGaussian : Noise::Kind::kUniform;
+      noise.size = section.number_in(key, 0.0, 1e100, std::nullopt);
+    }
+    return noise;
+  }
+
+  static Delivery read_delivery(ConfigSection& section) {
+    Delivery delivery;
+    if (section.has("latency")) {
+      const Eigen::VectorXd bounds = section.vector("latency", 2);
+      if (!(0.0 <= bounds(0) && bounds(0) <= bounds(1) && bounds(1) <= kLongest)) {
+        throw section.error("latency", "[shortest, longest] with 0 <= shortest <= longest",
+                            "bounds that are not so");
+      }
+      delivery.shortest = from_seconds(bounds(0));
+      delivery.longest = from_seconds(bounds(1));
+    }
+    delivery.loss = section.number_in("loss", 0.0, 1.0, 0.0);
+    delivery.duplication = section.number_in("duplication", 0.0, 1.0, 0.0);
+    delivery.reordering = section.number_in("reordering", 0.0, 1.0, 0.0);
+    if (delivery.reordering > 0.0 && delivery.longest == 0) {
+      throw section.error("reordering", "a latency above 0 beside it: messages overtake late ones",
+                          "none");
+    }
+    return delivery;
+  }
+
+  void read_jumps() {
+    if (!plant().jumps()) return;
+    ConfigSection topic = root_.section_or_empty("jumps");
+    scenario_.jumps_topic = read_jump_source(root_, topic, plant()).topic;
+    for (const char* key : {"late", "min_separation", "max_per_second"}) topic.has(key);
+    topic.finish();
+    if (!section_.has("jumps")) return;
+    ConfigSection section = section_.section("jumps");
+    JumpScenario jumps;
+    if (section.has("when") == section.has("schedule")) {
+      throw section_.error("jumps", "one of the keys when and schedule",
+                           section.has("when") ? "both" : "none");
+    }
+    if (section.has("when")) {
+      jumps.guard = read_guard(section);
+    } else {
+      jumps.schedule = read_schedule(section, FirstOfPeriod::kAfterPeriod);
+    }
+    if (plant().switches()) jumps.modes = read_modes(section);
+    jumps.min_separation =
+        from_seconds(section.number_in("min_separation", kShortest, kLongest, 1e-6));
+    jumps.delivery = read_delivery(section);
+    section.finish();
+    scenario_.jumps = std::move(jumps);
+  }
+
+  std::shared_ptr<const VectorMap> read_guard(ConfigSection& section) const {
+    ExpressionNames names = names_;
+    names.u.clear();
+    const NamedExpression guard{"when", section.text("when")};
+    try {
+      return std::make_shared<const ExpressionMap>(names, std::vector<NamedExpression>{},
+                                                   std::vector<NamedExpression>{guard});
+    } catch (const ExpressionError& fault) {
+      throw section.error("when", "a formula of the states that can be evaluated", fault.what());
+    }
+  }
+
+  std::vector<int> read_modes(ConfigSection& section) const {
+    std::vector<int> modes;
+    for (const std::string& text : section.texts("modes")) {
+      const auto fits = [&](const PlantMode& mode) { return std::to_string(mode.label) == text; };
+      const auto found = std::find_if(plant().modes().begin(), plant().modes().end(), fits);
+      if (found == plant().modes().end()) {
+        throw section.error("modes", "labels of modes (" + labels() + ")", "'" + text + "'");
+      }
+      modes.push_back(found->label);
+    }
+    if (modes.empty()) throw section.error("modes", "at least one label", "an empty list");
+    return modes;
+  }
+
+  ConfigSection& root_;
+  Scenario scenario_;
+  ExpressionNames names_;
+  ConfigSection section_;
+};
+
+}  // namespace
+
+Scenario read_scenario(const ConfigNode& tree, const PlantPluginLoader& load_plugin) {
+  ConfigSection root(tree, "");
+  for (const char* key : kObserverKeys) root.has(key);
+  Scenario scenario = ScenarioReader(root, load_plugin).read();
+  root.finish();
+  return scenario;
+}
+
+Scenario read_scenario(const std::vector<std::string>& files,
+                       const PlantPluginLoader& load_plugin) {
+  std::vector<ConfigNode> trees;
+  for (const std::string& file : files) trees.push_back(read_yaml_file(file));
+  return read_scenario(merge(trees), load_plugin);
+}
+
+}  // namespace sampled_data_observers
