@@ -2,13 +2,15 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <string>
 
 namespace sampled_data_observers {
 
-ProgressBar::ProgressBar(std::size_t total)
-    : total_(total == 0 ? 1 : total),
+ProgressBar::ProgressBar(const char* label, std::size_t total)
+    : label_(label),
+      total_(total == 0 ? 1 : total),
       shown_(isatty(STDERR_FILENO) != 0),
       next_draw_(std::chrono::steady_clock::now()) {}
 
@@ -16,14 +18,15 @@ ProgressBar::~ProgressBar() {
   if (shown_) std::fprintf(stderr, "\r\033[K");
 }
 
-void ProgressBar::advance() {
-  ++done_;
+void ProgressBar::advance_to(std::size_t done) {
+  done_ = done;
   if (!shown_ || std::chrono::steady_clock::now() < next_draw_) return;
   next_draw_ = std::chrono::steady_clock::now() + std::chrono::milliseconds(50);
   constexpr std::size_t kWidth = 40;
-  const std::size_t filled = kWidth * done_ / total_;
-  std::fprintf(stderr, "\rreplay [%s%s] %3zu %%", std::string(filled, '#').c_str(),
-               std::string(kWidth - filled, ' ').c_str(), 100 * done_ / total_);
+  const double share = std::min(1.0, static_cast<double>(done_) / static_cast<double>(total_));
+  const auto filled = static_cast<std::size_t>(kWidth * share);
+  std::fprintf(stderr, "\r%s [%s%s] %3.0f %%", label_, std::string(filled, '#').c_str(),
+               std::string(kWidth - filled, ' ').c_str(), 100.0 * share);
 }
 
 }  // namespace sampled_data_observers

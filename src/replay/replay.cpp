@@ -54,7 +54,7 @@ class Replay {
                       rosbag::TopicQuery(std::vector<std::string>(topics.begin(), topics.end())));
     thin_samples(view);
     {
-      ProgressBar progress(view.size());
+      ProgressBar progress("replay", view.size());
       for (const rosbag::MessageInstance& instance : view) {
         take(instance);
         progress.advance();

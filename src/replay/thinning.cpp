@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <numeric>
 
-#include "sampled_data_observers/replay/uniform.h"
+#include "sampled_data_observers/simulation/random_numbers.h"
 
 namespace sampled_data_observers {
 
@@ -16,12 +16,12 @@ std::vector<bool> thin(const std::vector<Stamp>& stamps, Duration T1, Duration T
                    [&](std::size_t a, std::size_t b) { return stamps[a] < stamps[b]; });
 
   std::vector<bool> kept(stamps.size(), false);
-  Uniform random(seed);
+  RandomNumbers random(seed);
   for (std::size_t i = 0; i < order.size();) {
     const Stamp last = stamps[order[i]];
     kept[order[i]] = true;
-    const Stamp target =
-        last + static_cast<Duration>(random.in(static_cast<double>(T1), static_cast<double>(T2)));
+    const Stamp target = last + static_cast<Duration>(random.uniform(static_cast<double>(T1),
+                                                                     static_cast<double>(T2)));
     std::size_t next = i + 1;
     while (next < order.size() && stamps[order[next]] < last + T1) ++next;
     const auto distance = [&](std::size_t k) { return std::abs(stamps[order[k]] - target); };

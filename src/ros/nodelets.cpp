@@ -3,6 +3,7 @@
 #include <pluginlib/class_list_macros.hpp>
 
 #include "sampled_data_observers/ros/observer_nodelet.h"
+#include "sampled_data_observers/ros/plant_simulator.h"
 
 // One nodelet per observer type. They differ in their names only: the configuration makes the law.
 #define SDO_OBSERVER_NODELET(TYPE)               \
@@ -20,3 +21,5 @@ SDO_OBSERVER_NODELET(IntersampleInjectionObserver)
 SDO_OBSERVER_NODELET(SampleAndHoldObserver)
 SDO_OBSERVER_NODELET(SwitchedObserver)
 SDO_OBSERVER_NODELET(SynchronizedObserver)
+
+PLUGINLIB_EXPORT_CLASS(sampled_data_observers::PlantSimulatorNodelet, nodelet::Nodelet)

@@ -8,14 +8,17 @@ namespace sampled_data_observers {
 /// A line on standard error that fills up; nothing where standard error is no terminal.
 class ProgressBar {
  public:
-  explicit ProgressBar(std::size_t total);
+  /// @param label  what is going on
+  ProgressBar(const char* label, std::size_t total);
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  void advance();
+  void advance() { advance_to(done_ + 1); }
+  void advance_to(std::size_t done);
 
  private:
+  const char* label_;
   std::size_t total_;
   std::size_t done_ = 0;
   bool shown_;

@@ -1,0 +1,39 @@
+#include "sampled_data_observers/replay/simulation_bag.h"
+
+#include <ros/names.h>
+#include <rosbag/bag.h>
+
+#include <vector>
+
+#include "sampled_data_observers/replay/bag_source.h"
+#include "sampled_data_observers/replay/progress_bar.h"
+#include "sampled_data_observers/ros/simulated_messages.h"
+
+namespace sampled_data_observers {
+
+SimulationSummary record_simulation(const Scenario& scenario, const std::string& path) {
+  Simulator simulator(scenario);
+  SimulationSummary summary;
+  std::vector<std::string> topics;
+  for (const SimulatedChannel& channel : simulator.channels()) {
+    topics.push_back(ros::names::resolve(channel.topic));
+    summary.messages[topics.back()] = 0;
+  }
+  rosbag::Bag bag;
+  open_for_writing(bag, path);
+  ProgressBar progress("simulate", static_cast<std::size_t>(scenario.duration));
+  while (const std::optional<SimulatedMessage> simulated = simulator.next()) {
+    const std::string& topic = topics[simulated->channel];
+    visit_message(simulator.channels()[simulated->channel], *simulated, [&](const auto& message) {
+      bag.write(topic, to_ros_time(simulated->arrival), message);
+    });
+    ++summary.messages[topic];
+    progress.advance_to(static_cast<std::size_t>(simulator.time()));
+  }
+  bag.close();
+  summary.jumps = simulator.jumps();
+  summary.end = simulator.describe_end();
+  return summary;
+}
+
+}  // namespace sampled_data_observers
