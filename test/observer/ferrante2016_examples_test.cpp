@@ -96,11 +96,11 @@ TEST(Ferrante2016Example1, TheErrorObeysTheExponentialBoundAtEveryInstant) {
 class MassSpringExample : public ::testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(MassSpringExample, TheErrorFallsBelowAMillionthOfItsStart) {
-  const std::string folder = std::string(SDO_SOURCE_DIR) + "/config/";
-  ObserverConfig config =
-      read_observer_config(std::vector<std::string>{folder + "mass_spring_plant.yaml",
-                                                    folder + "mass_spring_gains.yaml"},
-                           no_plant_plugins);
+  const std::string folder =
+      std::string(SDO_SOURCE_DIR) + "/config/examples/ferrante2016_mass_spring/";
+  ObserverConfig config = read_observer_config(
+      std::vector<std::string>{folder + "scenario.yaml", folder + "observer.yaml"},
+      no_plant_plugins);
   const Plant& plant = *config.plant;
   const AffineMap& f = *plant.modes()[0].flow->affine();
   const LinearFlow flow(f.M(), f.N());

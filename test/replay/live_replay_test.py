@@ -15,8 +15,8 @@ import recordings  # noqa: E402
 
 PACKAGE = "sampled_data_observers"
 ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", ".."))
-MASS_SPRING = [os.path.join(ROOT, "config", name)
-               for name in ("mass_spring_plant.yaml", "mass_spring_gains.yaml")]
+EXAMPLE = os.path.join(ROOT, "config", "examples", "ferrante2016_mass_spring")
+MASS_SPRING = [os.path.join(EXAMPLE, name) for name in ("scenario.yaml", "observer.yaml")]
 CRAZYFLIE = os.path.join(ROOT, "config", "crazyflie_position.yaml")
 
 
@@ -76,10 +76,10 @@ class ReplayTestCase(unittest.TestCase):
 
 
 class ExampleTest(ReplayTestCase):
-    """An example recording that the package makes itself."""
+    """A shipped example, simulated."""
 
     def test_example_live_as_replayed(self):
-        run_tool("record_example", *MASS_SPRING, "-o", self.path("example.bag"))
+        run_tool("simulate", MASS_SPRING[0], "-o", self.path("example.bag"))
         summary = self.replay(self.path("example.bag"), MASS_SPRING, "replayed.bag",
                               "--truth", "truth", "--from", "35", "--plot", self.path("plot.png"))
         self.assertLess(summary["rmse_norm"], 0.05)
@@ -88,32 +88,32 @@ class ExampleTest(ReplayTestCase):
         with open(self.path("plot.png"), "rb") as plot:
             self.assertEqual(b"\x89PNG", plot.read(4))
         port = free_port()
-        command = ["roslaunch", "--port", str(port), os.path.join(ROOT, "launch", "demo.launch"),
-                   "bag:=" + self.path("example.bag"), "topics:=/position /input", "speed:=2",
-                   "output:=" + self.path("live.bag"), "config:=" + " ".join(MASS_SPRING)]
+        command = ["roslaunch", "--port", str(port),
+                   os.path.join(EXAMPLE, "ferrante2016_mass_spring.launch"), "speed:=10",
+                   "output:=" + self.path("live.bag")]
         with RosProcess(command, port) as process:
-            process.wait(90)
+            self.assertEqual(0, process.wait(90))  # it ends with the simulation
         run_tool("compare_estimates", self.path("live.bag"), self.path("replayed.bag"),
                  "--at-least", "95")
 
     def test_a_gap_longer_than_the_history_leaves_no_estimate_out(self):
-        run_tool("record_example", *MASS_SPRING, "-o", self.path("example.bag"))
-        with open(MASS_SPRING[0]) as plant:
-            text = plant.read()
+        run_tool("simulate", MASS_SPRING[0], "-o", self.path("example.bag"))
+        with open(MASS_SPRING[1]) as observer:
+            text = observer.read()
         # Without the frequent inputs, messages come up to 3 s apart.
         text = text.replace("history: {duration: 4.0,", "future_tolerance: 0\nhistory: {duration: 0.1,")
         with open(self.path("short.yaml"), "w") as short:
             short.write(text)
-        summary = self.replay(self.path("example.bag"), [self.path("short.yaml"), MASS_SPRING[1]],
+        summary = self.replay(self.path("example.bag"), [MASS_SPRING[0], self.path("short.yaml")],
                               "out.bag", "input:=/none", "--truth", "truth")
-        alone = self.replay(self.path("example.bag"), [self.path("short.yaml"), MASS_SPRING[1]],
+        alone = self.replay(self.path("example.bag"), [MASS_SPRING[0], self.path("short.yaml")],
                             "out.bag", "input:=/none")
         self.assertGreater(summary["estimates"], 1900)
         self.assertEqual(summary["estimates"], alone["estimates"])
         self.assertEqual(summary["final_state"], alone["final_state"])
 
     def test_the_bag_that_is_read_is_never_written(self):
-        run_tool("record_example", *MASS_SPRING, "-o", self.path("example.bag"), "--duration", "3")
+        run_tool("simulate", MASS_SPRING[0], "-o", self.path("example.bag"), "--duration", "3")
         os.symlink(self.path("example.bag"), self.path("link.bag"))
         before = os.path.getsize(self.path("example.bag"))
         for option in ("-o", "--json", "--plot"):
@@ -123,13 +123,13 @@ class ExampleTest(ReplayTestCase):
             self.assertEqual(before, os.path.getsize(self.path("example.bag")))
 
     def test_replay_refuses_bad_input_with_a_message(self):
-        run_tool("record_example", *MASS_SPRING, "-o", self.path("example.bag"), "--duration", "3")
+        run_tool("simulate", MASS_SPRING[0], "-o", self.path("example.bag"), "--duration", "3")
         with open(self.path("text.bag"), "w") as text:
             text.write("no bag")
         for arguments, message in (
                 ([self.path("nothing.bag"), *MASS_SPRING], "nothing.bag"),
                 ([self.path("text.bag"), *MASS_SPRING], "text.bag"),
-                ([self.path("example.bag"), MASS_SPRING[0]], "gains: expected"),
+                ([self.path("example.bag"), MASS_SPRING[0]], "observer: expected"),
                 ([self.path("example.bag"), *MASS_SPRING, MASS_SPRING[1]], "in one place only"),
                 ([self.path("example.bag"), CRAZYFLIE], "no topic /vrpn_client_node/Drone1/pose"),
                 ([self.path("example.bag"), *MASS_SPRING, "--truth", "x"], "no topic /x"),
