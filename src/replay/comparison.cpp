@@ -75,6 +75,7 @@ Comparison::Comparison(std::vector<Quantity> quantities, std::shared_ptr<const P
       hold_squares_(quantities_.size(), 0.0) {
   for (std::size_t i = 0; i < quantities_.size(); ++i) {
     for (std::size_t sensor = 0; sensor < plant_->sensors().size(); ++sensor) {
+      if (plant_->sensors()[sensor].timing == SensorTiming::kAtJumps) continue;
       for (Eigen::Index output = 0; output < plant_->sensors()[sensor].outputs(); ++output) {
         if (measures(*plant_, sensor, output, quantities_[i])) held_[i].is_measured = true;
       }

@@ -137,10 +137,12 @@ class Replay {
     const EventReport report = runtime_.receive(bound.channel, event, now, status_);
     if (output_.isOpen()) output_.write(resolved("events"), instance.getTime(), status_);
     count(event, report);
-    if (report.used() && event.kind == EventKind::kSample) {
+    const bool is_measurement =
+        event.kind == EventKind::kSample || event.kind == EventKind::kOutput;
+    if (report.used() && is_measurement) {
       const auto sensor = static_cast<std::size_t>(event.channel);
       comparison_->add_sample(sensor, event.stamp, event.values);
-      plot_sample(sensor, event);
+      if (event.kind == EventKind::kSample) plot_sample(sensor, event);
     }
   }
 
@@ -152,6 +154,8 @@ class Replay {
       return;
     }
     ++summary_.events_used;
+    if (event.kind == EventKind::kOutput) ++summary_.outputs_used;
+    if (event.kind == EventKind::kJump) ++summary_.jumps_used;
     if (!is_sample) return;
     ++summary_.samples_used;
     if (report.outcome == EventOutcome::kUsedLate) ++summary_.samples_late;

@@ -58,6 +58,8 @@ void print_table(const ReplaySummary& summary, std::ostream& out) {
       << summary.samples_rejected << " rejected";
   if (summary.samples_withheld > 0) out << ", " << summary.samples_withheld << " withheld";
   out << "\n";
+  if (summary.outputs_used > 0) out << "outputs     " << summary.outputs_used << " used\n";
+  if (summary.jumps_used > 0) out << "jumps       " << summary.jumps_used << " used\n";
   for (const auto& [reason, count] : summary.rejected) {
     out << "            " << count << " x " << reason << "\n";
   }
@@ -82,6 +84,8 @@ void write_json(const ReplaySummary& summary, const std::string& path) {
   json["samples_withheld"] = summary.samples_withheld;
   json["rejected"] = summary.rejected;
   json["events_used"] = summary.events_used;
+  json["outputs_used"] = summary.outputs_used;
+  json["jumps_used"] = summary.jumps_used;
   json["intervals"] = {{"count", summary.intervals},          {"min", summary.interval_min},
                        {"mean", summary.interval_mean},       {"max", summary.interval_max},
                        {"below_T1", summary.intervals_short}, {"above_T2", summary.intervals_long}};

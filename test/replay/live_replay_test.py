@@ -2,8 +2,6 @@
 """Bags replayed and played live: the estimates must be the same, bit for bit, and good."""
 import json
 import os
-import signal
-import socket
 import subprocess
 import sys
 import tempfile
@@ -11,53 +9,13 @@ import time
 import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "support"))
 import recordings  # noqa: E402
-
-PACKAGE = "sampled_data_observers"
+from ros_tools import PACKAGE, RosProcess, find_tool, free_port, run_tool  # noqa: E402
 ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", ".."))
 EXAMPLE = os.path.join(ROOT, "config", "examples", "ferrante2016_mass_spring")
 MASS_SPRING = [os.path.join(EXAMPLE, name) for name in ("scenario.yaml", "observer.yaml")]
 CRAZYFLIE = os.path.join(ROOT, "config", "crazyflie_position.yaml")
-
-
-def free_port():
-    with socket.socket() as probe:
-        probe.bind(("", 0))
-        return probe.getsockname()[1]
-
-
-def find_tool(name):
-    found = subprocess.check_output(["catkin_find", "--first-only", "--libexec", PACKAGE, name])
-    return found.decode().strip()
-
-
-def run_tool(name, *arguments):
-    result = subprocess.run([find_tool(name), *arguments], stdout=subprocess.PIPE,
-                            stderr=subprocess.STDOUT, universal_newlines=True, check=False)
-    print(result.stdout)
-    if result.returncode != 0:
-        raise AssertionError("%s failed: %s" % (name, result.stdout))
-    return result.stdout
-
-
-class RosProcess:
-    """A process with a roscore of its own, ended as a person would: by Ctrl-C."""
-
-    def __init__(self, command, port):
-        environment = dict(os.environ, ROS_MASTER_URI="http://localhost:%d" % port)
-        self.process = subprocess.Popen(command, env=environment)
-
-    def __enter__(self):
-        return self.process
-
-    def __exit__(self, *_):
-        if self.process.poll() is None:
-            self.process.send_signal(signal.SIGINT)
-        try:
-            self.process.wait(30)
-        except subprocess.TimeoutExpired:
-            self.process.kill()
-            raise
 
 
 class ReplayTestCase(unittest.TestCase):

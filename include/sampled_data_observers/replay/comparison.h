@@ -38,7 +38,7 @@ class Comparison {
 
   const std::vector<Quantity>& quantities() const { return quantities_; }
 
-  /// Takes in the values of a sample that the observer used.
+  /// Takes in the values of a sample, or of a continuous output, that the observer used.
   void add_sample(std::size_t sensor, Stamp stamp, const double* values);
 
   /// Compares at one stamp. @param truth one value per quantity @param x the estimate, n entries

@@ -36,6 +36,8 @@ struct ReplaySummary {
   std::map<std::string, std::size_t> rejected;
   std::size_t samples_rejected = 0;
   std::size_t events_used = 0;
+  std::size_t outputs_used = 0;  ///< of these: values of continuous outputs
+  std::size_t jumps_used = 0;    ///< and jumps
 
   /// Of the time between used samples [s].
   double interval_min = 0.0;

@@ -1,0 +1,47 @@
+"""What tests in python need of ROS: the package's tools, and launches with a roscore of their own."""
+import os
+import signal
+import socket
+import subprocess
+
+PACKAGE = "sampled_data_observers"
+
+
+def free_port():
+    with socket.socket() as probe:
+        probe.bind(("", 0))
+        return probe.getsockname()[1]
+
+
+def find_tool(name):
+    found = subprocess.check_output(["catkin_find", "--first-only", "--libexec", PACKAGE, name])
+    return found.decode().strip()
+
+
+def run_tool(name, *arguments):
+    result = subprocess.run([find_tool(name), *arguments], stdout=subprocess.PIPE,
+                            stderr=subprocess.STDOUT, universal_newlines=True, check=False)
+    print(result.stdout)
+    if result.returncode != 0:
+        raise AssertionError("%s failed: %s" % (name, result.stdout))
+    return result.stdout
+
+
+class RosProcess:
+    """A process with a roscore of its own, ended as a person would: by Ctrl-C."""
+
+    def __init__(self, command, port):
+        environment = dict(os.environ, ROS_MASTER_URI="http://localhost:%d" % port)
+        self.process = subprocess.Popen(command, env=environment)
+
+    def __enter__(self):
+        return self.process
+
+    def __exit__(self, *_):
+        if self.process.poll() is None:
+            self.process.send_signal(signal.SIGINT)
+        try:
+            self.process.wait(30)
+        except subprocess.TimeoutExpired:
+            self.process.kill()
+            raise
