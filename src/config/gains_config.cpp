@@ -7,10 +7,13 @@ namespace {
 
 template <class Rows>
 std::vector<Eigen::MatrixXd> read_per_sensor(ConfigSection& gains, const std::string& key,
-                                             const Plant& plant, SensorTiming timing, Rows rows) {
+                                             const Plant& plant,
+                                             const std::vector<SensorTiming>& timings, Rows rows) {
   const std::vector<Sensor>& sensors = plant.sensors();
   std::vector<Eigen::MatrixXd> result(sensors.size());
-  const auto fits = [timing](const Sensor& sensor) { return sensor.timing == timing; };
+  const auto fits = [&timings](const Sensor& sensor) {
+    return std::find(timings.begin(), timings.end(), sensor.timing) != timings.end();
+  };
   if (std::count_if(sensors.begin(), sensors.end(), fits) == 1 && !gains.is_map(key)) {
     const auto only = std::find_if(sensors.begin(), sensors.end(), fits);
     result[static_cast<std::size_t>(only - sensors.begin())] =
@@ -32,12 +35,13 @@ std::vector<Eigen::MatrixXd> read_per_sensor(ConfigSection& gains, const std::st
 std::vector<Eigen::MatrixXd> read_gain_per_sensor(ConfigSection& gains, const std::string& key,
                                                   const Plant& plant, SensorTiming timing,
                                                   Eigen::Index rows) {
-  return read_per_sensor(gains, key, plant, timing, [rows](const Sensor&) { return rows; });
+  return read_per_sensor(gains, key, plant, {timing}, [rows](const Sensor&) { return rows; });
 }
 
 std::vector<Eigen::MatrixXd> read_square_per_sensor(ConfigSection& gains, const std::string& key,
-                                                    const Plant& plant, SensorTiming timing) {
-  return read_per_sensor(gains, key, plant, timing,
+                                                    const Plant& plant,
+                                                    const std::vector<SensorTiming>& timings) {
+  return read_per_sensor(gains, key, plant, timings,
                          [](const Sensor& sensor) { return sensor.outputs(); });
 }
 

@@ -11,9 +11,11 @@ namespace {
 std::map<std::string, LawBuilder>& builders() {
   static std::map<std::string, LawBuilder> all = {
       {"ConstantGainObserver", build_constant_gain},
+      {"HybridKalmanFilter", build_hybrid_kalman_filter},
       {"IntersampleInjectionObserver", build_intersample_injection},
       {"SampleAndHoldObserver", build_sample_and_hold},
       {"SynchronizedObserver", build_synchronized},
+      {"TimeVaryingGainObserver", build_time_varying_gain},
   };
   return all;
 }

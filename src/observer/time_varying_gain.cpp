@@ -78,7 +78,7 @@ Eigen::Index CertificateGain::workspace_size() const {
 }
 
 void CertificateGain::evaluate(const double* backward, double* K, double* workspace) const {
-  double* root = workspace;        // Lᵀ e^{−Aτ}, a root of Ψ
+  double* root = workspace;          // Lᵀ e^{−Aτ}, a root of Ψ
   double* rotated = root + n_ * n_;  // root [C⊥ Cᵀ]
   double* factor = rotated + n_ * n_;
   double* transposed = factor + n_ * n_;  // (C Cᵀ) K

@@ -26,8 +26,8 @@ Step compose(const Step& first, const Step& second) {
 
 /// The step over one unit of the time in which A and Q are given.
 Step unit_step(const ExtendedMatrix& A, const ExtendedMatrix& Q) {
-  // Q_h is the sum of D^k(Q) h^{k+1} / (k + 1)! with D(X) = A X + X Aᵀ: at |A| h <= 1/4 the remainder
-  // after 20 terms is below 1e-25, relative to Q h.
+  // Q_h is the sum of D^k(Q) h^{k+1} / (k + 1)! with D(X) = A X + X Aᵀ: at |A| h <= 1/4 the
+  // remainder after 20 terms is below 1e-25, relative to Q h.
   constexpr int kTerms = 20;
   const int doublings = doublings_for(A);
   const long double h = std::ldexp(1.0L, -doublings);
@@ -62,8 +62,9 @@ CovarianceFlow::CovarianceFlow(const Eigen::MatrixXd& A, const Eigen::MatrixXd& 
   double* table = tables_.data();
   for (int place = 0; place < kPlaces; ++place) {
     const long double unit = std::ldexp(1e-9L, kDigitBits * place);
-    std::vector<Step> digits = {{Transition(zero), zero},
-                                unit_step(A.cast<long double>() * unit, Q.cast<long double>() * unit)};
+    std::vector<Step> digits = {
+        {Transition(zero), zero},
+        unit_step(A.cast<long double>() * unit, Q.cast<long double>() * unit)};
     for (std::size_t d = 2; d < kDigits && digits.back().is_finite(); ++d) {
       digits.push_back(compose(digits[d / 2], digits[d - d / 2]));
     }

@@ -15,6 +15,8 @@
   PLUGINLIB_EXPORT_CLASS(sampled_data_observers::TYPE##Nodelet, nodelet::Nodelet)
 
 SDO_OBSERVER_NODELET(ConstantGainObserver)
+SDO_OBSERVER_NODELET(HybridKalmanFilter)
 SDO_OBSERVER_NODELET(IntersampleInjectionObserver)
 SDO_OBSERVER_NODELET(SampleAndHoldObserver)
 SDO_OBSERVER_NODELET(SynchronizedObserver)
+SDO_OBSERVER_NODELET(TimeVaryingGainObserver)

@@ -12,9 +12,18 @@ namespace sampled_data_observers::test {
 /// The configurations in test/types: every observer type, with its variants, on small plants with
 /// all channels that the type can take.
 inline std::vector<std::string> type_examples() {
-  return {"constant_gain",         "constant_gain_delayed",           "constant_gain_nonlinear",
-          "intersample_injection", "intersample_injection_lipschitz", "sample_and_hold",
-          "synchronized",          "synchronized_nonlinear_delayed"};
+  return {"constant_gain",
+          "constant_gain_delayed",
+          "constant_gain_nonlinear",
+          "intersample_injection",
+          "intersample_injection_lipschitz",
+          "sample_and_hold",
+          "synchronized",
+          "synchronized_nonlinear_delayed",
+          "hybrid_kalman_filter",
+          "hybrid_kalman_filter_switched",
+          "time_varying_gain",
+          "time_varying_gain_inverse"};
 }
 
 inline ObserverConfig read_example(const std::string& name) {

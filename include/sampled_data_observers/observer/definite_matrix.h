@@ -5,8 +5,8 @@
 
 namespace sampled_data_observers {
 
-/// The matrix, symmetric to the bit, once it is known to be n x n, symmetric up to rounding (1e-12 of
-/// its largest entry) and positive definite.
+/// The matrix, symmetric to the bit, once it is known to be n x n, symmetric up to rounding (1e-12
+/// of its largest entry) and positive definite.
 /// @throws std::invalid_argument saying what `name` is not.
 Eigen::MatrixXd checked_positive_definite(const std::string& name, const Eigen::MatrixXd& matrix,
                                           Eigen::Index n);

@@ -25,15 +25,15 @@ struct KalmanCovariances {
 ///   P⁺ = (I − K C) P (I − K C)ᵀ + K R Kᵀ           at a sample, and first at a jump with y_d
 ///   x̂⁺ = A_d x̂ + b_d,  P⁺ = A_d P A_dᵀ + Q_d      at a jump
 ///
-/// In a mode without jump map, A_d is the identity and b_d is 0. A, C and A_d may differ from mode to
-/// mode. Innovations of angular outputs are wrapped.
+/// In a mode without jump map, A_d is the identity and b_d is 0. A, C and A_d may differ from mode
+/// to mode. Innovations of angular outputs are wrapped.
 ///
 /// Each update is made output by output, after a transformation in which their noises are
 /// independent and of variance 1. That gives the same, and needs no inverse that might fail.
 class HybridKalmanFilter : public PlantObserver {
  public:
-  /// @throws std::invalid_argument for a plant that is not affine and for covariances that do not fit
-  /// it or are not definite as they must be.
+  /// @throws std::invalid_argument for a plant that is not affine and for covariances that do not
+  /// fit it or are not definite as they must be.
   HybridKalmanFilter(const ObserverContext& context, const KalmanCovariances& covariances);
 
   /// P, n x n.

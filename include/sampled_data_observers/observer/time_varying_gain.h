@@ -46,8 +46,8 @@ class InverseOutputGain : public TimeVaryingGain {
 ///   M21 = λ R22ᵀ [R11; 0],  M11 = R11ᵀ R11,  M22 = R22ᵀ R22
 ///   M11 = C Ψ Cᵀ − C Ψ C⊥ W C⊥ᵀ Ψ Cᵀ,  M22 = P − P C⊥ W C⊥ᵀ P
 ///
-/// M21 is 0, so that the gain is (25), where M22 is not positive definite: at τ = 0, and outside the
-/// interval for which P is a certificate; also where e^{−Aτ} has an entry beyond 2^52, as for
+/// M21 is 0, so that the gain is (25), where M22 is not positive definite: at τ = 0, and outside
+/// the interval for which P is a certificate; also where e^{−Aτ} has an entry beyond 2^52, as for
 /// InverseOutputGain. Where even W can't be computed, after a gap so long that e^{−Aτ} is not
 /// finite, the gain is K(0).
 class CertificateGain : public TimeVaryingGain {

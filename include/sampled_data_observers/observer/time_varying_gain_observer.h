@@ -10,15 +10,15 @@
 
 namespace sampled_data_observers {
 
-/// The observer with a gain that depends on the time since the last sample (sferlazza2019, (5)), for
-/// several sensors and a linear plant that may jump itself:
+/// The observer with a gain that depends on the time since the last sample (sferlazza2019, (5)),
+/// for several sensors and a linear plant that may jump itself:
 ///
 ///   ẋ̂ = A x̂ + B u                        between events
 ///   x̂⁺ = x̂ + K_i(τ) (y_i − C_i x̂)        at a sample of sensor i
 ///   x̂⁺ = g(x̂)                            at a jump of the plant
 ///
-/// τ is the time since the last sample of any sensor, before the first one since the start: with one
-/// P for all sensors, the function V = eᵀ e^{−Aᵀτ} P e^{−Aτ} e of the error e, (9), is constant
+/// τ is the time since the last sample of any sensor, before the first one since the start: with
+/// one P for all sensors, the function V = eᵀ e^{−Aᵀτ} P e^{−Aτ} e of the error e, (9), is constant
 /// in flow and falls at every sample.
 class TimeVaryingGainObserver : public PlantObserver {
  public:

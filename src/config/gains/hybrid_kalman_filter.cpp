@@ -1,6 +1,7 @@
+#include "sampled_data_observers/observer/hybrid_kalman_filter.h"
+
 #include "builders.h"
 #include "sampled_data_observers/config/gains_config.h"
-#include "sampled_data_observers/observer/hybrid_kalman_filter.h"
 
 namespace sampled_data_observers {
 
