@@ -20,13 +20,20 @@ const char* describe(SensorTiming timing) {
 
 template <class Rows>
 std::vector<Eigen::MatrixXd> read_per_sensor(ConfigSection& gains, const std::string& key,
-                                             const Plant& plant, SensorTiming timing, Rows rows) {
+                                             const Plant& plant,
+                                             const std::vector<SensorTiming>& timings, Rows rows) {
   const std::vector<Sensor>& sensors = plant.sensors();
   std::vector<Eigen::MatrixXd> result(sensors.size());
-  const auto fits = [timing](const Sensor& sensor) { return sensor.timing == timing; };
+  const auto fits = [&timings](const Sensor& sensor) {
+    return std::find(timings.begin(), timings.end(), sensor.timing) != timings.end();
+  };
   const auto count = std::count_if(sensors.begin(), sensors.end(), fits);
   if (count == 0) {
-    throw gains.error(key, std::string("a sensor with measured: ") + describe(timing), "none");
+    std::string expected;
+    for (const SensorTiming timing : timings) {
+      expected += (expected.empty() ? "" : " or ") + std::string(describe(timing));
+    }
+    throw gains.error(key, "a sensor with measured: " + expected, "none");
   }
   if (count == 1 && !gains.is_map(key)) {
     const auto only = std::find_if(sensors.begin(), sensors.end(), fits);
@@ -49,12 +56,13 @@ std::vector<Eigen::MatrixXd> read_per_sensor(ConfigSection& gains, const std::st
 std::vector<Eigen::MatrixXd> read_gain_per_sensor(ConfigSection& gains, const std::string& key,
                                                   const Plant& plant, SensorTiming timing,
                                                   Eigen::Index rows) {
-  return read_per_sensor(gains, key, plant, timing, [rows](const Sensor&) { return rows; });
+  return read_per_sensor(gains, key, plant, {timing}, [rows](const Sensor&) { return rows; });
 }
 
 std::vector<Eigen::MatrixXd> read_square_per_sensor(ConfigSection& gains, const std::string& key,
-                                                    const Plant& plant, SensorTiming timing) {
-  return read_per_sensor(gains, key, plant, timing,
+                                                    const Plant& plant,
+                                                    const std::vector<SensorTiming>& timings) {
+  return read_per_sensor(gains, key, plant, timings,
                          [](const Sensor& sensor) { return sensor.outputs(); });
 }
 

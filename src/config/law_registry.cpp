@@ -12,10 +12,12 @@ std::map<std::string, LawBuilder>& builders() {
   static std::map<std::string, LawBuilder> all = {
       {"ConstantGainObserver", build_constant_gain},
       {"HighGainObserver", build_high_gain},
+      {"HybridKalmanFilter", build_hybrid_kalman_filter},
       {"IntersampleInjectionObserver", build_intersample_injection},
       {"SampleAndHoldObserver", build_sample_and_hold},
       {"SwitchedObserver", build_switched},
       {"SynchronizedObserver", build_synchronized},
+      {"TimeVaryingGainObserver", build_time_varying_gain},
   };
   return all;
 }

@@ -4,57 +4,11 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
-#include <utility>
 
 #include "sampled_data_observers/plant/ordered_product.h"
+#include "transition_matrix.h"
 
 namespace sampled_data_observers {
-namespace {
-
-constexpr int kBits = 6;
-constexpr int kDigits = 1 << kBits;
-constexpr int kPlaces = (63 + kBits - 1) / kBits;
-
-using ExtendedMatrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
-
-/// A transition matrix, kept in both forms: the difference from the identity holds the digits of
-/// slow modes beside fast ones, the matrix itself those of modes that have decayed.
-struct Transition {
-  explicit Transition(ExtendedMatrix difference)
-      : minus_identity(std::move(difference)),
-        full(ExtendedMatrix::Identity(minus_identity.rows(), minus_identity.cols()) +
-             minus_identity) {}
-
-  ExtendedMatrix minus_identity;
-  ExtendedMatrix full;
-};
-
-Transition compose(const Transition& a, const Transition& b) {
-  Transition result(a.minus_identity + b.minus_identity + a.minus_identity * b.minus_identity);
-  // When all modes have decayed, the sum with the identity has cancelled.
-  if (result.full.norm() < 0.25L) result.full = a.full * b.full;
-  return result;
-}
-
-Transition exponential(const ExtendedMatrix& M) {
-  const long double norm = M.cwiseAbs().colwise().sum().maxCoeff();
-  // Taylor's remainder at a norm of 1/4 and 16 terms is below 1e-24, relative to M.
-  constexpr int kTerms = 16;
-  int doublings = 0;
-  if (norm > 0.25L) std::frexp(norm * 4.0L, &doublings);
-  const ExtendedMatrix scaled = M * std::ldexp(1.0L, -doublings);
-  ExtendedMatrix power = scaled;
-  ExtendedMatrix sum = scaled;
-  for (int k = 2; k <= kTerms; ++k) {
-    power = (power * scaled / static_cast<long double>(k)).eval();
-    sum += power;
-  }
-  Transition result(sum);
-  for (int i = 0; i < doublings && result.full.allFinite(); ++i) result = compose(result, result);
-  return result;
-}
-
-}  // namespace
 
 LinearFlow::LinearFlow(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B)
     : states_(A.rows()), inputs_(B.cols()) {
@@ -82,7 +36,7 @@ LinearFlow::LinearFlow(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B)
   for (int place = 0; place < kPlaces; ++place) {
     std::vector<Transition> digits;
     digits.emplace_back(ExtendedMatrix::Zero(size, size));
-    digits.push_back(exponential(generator * std::ldexp(1.0L, kBits * place)));
+    digits.push_back(exponential(generator * std::ldexp(1.0L, kDigitBits * place)));
     for (std::size_t d = 2; d < kDigits; ++d) {
       if (!digits.back().full.allFinite()) break;
       digits.push_back(compose(digits[d / 2], digits[d - d / 2]));
@@ -102,7 +56,7 @@ const double* LinearFlow::transition(int place, int digit) const {
 }
 
 void LinearFlow::apply(Duration duration, double* x, const double* u, double* scratch) const {
-  for (int place = 0; duration > 0; ++place, duration >>= kBits) {
+  for (int place = 0; duration > 0; ++place, duration >>= kDigitBits) {
     const int digit = static_cast<int>(duration & (kDigits - 1));
     if (digit == 0) continue;
     const double* M = transition(place, digit);

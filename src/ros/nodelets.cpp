@@ -17,9 +17,11 @@
 
 SDO_OBSERVER_NODELET(ConstantGainObserver)
 SDO_OBSERVER_NODELET(HighGainObserver)
+SDO_OBSERVER_NODELET(HybridKalmanFilter)
 SDO_OBSERVER_NODELET(IntersampleInjectionObserver)
 SDO_OBSERVER_NODELET(SampleAndHoldObserver)
 SDO_OBSERVER_NODELET(SwitchedObserver)
 SDO_OBSERVER_NODELET(SynchronizedObserver)
+SDO_OBSERVER_NODELET(TimeVaryingGainObserver)
 
 PLUGINLIB_EXPORT_CLASS(sampled_data_observers::PlantSimulatorNodelet, nodelet::Nodelet)

@@ -18,13 +18,17 @@ inline std::vector<std::string> type_examples() {
           "high_gain_linear",
           "high_gain_original",
           "high_gain_transformed",
+          "hybrid_kalman_filter",
+          "hybrid_kalman_filter_switched",
           "intersample_injection",
           "intersample_injection_lipschitz",
           "sample_and_hold",
           "switched",
           "switched_projection_delayed",
           "synchronized",
-          "synchronized_nonlinear_delayed"};
+          "synchronized_nonlinear_delayed",
+          "time_varying_gain",
+          "time_varying_gain_inverse"};
 }
 
 inline ObserverConfig read_example(const std::string& name) {

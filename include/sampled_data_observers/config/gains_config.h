@@ -16,8 +16,9 @@ std::vector<Eigen::MatrixXd> read_gain_per_sensor(ConfigSection& gains, const st
                                                   const Plant& plant, SensorTiming timing,
                                                   Eigen::Index rows);
 
-/// The same with one square matrix of m_i rows per sensor.
+/// The same with one square matrix of m_i rows per sensor of any of the timings.
 std::vector<Eigen::MatrixXd> read_square_per_sensor(ConfigSection& gains, const std::string& key,
-                                                    const Plant& plant, SensorTiming timing);
+                                                    const Plant& plant,
+                                                    const std::vector<SensorTiming>& timings);
 
 }  // namespace sampled_data_observers

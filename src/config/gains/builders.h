@@ -15,6 +15,10 @@ std::shared_ptr<const ObserverLaw> build_sample_and_hold(ConfigSection& gains,
                                                          const LawContext& context);
 std::shared_ptr<const ObserverLaw> build_synchronized(ConfigSection& gains,
                                                       const LawContext& context);
+std::shared_ptr<const ObserverLaw> build_hybrid_kalman_filter(ConfigSection& gains,
+                                                              const LawContext& context);
+std::shared_ptr<const ObserverLaw> build_time_varying_gain(ConfigSection& gains,
+                                                           const LawContext& context);
 
 std::shared_ptr<const ObserverLaw> build_high_gain(ConfigSection& gains, const LawContext& context);
 std::shared_ptr<const ObserverLaw> build_switched(ConfigSection& gains, const LawContext& context);

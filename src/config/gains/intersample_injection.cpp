@@ -46,7 +46,7 @@ std::shared_ptr<const ObserverLaw> build_intersample_injection(ConfigSection& ga
           predicts ? predictor_H(plant, i, L[i]) : Eigen::MatrixXd::Zero(L[i].cols(), L[i].cols());
     }
   } else {
-    const auto H = read_square_per_sensor(gains, "H", plant, SensorTiming::kSampled);
+    const auto H = read_square_per_sensor(gains, "H", plant, {SensorTiming::kSampled});
     for (std::size_t i = 0; i < L.size(); ++i) result[i].H = H[i];
   }
   read_initial_theta(gains, plant, result);

@@ -1,0 +1,99 @@
+#include "sampled_data_observers/observer/time_varying_gain_observer.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "sampled_data_observers/observer/definite_matrix.h"
+#include "sampled_data_observers/plant/ordered_product.h"
+
+namespace sampled_data_observers {
+namespace {
+
+void check_linear(const Plant& plant) {
+  if (plant.switches()) {
+    throw std::invalid_argument("this observer takes plants of one mode");
+  }
+  const PlantMode& mode = plant.modes().front();
+  if (mode.flow->affine() == nullptr) {
+    throw std::invalid_argument("this observer takes plants with a linear flow, x' = A x + B u");
+  }
+  for (std::size_t i = 0; i < plant.sensors().size(); ++i) {
+    if (mode.outputs[i]->affine() == nullptr) {
+      throw std::invalid_argument("sensor '" + plant.sensors()[i].name +
+                                  "': this observer takes linear outputs, y = C x");
+    }
+  }
+}
+
+}  // namespace
+
+TimeVaryingGainObserver::Gains TimeVaryingGainObserver::make_gains(
+    const Plant& plant, const std::optional<Eigen::MatrixXd>& P, double lambda) {
+  check_linear(plant);
+  if (!(lambda >= 0.0 && lambda < 1.0)) {
+    throw std::invalid_argument("lambda must be in [0, 1)");
+  }
+  std::optional<Eigen::MatrixXd> checked;
+  if (P) checked = checked_positive_definite("P", *P, plant.states());
+  Gains gains;
+  for (std::size_t i = 0; i < plant.sensors().size(); ++i) {
+    const Eigen::MatrixXd& C = plant.modes().front().outputs[i]->affine()->M();
+    try {
+      if (checked) {
+        gains.push_back(std::make_unique<const CertificateGain>(C, *checked, lambda));
+      } else {
+        gains.push_back(std::make_unique<const InverseOutputGain>(C, lambda));
+      }
+    } catch (const std::invalid_argument& fault) {
+      throw std::invalid_argument("sensor '" + plant.sensors()[i].name + "': " + fault.what());
+    }
+  }
+  return gains;
+}
+
+/// Room for e^{−Aτ}, a gain and an innovation, and then for what computes them.
+PlantObserver::Extras TimeVaryingGainObserver::extras(const Plant& plant, const Gains& gains) {
+  const Eigen::Index n = plant.states();
+  const Eigen::Index m = plant.max_outputs();
+  Eigen::Index scratch = n;
+  for (const auto& gain : gains) scratch = std::max(scratch, gain->workspace_size());
+  Extras result;
+  result.timers = 1;
+  result.workspace = n * n + n * m + m + scratch;
+  return result;
+}
+
+TimeVaryingGainObserver::TimeVaryingGainObserver(const ObserverContext& context,
+                                                 const std::optional<Eigen::MatrixXd>& P,
+                                                 double lambda)
+    : TimeVaryingGainObserver(context, make_gains(*context.plant, P, lambda)) {}
+
+TimeVaryingGainObserver::TimeVaryingGainObserver(const ObserverContext& context, Gains gains)
+    : PlantObserver(context, extras(*context.plant, gains), {SensorTiming::kSampled}),
+      gains_(std::move(gains)),
+      backward_flow_(-plant().modes().front().flow->affine()->M(), Eigen::MatrixXd::Zero(n(), 0)) {
+  build_flow();
+}
+
+void TimeVaryingGainObserver::sample(std::size_t sensor, const double* y, const Held& held,
+                                     double* state, double* workspace) const {
+  const Eigen::Index m = plant().sensors()[sensor].outputs();
+  double* backward = workspace;
+  double* K = backward + n() * n();
+  double* innovation = K + n() * m;
+  double* scratch = innovation + m;
+  const auto tau = static_cast<Duration>(timers(state)[0]);
+  for (Eigen::Index j = 0; j < n(); ++j) {
+    double* column = backward + j * n();
+    for (Eigen::Index i = 0; i < n(); ++i) column[i] = i == j ? 1.0 : 0.0;
+    backward_flow_.apply(tau, column, nullptr, scratch);
+  }
+  gains_[sensor]->evaluate(backward, K, scratch);
+  compute_innovation(plant(), held.mode, sensor, y, state, held.u, innovation);
+  add_product(K, n(), m, innovation, state);
+  timers(state)[0] = 0.0;
+}
+
+}  // namespace sampled_data_observers

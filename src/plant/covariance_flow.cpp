@@ -1,0 +1,94 @@
+#include "sampled_data_observers/plant/covariance_flow.h"
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "sampled_data_observers/plant/ordered_linear_algebra.h"
+#include "transition_matrix.h"
+
+namespace sampled_data_observers {
+namespace {
+
+/// Φ and Q_Δ of one duration.
+struct Step {
+  Transition transition;
+  ExtendedMatrix noise;
+
+  bool is_finite() const { return transition.full.allFinite() && noise.allFinite(); }
+};
+
+Step compose(const Step& first, const Step& second) {
+  const ExtendedMatrix& Phi = second.transition.full;
+  const ExtendedMatrix noise = Phi * first.noise * Phi.transpose() + second.noise;
+  return {compose(first.transition, second.transition), (noise + noise.transpose()) / 2.0L};
+}
+
+/// The step over one unit of the time in which A and Q are given.
+Step unit_step(const ExtendedMatrix& A, const ExtendedMatrix& Q) {
+  // Q_h is the sum of D^k(Q) h^{k+1} / (k + 1)! with D(X) = A X + X Aᵀ: at |A| h <= 1/4 the
+  // remainder after 20 terms is below 1e-25, relative to Q h.
+  constexpr int kTerms = 20;
+  const int doublings = doublings_for(A);
+  const long double h = std::ldexp(1.0L, -doublings);
+  ExtendedMatrix term = Q * h;
+  ExtendedMatrix sum = term;
+  for (int k = 2; k <= kTerms; ++k) {
+    term = ((A * term + term * A.transpose()) * (h / static_cast<long double>(k))).eval();
+    sum += term;
+  }
+  Step result{exponential(A * h), sum};
+  for (int i = 0; i < doublings && result.is_finite(); ++i) result = compose(result, result);
+  return result;
+}
+
+}  // namespace
+
+CovarianceFlow::CovarianceFlow(const Eigen::MatrixXd& A, const Eigen::MatrixXd& Q)
+    : states_(A.rows()) {
+  if (A.rows() == 0 || A.rows() != A.cols()) {
+    throw std::invalid_argument("CovarianceFlow: A must be square and not empty");
+  }
+  if (Q.rows() != A.rows() || Q.cols() != A.cols()) {
+    throw std::invalid_argument("CovarianceFlow: Q must have the size of A");
+  }
+  if (!A.allFinite() || !Q.allFinite()) {
+    throw std::invalid_argument("CovarianceFlow: A and Q must be finite");
+  }
+  const auto entries = static_cast<std::size_t>(states_ * states_);
+  // An unstable plant's later transitions overflow.
+  tables_.assign(2 * entries * kDigits * kPlaces, std::numeric_limits<double>::infinity());
+  const ExtendedMatrix zero = ExtendedMatrix::Zero(states_, states_);
+  double* table = tables_.data();
+  for (int place = 0; place < kPlaces; ++place) {
+    const long double unit = std::ldexp(1e-9L, kDigitBits * place);
+    std::vector<Step> digits = {
+        {Transition(zero), zero},
+        unit_step(A.cast<long double>() * unit, Q.cast<long double>() * unit)};
+    for (std::size_t d = 2; d < kDigits && digits.back().is_finite(); ++d) {
+      digits.push_back(compose(digits[d / 2], digits[d - d / 2]));
+    }
+    for (const Step& digit : digits) {
+      if (!digit.is_finite()) return;
+      Eigen::Map<Eigen::MatrixXd>(table, states_, states_) = digit.transition.full.cast<double>();
+      table += entries;
+      Eigen::Map<Eigen::MatrixXd>(table, states_, states_) = digit.noise.cast<double>();
+      table += entries;
+    }
+  }
+}
+
+void CovarianceFlow::apply(Duration duration, double* P, double* scratch) const {
+  const Eigen::Index entries = states_ * states_;
+  for (Eigen::Index place = 0; duration > 0; ++place, duration >>= kDigitBits) {
+    const auto digit = static_cast<Eigen::Index>(duration & (kDigits - 1));
+    if (digit == 0) continue;
+    const double* Phi = tables_.data() + 2 * entries * (place * kDigits + digit);
+    const double* noise = Phi + entries;
+    multiply(Phi, states_, states_, P, states_, scratch);
+    for (Eigen::Index i = 0; i < entries; ++i) P[i] = noise[i];
+    add_symmetric_product(scratch, Phi, states_, states_, P);
+  }
+}
+
+}  // namespace sampled_data_observers

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <utility>
+
+namespace sampled_data_observers {
+
+// Durations are whole nanoseconds, written in base 64: flows are tabulated for each digit at each
+// place.
+constexpr int kDigitBits = 6;
+constexpr int kDigits = 1 << kDigitBits;
+constexpr int kPlaces = (63 + kDigitBits - 1) / kDigitBits;
+
+using ExtendedMatrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+
+/// A transition matrix, kept in both forms: the difference from the identity holds the digits of
+/// slow modes beside fast ones, the matrix itself those of modes that have decayed.
+struct Transition {
+  explicit Transition(ExtendedMatrix difference)
+      : minus_identity(std::move(difference)),
+        full(ExtendedMatrix::Identity(minus_identity.rows(), minus_identity.cols()) +
+             minus_identity) {}
+
+  ExtendedMatrix minus_identity;
+  ExtendedMatrix full;
+};
+
+/// The product of two that commute.
+Transition compose(const Transition& a, const Transition& b);
+
+/// By how many doublings e^M follows from the exponential of a matrix of norm 1/4 at most.
+int doublings_for(const ExtendedMatrix& M);
+
+/// e^M
+Transition exponential(const ExtendedMatrix& M);
+
+}  // namespace sampled_data_observers
