@@ -32,6 +32,8 @@ TEST_P(BadGainsTest, AreRefusedWithAMessageThatHelps) {
   EXPECT_EQ("", test::missing_parts(change, found)) << found;
 }
 
+const char kKalman[] = "hybrid_kalman_filter";
+const char kTimeVarying[] = "time_varying_gain";
 const char kInjection[] = "intersample_injection";
 const char kPredictor[] = "intersample_injection_lipschitz";
 
@@ -48,6 +50,17 @@ INSTANTIATE_TEST_SUITE_P(
                  {"variant: predictor", "variant: magic", {"zero_order_hold", "'magic'"}}},
         BadGains{kPredictor, {", variant: predictor", "", {"gains/H", "missing"}}},
         BadGains{kPredictor, {"C: [[1, 0]]", "h: [\"p^2\"]", {"gains/variant", "'s'"}}},
+        BadGains{kKalman,
+                 {"P0: [[1, 0.1], [0.1, 2]]", "P0: [[1, 0.1], [0.2, 2]]", {"gains", "P0"}}},
+        BadGains{kKalman, {"P0: [[1, 0.1], [0.1, 2]]", "P0: [[0, 0], [0, 2]]", {"gains", "P0"}}},
+        BadGains{kKalman, {"s: [[0.3]]", "s: [[0]]", {"gains", "R of sensor 's'"}}},
+        BadGains{kKalman, {", s: [[0.3]]", "", {"gains/R/s", "missing"}}},
+        BadGains{kKalman, {"Q: [[0, 0], [0, 0.5]]", "Q: [[0, 0], [0, -1]]", {"gains", "Q"}}},
+        BadGains{kTimeVarying, {"lambda: 0.4", "lambda: 1", {"gains/lambda", "[0, 1)"}}},
+        BadGains{kTimeVarying, {"lambda: 0.4", "lambda: -0.1", {"gains/lambda", "found -0.1"}}},
+        BadGains{kTimeVarying, {"P: [[2,", "P: [[-2,", {"gains", "P"}}},
+        BadGains{kTimeVarying, {"{C: [[1, 0, 0.5]]", "{C: [[0, 0, 0]]", {"gains", "'s'"}}},
+        BadGains{kTimeVarying, {"{C: [[1, 0, 0.5]]", "{h: [\"p^2\"]", {"gains", "'s'", "linear"}}},
         BadGains{"sample_and_hold",
                  {"[[-1.5], [-0.4]]", "[[-1.5]]", {"gains/L", "2 x 1", "1 x 1"}}},
         BadGains{"synchronized",
