@@ -58,7 +58,7 @@ TEST_F(TankTest, ASampleWhoseOutputHasNoValueHasNoEffectAndIsReported) {
   ASSERT_EQ(Timeline::Query::kOk, estimate(0.0));
   EXPECT_EQ(-0.25, estimate_.state(0));
   EXPECT_EQ(EventOutcome::kWouldOverflow, sample(0.1, 0.0));  // ln(-0.25)
-  EXPECT_EQ(Timeline::Query::kHeld, estimate(0.1));
+  EXPECT_EQ(Timeline::Query::kHeld, estimate(0.2));
   EXPECT_EQ(-0.25, estimate_.state(0));
 }
 
