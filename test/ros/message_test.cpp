@@ -204,6 +204,48 @@ TEST_F(ObserverRuntimeTest, EventsFlowAndMessagesAllocateNothing) {
   EXPECT_EQ(1891u, published);  // from 1.0 s to 19.9 s
 }
 
+TEST(CovarianceMessageTest, HoldsTheCovarianceAndAllocatesNothing) {
+  const ObserverConfig config = read_observer_config(read_yaml_text(R"(
+observer: HybridKalmanFilter
+plant: {states: [p, v], A: [[0, 1], [0, 0]], jump_map: {A_d: [[1, 0], [0, -1]]}}
+sensors: {s: {C: [[1, 0]], source: {topic: s}}}
+sampling: {T1: 0.05, T2: 0.2}
+gains: {P0: [[3, 1], [1, 2]], R: [[1]]}
+)",
+                                                                    "test.yaml"),
+                                                     no_plant_plugins);
+  ObserverRuntime runtime(config);
+  const std::vector<EventChannel> channels = event_channels(config);
+  StateEstimate prototype;
+  runtime.write(runtime.estimator().make_estimate(), prototype);
+  MessagePool<StateEstimate> estimates(prototype, 4);
+  EventStatus status;
+  const double y = 1.0;
+  const auto receive = [&](Stamp stamp) {
+    runtime.receive(channels[0], {stamp, EventKind::kSample, 0, &y, 1}, stamp, status);
+  };
+  receive(1'000'000'000);
+  std::string reason;
+  const Estimate* first = runtime.estimate_at(1'000'000'000, reason);
+  ASSERT_NE(nullptr, first);
+  const boost::shared_ptr<StateEstimate> message = estimates.take();
+  runtime.write(*first, *message);
+  // P0 - P0 C' (C P0 C' + R)^-1 C P0
+  const std::vector<double> expected = {0.75, 0.25, 0.25, 1.75};
+  ASSERT_EQ(expected.size(), message->covariance.size());
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(expected[i], message->covariance[i], 1e-15);
+
+  if (!test::allocations_are_counted()) return;
+  const std::size_t before = test::allocations();
+  for (Stamp stamp = 1'100'000'000; stamp < 3'000'000'000; stamp += 100'000'000) {
+    receive(stamp);
+    while (const Estimate* estimate = runtime.next_due(stamp)) {
+      runtime.write(*estimate, *estimates.take());
+    }
+  }
+  EXPECT_EQ(before, test::allocations());
+}
+
 TEST(MessagePoolTest, GivesAMessageThatNobodyHolds) {
   MessagePool<Measurement> pool(Measurement(), 2);
   const boost::shared_ptr<Measurement> first = pool.take();
