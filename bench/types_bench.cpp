@@ -95,6 +95,7 @@ void register_type(const std::string& example) {
   };
   register_reset(EventKind::kSample, "sample");
   register_reset(EventKind::kOutput, "output");
+  register_reset(EventKind::kJumpOutput, "jump_output");
   register_reset(EventKind::kJump, "jump");
 }
 

@@ -5,19 +5,6 @@
 namespace sampled_data_observers {
 namespace {
 
-/// As the key `measured` of a sensor has it.
-const char* describe(SensorTiming timing) {
-  switch (timing) {
-    case SensorTiming::kSampled:
-      return "sampled";
-    case SensorTiming::kContinuous:
-      return "continuous";
-    case SensorTiming::kAtJumps:
-      break;
-  }
-  return "at_jumps";
-}
-
 template <class Rows>
 std::vector<Eigen::MatrixXd> read_per_sensor(ConfigSection& gains, const std::string& key,
                                              const Plant& plant,
@@ -31,7 +18,7 @@ std::vector<Eigen::MatrixXd> read_per_sensor(ConfigSection& gains, const std::st
   if (count == 0) {
     std::string expected;
     for (const SensorTiming timing : timings) {
-      expected += (expected.empty() ? "" : " or ") + std::string(describe(timing));
+      expected += (expected.empty() ? "" : " or ") + std::string(to_string(timing));
     }
     throw gains.error(key, "a sensor with measured: " + expected, "none");
   }

@@ -76,7 +76,8 @@ EventReport Estimator::submit(const Event& event, Stamp now) {
   const Timeline::InsertReport inserted = timeline_.insert(event);
   report.outcome = outcome_of(inserted);
   report.rewound = inserted.rewound;
-  // Even where the jump has no effect now: whether it has is known for sure only when all events are.
+  // Even where the jump has no effect now: whether it has is known for sure only when all events
+  // are.
   const bool is_in_log = inserted.insertion == Timeline::Insertion::kAppended ||
                          inserted.insertion == Timeline::Insertion::kRewound;
   if (is_in_log && event.kind == EventKind::kJump && law_->delays_jumps()) {

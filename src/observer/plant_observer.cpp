@@ -6,22 +6,6 @@
 #include <utility>
 
 namespace sampled_data_observers {
-namespace {
-
-/// What a sensor of this timing is called in messages.
-const char* describe(SensorTiming timing) {
-  switch (timing) {
-    case SensorTiming::kSampled:
-      return "sampled";
-    case SensorTiming::kContinuous:
-      return "continuous";
-    case SensorTiming::kAtJumps:
-      break;
-  }
-  return "measured at jumps";
-}
-
-}  // namespace
 
 /// The derivative of a law's flowing state during one flow.
 class PlantObserver::Field : public VectorField {
@@ -56,9 +40,9 @@ PlantObserver::PlantObserver(ObserverContext context, const Extras& extras,
   Eigen::Index at_jumps = 0;
   for (const Sensor& sensor : plant_->sensors()) {
     if (std::find(timings.begin(), timings.end(), sensor.timing) == timings.end()) {
-      throw std::invalid_argument("sensor '" + sensor.name +
-                                  "': this observer takes no sensor that is " +
-                                  describe(sensor.timing));
+      throw std::invalid_argument(
+          "sensor '" + sensor.name +
+          "': this observer takes no sensor with measured: " + to_string(sensor.timing));
     }
     Eigen::Index& offset = sensor.timing == SensorTiming::kContinuous ? continuous : at_jumps;
     offsets_.push_back(offset);
@@ -146,8 +130,12 @@ Eigen::Index PlantObserver::event_size(EventKind kind, int channel) const {
       return exists && plant_->sensors()[sensor].timing == SensorTiming::kContinuous
                  ? plant_->sensors()[sensor].outputs()
                  : -1;
+    case EventKind::kJumpOutput:
+      return exists && plant_->sensors()[sensor].timing == SensorTiming::kAtJumps
+                 ? plant_->sensors()[sensor].outputs()
+                 : -1;
     case EventKind::kSample:
-      return exists && plant_->sensors()[sensor].timing != SensorTiming::kContinuous
+      return exists && plant_->sensors()[sensor].timing == SensorTiming::kSampled
                  ? plant_->sensors()[sensor].outputs()
                  : -1;
     case EventKind::kJump:
@@ -225,15 +213,15 @@ bool PlantObserver::reset(const Event& event, double* state, double* workspace) 
     case EventKind::kJump:
       begin_jump(event, state, workspace);
       break;
-    case EventKind::kSample:
-      if (plant_->sensors()[sensor].timing == SensorTiming::kSampled) {
-        const Held now = held(state);
-        sample(sensor, event.values, now, state, workspace);
-        complete(now, state, workspace);
-        return true;
-      }
+    case EventKind::kJumpOutput:
       pair_with_jump(event, state, workspace);
       break;
+    case EventKind::kSample: {
+      const Held now = held(state);
+      sample(sensor, event.values, now, state, workspace);
+      complete(now, state, workspace);
+      return true;
+    }
     case EventKind::kRelease:
       return false;
   }
@@ -266,14 +254,14 @@ void PlantObserver::apply_jump(std::size_t next, double* state, double* workspac
   state[layout_.mode] = static_cast<double>(next);
 }
 
-/// Applies the jump of equal stamp again, now with these of its outputs. A sample without such a
-/// jump says nothing.
-void PlantObserver::pair_with_jump(const Event& sample, double* state, double* workspace) const {
+/// Applies the jump of equal stamp again, now with these of its outputs. Outputs without such a
+/// jump say nothing.
+void PlantObserver::pair_with_jump(const Event& output, double* state, double* workspace) const {
   const double next = state[layout_.snapshot_next] - 1.0;
   if (next < 0.0 || since_jump(state) != 0.0) return;
-  const Eigen::Index offset = offsets_[static_cast<std::size_t>(sample.channel)];
-  std::copy_n(sample.values, sample.size, state + layout_.jump_outputs + offset);
-  state[layout_.jump_outputs_known + sample.channel] = 1.0;
+  const Eigen::Index offset = offsets_[static_cast<std::size_t>(output.channel)];
+  std::copy_n(output.values, output.size, state + layout_.jump_outputs + offset);
+  state[layout_.jump_outputs_known + output.channel] = 1.0;
   std::copy_n(state + layout_.snapshot, layout_.input, state);
   apply_jump(static_cast<std::size_t>(next), state, workspace);
 }

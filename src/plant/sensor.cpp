@@ -9,6 +9,18 @@ constexpr double kPi = 3.14159265358979323846;
 
 }  // namespace
 
+const char* to_string(SensorTiming timing) {
+  switch (timing) {
+    case SensorTiming::kSampled:
+      return "sampled";
+    case SensorTiming::kContinuous:
+      return "continuous";
+    case SensorTiming::kAtJumps:
+      break;
+  }
+  return "at_jumps";
+}
+
 double wrap_angle(double angle) {
   const double wrapped = std::remainder(angle, 2.0 * kPi);
   return wrapped <= -kPi ? kPi : wrapped;

@@ -17,7 +17,7 @@ AffineMap::AffineMap(Eigen::MatrixXd M, Eigen::MatrixXd N, Eigen::VectorXd c)
   }
 }
 
-AffineMap::AffineMap(Eigen::MatrixXd M)
+AffineMap::AffineMap(const Eigen::MatrixXd& M)
     : AffineMap(M, Eigen::MatrixXd::Zero(M.rows(), 0), Eigen::VectorXd::Zero(M.rows())) {}
 
 void AffineMap::evaluate(const double* x, const double* u, double* out) const {

@@ -75,7 +75,7 @@ std::vector<BagChannel> bind_channels(const ObserverConfig& config, const rosbag
     const auto found = std::find_if(topics.begin(), topics.end(),
                                     [&](const auto& topic) { return topic.first == bound.topic; });
     // Inputs and jumps may never have happened; a sensor without a single sample is a mistake.
-    const bool is_sensor = channel.kind == EventKind::kSample || channel.kind == EventKind::kOutput;
+    const bool is_sensor = channel.kind != EventKind::kInput && channel.kind != EventKind::kJump;
     if (found == topics.end() && is_sensor) {
       throw ReplayError(channel.source.origin + ": " + channel.source.path +
                         ": the bag has no topic " + bound.topic + "; it has" + listed(topics));

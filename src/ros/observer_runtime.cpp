@@ -13,6 +13,7 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 }  // namespace
 
 static_assert(EventStatus::INPUT == static_cast<int>(EventKind::kInput));
+static_assert(EventStatus::JUMP_OUTPUT == static_cast<int>(EventKind::kJumpOutput));
 static_assert(EventStatus::OUTPUT == static_cast<int>(EventKind::kOutput));
 static_assert(EventStatus::JUMP == static_cast<int>(EventKind::kJump));
 static_assert(EventStatus::SAMPLE == static_cast<int>(EventKind::kSample));
@@ -60,14 +61,25 @@ const char* describe(EventOutcome outcome) {
   return "";
 }
 
+EventKind kind_of(SensorTiming timing) {
+  switch (timing) {
+    case SensorTiming::kSampled:
+      return EventKind::kSample;
+    case SensorTiming::kContinuous:
+      return EventKind::kOutput;
+    case SensorTiming::kAtJumps:
+      break;
+  }
+  return EventKind::kJumpOutput;
+}
+
 std::vector<EventChannel> event_channels(const ObserverConfig& config) {
   std::vector<EventChannel> channels;
   for (std::size_t i = 0; i < config.sensors.size(); ++i) {
     if (!config.sensors[i]) continue;
     const Sensor& sensor = config.plant->sensors()[i];
-    const EventKind kind =
-        sensor.timing == SensorTiming::kContinuous ? EventKind::kOutput : EventKind::kSample;
-    channels.push_back({kind, static_cast<int>(i), sensor.name, *config.sensors[i]});
+    channels.push_back(
+        {kind_of(sensor.timing), static_cast<int>(i), sensor.name, *config.sensors[i]});
   }
   if (config.input) channels.push_back({EventKind::kInput, 0, "input", *config.input});
   if (config.jumps) channels.push_back({EventKind::kJump, 0, "jumps", *config.jumps});

@@ -309,8 +309,8 @@ TEST_F(HybridKalmanTimelineTest, OutputsOfAJumpGiveTheSameBitsHoweverTheyArrive)
       {kStart + 5 * kSecond, EventKind::kSample, 2, {0.7, 0.1}}};
   const OwnedEvent measured{at, EventKind::kJump, kMeasuredJump, {2.0, 0.3, -0.4, 0.9}};
   const OwnedEvent plain{at, EventKind::kJump, kPlainJump, {2.0}};
-  const OwnedEvent early{at, EventKind::kSample, 0, {0.3}};
-  const OwnedEvent late{at, EventKind::kSample, 1, {-0.4, 0.9}};
+  const OwnedEvent early{at, EventKind::kJumpOutput, 0, {0.3}};
+  const OwnedEvent late{at, EventKind::kJumpOutput, 1, {-0.4, 0.9}};
 
   std::vector<OwnedEvent> events = others;
   events.push_back(measured);

@@ -199,7 +199,7 @@ TEST(HybridKalmanFilterTest, AnOutputOfEqualStampJoinsTheJumpInAnyOrderOfArrival
   std::vector<OwnedEvent> events = {{kStart, EventKind::kSample, 0, {0.3, 0.1}},
                                     {at, EventKind::kJump, kPlainJump, {}},
                                     {at, EventKind::kSample, 0, {0.5, 0.2}},
-                                    {at, EventKind::kSample, 1, {0.9}}};
+                                    {at, EventKind::kJumpOutput, 1, {0.9}}};
   const auto less = [](const OwnedEvent& a, const OwnedEvent& b) {
     return compare(a.view(), b.view()) < 0;
   };
@@ -214,14 +214,16 @@ TEST(HybridKalmanFilterTest, AnOutputOfEqualStampJoinsTheJumpInAnyOrderOfArrival
     EXPECT_EQ(first, estimate.state);
   } while (std::next_permutation(events.begin(), events.end(), less));
 
-  // The jump with its output in the event gives the same as far as no other sample interferes.
+  // A sample of the jump's stamp counts after it, as with the output in the event.
   LawRunner in_event(example_filter());
   LawRunner beside(example_filter());
   in_event.flow(kSecond / 3);
   in_event.jump({0.9});
+  in_event.sample(0, {0.5, 0.2});
   beside.flow(kSecond / 3);
   beside.jump();
-  beside.sample(1, {0.9});
+  beside.jump_output(1, {0.9});
+  beside.sample(0, {0.5, 0.2});
   EXPECT_EQ(in_event.estimate(), beside.estimate());
 }
 

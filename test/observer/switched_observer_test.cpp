@@ -155,9 +155,9 @@ TEST(SwitchedJumpBasedTest, OutputsAsSamplesOfEqualStampCountAsThoseInTheEvent) 
   together.take(EventKind::kJump, kMeasuredJump, {2.0, 0.3, -0.6});
   apart.take(EventKind::kJump, kPlainJump, {2.0});
   half.take(EventKind::kJump, kPlainJump, {2.0});
-  apart.take(EventKind::kSample, 0, {0.3});
-  half.take(EventKind::kSample, 0, {0.3});
-  apart.take(EventKind::kSample, 1, {-0.6});
+  apart.take(EventKind::kJumpOutput, 0, {0.3});
+  half.take(EventKind::kJumpOutput, 0, {0.3});
+  apart.take(EventKind::kJumpOutput, 1, {-0.6});
   EXPECT_EQ(together.x(), apart.x());
   EXPECT_NE(together.x(), half.x());
 }
@@ -248,7 +248,7 @@ TEST(SwitchedObserverTest, TheEstimateDependsOnEventsNotOnTheirArrival) {
       events.push_back({stamp, EventKind::kJump, kMeasuredJump, {label, value(generator)}});
     } else if (i % 4 == 1) {
       events.push_back({stamp, EventKind::kJump, kPlainJump, {label}});
-      events.push_back({stamp, EventKind::kSample, 1, {value(generator)}});
+      events.push_back({stamp, EventKind::kJumpOutput, 1, {value(generator)}});
     }
   }
   const Stamp end = kStart + kNanosecondsPerSecond;

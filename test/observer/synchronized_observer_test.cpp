@@ -87,7 +87,7 @@ TEST(SynchronizedObserverTest, AnOutputOfEqualStampJoinsTheJumpWhicheverComesFir
   beside.output(0, {0.3});
   beside.flow(kSecond / 3);
   beside.jump();
-  beside.sample(1, {0.9});
+  beside.jump_output(1, {0.9});
   beside.flow(kSecond);
   EXPECT_EQ(in_event.estimate(), beside.estimate());
 
@@ -96,7 +96,7 @@ TEST(SynchronizedObserverTest, AnOutputOfEqualStampJoinsTheJumpWhicheverComesFir
   options.sampling = {kSecond, kSecond};
   std::vector<OwnedEvent> events = {{kStart, EventKind::kOutput, 0, {0.3}},
                                     {kStart + kSecond / 3, EventKind::kJump, kPlainJump, {}},
-                                    {kStart + kSecond / 3, EventKind::kSample, 1, {0.9}}};
+                                    {kStart + kSecond / 3, EventKind::kJumpOutput, 1, {0.9}}};
   std::sort(events.begin(), events.end(), [](const OwnedEvent& a, const OwnedEvent& b) {
     return compare(a.view(), b.view()) < 0;
   });
@@ -115,12 +115,12 @@ TEST(SynchronizedObserverTest, AnOutputOfEqualStampJoinsTheJumpWhicheverComesFir
 
 TEST(SynchronizedObserverTest, AnOutputWithoutAJumpSaysNothing) {
   LawRunner runner(law(Eigen::Vector3d::Zero(), {1.0, 0.2259, 1.0}));
-  runner.sample(1, {5.0});
+  runner.jump_output(1, {5.0});
   EXPECT_EQ(Eigen::Vector3d(0.5, -0.25, 2.0), runner.estimate());
   runner.jump();
   runner.flow(1);
   const Eigen::VectorXd before = runner.estimate();
-  runner.sample(1, {5.0});  // a nanosecond too late
+  runner.jump_output(1, {5.0});  // a nanosecond too late
   EXPECT_EQ(before, runner.estimate());
 }
 

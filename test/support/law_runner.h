@@ -22,6 +22,9 @@ class LawRunner {
   void flow(Duration duration) { law_->flow(duration, state_.data(), workspace_.data()); }
   bool sample(int sensor, std::vector<double> y) { return reset(EventKind::kSample, sensor, y); }
   bool output(int sensor, std::vector<double> y) { return reset(EventKind::kOutput, sensor, y); }
+  bool jump_output(int sensor, std::vector<double> y) {
+    return reset(EventKind::kJumpOutput, sensor, y);
+  }
   bool input(std::vector<double> u) { return reset(EventKind::kInput, 0, u); }
   bool jump() { return reset(EventKind::kJump, kPlainJump, {}); }
   bool jump(std::vector<double> values) { return reset(EventKind::kJump, kMeasuredJump, values); }

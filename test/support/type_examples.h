@@ -47,8 +47,8 @@ inline std::vector<OwnedEvent> random_events_for(const ObserverLaw& law, std::mt
     Eigen::Index size;
   };
   std::vector<Channel> channels;
-  for (const EventKind kind :
-       {EventKind::kInput, EventKind::kOutput, EventKind::kJump, EventKind::kSample}) {
+  for (const EventKind kind : {EventKind::kInput, EventKind::kOutput, EventKind::kJump,
+                               EventKind::kJumpOutput, EventKind::kSample}) {
     for (int channel = 0; channel < 4; ++channel) {
       const Eigen::Index values = law.event_size(kind, channel);
       if (values >= 0) channels.push_back({kind, channel, values});

@@ -11,11 +11,12 @@ namespace sampled_data_observers {
 /// take effect: a new input holds from its stamp on, so it comes first; a plant jump has priority
 /// over what is measured, so an output or sample stamped at the instant of a jump is one after it.
 enum class EventKind : std::uint8_t {
-  kInput = 0,    ///< a known input, held until the next
-  kJump = 1,     ///< the plant jumped
-  kRelease = 2,  ///< a reset that was computed for an earlier jump takes effect
-  kOutput = 3,   ///< a continuous output y_c, held until the next or a jump
-  kSample = 4    ///< a sample of a sensor
+  kInput = 0,       ///< a known input, held until the next
+  kJump = 1,        ///< the plant jumped
+  kJumpOutput = 2,  ///< an output y_d that was measured just before a jump of the same stamp
+  kRelease = 3,     ///< a reset that was computed for an earlier jump takes effect
+  kOutput = 4,      ///< a continuous output y_c, held until the next or a jump
+  kSample = 5       ///< a sample of a sensor
 };
 
 /// Channels of jumps: the event carries the outputs y_d at the jump or does not.
@@ -26,9 +27,9 @@ constexpr int kMeasuredJump = 1;
 struct Event {
   Stamp stamp = 0;
   EventKind kind = EventKind::kSample;
-  /// Index of the sensor for samples and outputs, kPlainJump or kMeasuredJump for jumps, else 0.
+  /// Index of the sensor for what is measured, kPlainJump or kMeasuredJump for jumps, else 0.
   int channel = 0;
-  /// u of inputs, y of samples and outputs. Of jumps: the label of the mode that follows, where the
+  /// u of inputs, y of what is measured. Of jumps: the label of the mode that follows, where the
   /// plant switches, then y_d. Of releases: the time since the jump [ns].
   const double* values = nullptr;
   Eigen::Index size = 0;

@@ -29,8 +29,8 @@ struct ObserverContext {
 /// affine in state, input and outputs held: the matrices are then read off derivative() itself.
 /// Otherwise it is integrated by Runge–Kutta steps.
 ///
-/// Outputs measured at jumps (y_d) come with the jump event, or as samples of equal stamp, before
-/// or after it: a snapshot of the state before the jump lets the jump be applied again with them.
+/// Outputs measured at jumps (y_d) come with the jump event, or as events of equal stamp: a
+/// snapshot of the state before the jump lets the jump be applied again with them.
 ///
 /// State: s | constants | time since jump, timers | mode | u | y_c | 1 | y_c known | snapshot of
 /// all before u | mode after the jump | y_d | y_d known, where s = (x̂, extra) flows.
@@ -148,7 +148,7 @@ class PlantObserver : public ObserverLaw {
   Eigen::Index mode_values() const { return plant_->switches() ? 1 : 0; }
   void begin_jump(const Event& event, double* state, double* workspace) const;
   void apply_jump(std::size_t next, double* state, double* workspace) const;
-  void pair_with_jump(const Event& sample, double* state, double* workspace) const;
+  void pair_with_jump(const Event& output, double* state, double* workspace) const;
   std::size_t regime(const Held& held) const;
   LinearFlow exact_flow(const Held& held) const;
 

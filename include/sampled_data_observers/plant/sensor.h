@@ -14,6 +14,9 @@ enum class SensorTiming : std::uint8_t {
   kAtJumps      ///< at jumps of the plant only (y_d): the output just before the jump
 };
 
+/// As configurations have it: "sampled", "continuous" or "at_jumps".
+const char* to_string(SensorTiming timing);
+
 /// A sensor with m outputs. Its output map belongs to the plant, which may have one per mode.
 struct Sensor {
   std::string name;

@@ -37,7 +37,7 @@ class AffineMap : public VectorMap {
   AffineMap(Eigen::MatrixXd M, Eigen::MatrixXd N, Eigen::VectorXd c);
 
   /// M x
-  explicit AffineMap(Eigen::MatrixXd M);
+  explicit AffineMap(const Eigen::MatrixXd& M);
 
   const Eigen::MatrixXd& M() const { return M_; }
   const Eigen::MatrixXd& N() const { return N_; }

@@ -22,6 +22,9 @@ struct EventChannel {
   TopicSource source;
 };
 
+/// What the values of a sensor are as events.
+EventKind kind_of(SensorTiming timing);
+
 /// All channels of a configuration: the sensors in order, then input and jumps where there are any.
 std::vector<EventChannel> event_channels(const ObserverConfig& config);
 
