@@ -149,7 +149,7 @@ TEST(Bernard2022BouncingBall, TheErrorShrinksWithEachBounce) {
         EXPECT_NEAR(expected.after[j], errors[j].norm(), 0.01 * expected.after[j]) << j;
       }
     }
-    EXPECT_NEAR(expected.last, errors.back().norm(), 0.02 * expected.last);
+    EXPECT_NEAR(expected.last, errors.back().norm(), 0.01 * expected.last);
     EXPECT_LT(run.error.from(6.0).max(), expected.from_zero ? 0.15 : 1.1);
     EXPECT_LT(run.error.from(expected.from_zero ? 7.6 : 7.65).max(),
               expected.from_zero ? 0.02 : 0.15);

@@ -32,7 +32,7 @@ std::vector<std::string> files(const std::string& example, const std::string& be
   return names;
 }
 
-TEST(ShippedExamples, AreAllThere) { EXPECT_EQ(13u, directories().size()); }
+TEST(ShippedExamples, AreAllThere) { EXPECT_GE(directories().size(), 13u); }
 
 class ShippedExampleTest : public ::testing::TestWithParam<std::string> {};
 
