@@ -1,0 +1,57 @@
+// Every file of config/examples is valid with its companions.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "support/example_run.h"
+
+namespace sampled_data_observers::test {
+namespace {
+
+std::vector<std::string> directories() {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(examples_folder())) {
+    if (entry.is_directory()) names.push_back(entry.path().filename().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+/// The YAML files of an example whose names begin so.
+std::vector<std::string> files(const std::string& example, const std::string& beginning) {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(examples_folder() + example)) {
+    const std::string name = entry.path().filename().string();
+    if (name.compare(0, beginning.size(), beginning) == 0 && entry.path().extension() == ".yaml") {
+      names.push_back(name);
+    }
+  }
+  return names;
+}
+
+TEST(ShippedExamples, AreAllThere) { EXPECT_GE(directories().size(), 13u); }
+
+class ShippedExampleTest : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(ShippedExampleTest, EveryObserverIsValidWithEveryScenario) {
+  const Example example(GetParam());
+  const std::vector<std::string> scenarios = files(GetParam(), "scenario");
+  const std::vector<std::string> observers = files(GetParam(), "observer");
+  ASSERT_FALSE(scenarios.empty());
+  ASSERT_FALSE(observers.empty());
+  for (const std::string& scenario : scenarios) {
+    EXPECT_NO_THROW(example.scenario(scenario)) << scenario;
+    for (const std::string& observer : observers) {
+      EXPECT_NO_THROW(example.observer(scenario, observer)) << scenario << " " << observer;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ShippedExampleTest, ::testing::ValuesIn(directories()),
+                         [](const auto& info) { return info.param; });
+
+}  // namespace
+}  // namespace sampled_data_observers::test
