@@ -34,7 +34,8 @@ int run(int argc, char** argv) {
   if (result.repeated_stamps) std::printf("a bag has estimates with repeated stamps\n");
   const bool agree = result.identical == result.same_events && result.same_events > 0 &&
                      share >= at_least && !result.repeated_stamps;
-  if (!agree) std::printf("they do not agree\n");
+  const bool only_few = result.identical == result.same_events && !result.repeated_stamps;
+  if (!agree) std::printf(only_few ? "they agree, but on too few\n" : "they do not agree\n");
   return agree ? 0 : 1;
 }
 

@@ -23,7 +23,10 @@ void ObserverNodelet::onInit() {
         read_observer_config(read_parameter_tree(getPrivateNodeHandle()), load_plant_plugin);
     if (config.type != type_) {
       throw ConfigError("parameters of " + getPrivateNodeHandle().getNamespace(), "observer",
-                        type_ + " (this nodelet's type)", config.type);
+                        type_ +
+                            ", the type of this nodelet (observer.launch and example.launch take "
+                            "another one by type:=)",
+                        config.type);
     }
     start(config);
   } catch (const std::exception& error) {

@@ -197,12 +197,21 @@ class ScenarioReader {
   }
 
   void read_jumps() {
-    if (!plant().jumps()) return;
+    if (!plant().jumps()) {
+      if (section_.has("jumps")) {
+        throw section_.error("jumps", "a plant with a jump_map or modes", "one that never jumps");
+      }
+      return;
+    }
     ConfigSection topic = root_.section_or_empty("jumps");
     scenario_.jumps_topic = read_jump_source(root_, topic, plant()).topic;
     for (const char* key : {"late", "min_separation", "max_per_second"}) topic.has(key);
     topic.finish();
-    if (!section_.has("jumps")) return;
+    if (!section_.has("jumps")) {
+      if (plant().outputs(SensorTiming::kAtJumps) == 0) return;
+      throw section_.error("jumps", "when the plant jumps: some sensors measure at jumps only",
+                           "nothing (the key is missing)");
+    }
     ConfigSection section = section_.section("jumps");
     JumpScenario jumps;
     if (section.has("when") == section.has("schedule")) {
