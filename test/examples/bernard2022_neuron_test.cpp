@@ -50,6 +50,9 @@ TEST(Bernard2022NeuronJumpBased, ConvergesByTheSpikesAlone) {
   ASSERT_EQ(15001u, run.error.size());
   EXPECT_GT(run.error.from(0.0, 300.0).max(), 50.0);
   const Trajectory recovery = run.error.component(1);
+  // (Other gains converge, too: this is how fast the printed one does.)
+  EXPECT_NEAR(1.571, run.error.component(2).from(150.0, 300.0).max(), 0.05);
+  EXPECT_NEAR(1.355, recovery.from(300.0, 450.0).max(), 0.05);
   EXPECT_LT(recovery.from(750.0).max(), 0.2);
   EXPECT_LT(recovery.from(1050.0).max(), 0.1);
   const Trajectory end = Split(run, 0.0).outside.from(1200.0);
