@@ -159,7 +159,7 @@ TEST(Bernard2022Neuron, TheParametersAreFoundAsInThePaper) {
   EXPECT_NEAR(0.2000, simulation.estimate()(3), 5e-4);
 }
 
-TEST(Bernard2022Neuron, AJumpHardlyDisturbsTheParameters) {
+TEST(Bernard2022Neuron, TheParametersComeBackSoonAfterAJump) {
   // The output before the jump is forgotten at it, so no innovation of its size comes in.
   for (const bool at_jumps : {false, true}) {
     Simulation simulation(shipped(), at_jumps);
