@@ -1,7 +1,6 @@
 #include "sampled_data_observers/observer/delayed_jumps.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace sampled_data_observers {
 namespace {
@@ -13,7 +12,7 @@ constexpr Eigen::Index kMu = 2;
 
 }  // namespace
 
-DelayedJumps::DelayedJumps(std::shared_ptr<const ObserverLaw> inner)
+DelayedJumps::DelayedJumps(const std::shared_ptr<const ObserverLaw>& inner)
     : LawDecorator(inner, kMu + inner->state_size()) {}
 
 Eigen::Index DelayedJumps::event_size(EventKind kind, int channel) const {

@@ -18,7 +18,7 @@ Eigen::MatrixXd predictor_H(const Plant& plant, std::size_t sensor, const Eigen:
   return -plant.modes().front().outputs[sensor]->affine()->M() * L;
 }
 
-IntersampleInjectionObserver::IntersampleInjectionObserver(ObserverContext context,
+IntersampleInjectionObserver::IntersampleInjectionObserver(const ObserverContext& context,
                                                            std::vector<IntersampleGains> gains)
     : PlantObserver(context, {all_outputs(*context.plant), 0, 0, 0}, {SensorTiming::kSampled}),
       gains_(std::move(gains)) {

@@ -149,7 +149,7 @@ Eigen::MatrixXd high_gain(const Eigen::MatrixXd& A, const Eigen::MatrixXd& H,
     }
     first += d;
   }
-  const Eigen::MatrixXd L_c = form.basis * in_form * form.M.inverse();
+  Eigen::MatrixXd L_c = form.basis * in_form * form.M.inverse();
 
   // ℓ (𝐀 − 𝐊 𝐇) = 𝓛⁻¹ 𝒱 (A − L_c H) 𝒱⁻¹ 𝓛, which has the eigenvalues of A − L_c H.
   const Eigen::MatrixXd scaled_basis = form.basis * powers.asDiagonal();

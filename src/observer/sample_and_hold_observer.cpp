@@ -1,7 +1,5 @@
 #include "sampled_data_observers/observer/sample_and_hold_observer.h"
 
-#include <utility>
-
 namespace sampled_data_observers {
 namespace {
 
@@ -16,8 +14,8 @@ std::vector<IntersampleGains> held_innovation(const std::vector<Eigen::MatrixXd>
 
 }  // namespace
 
-SampleAndHoldObserver::SampleAndHoldObserver(ObserverContext context,
+SampleAndHoldObserver::SampleAndHoldObserver(const ObserverContext& context,
                                              const std::vector<Eigen::MatrixXd>& L)
-    : IntersampleInjectionObserver(std::move(context), held_innovation(L)) {}
+    : IntersampleInjectionObserver(context, held_innovation(L)) {}
 
 }  // namespace sampled_data_observers

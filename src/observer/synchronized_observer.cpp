@@ -9,7 +9,7 @@
 
 namespace sampled_data_observers {
 
-SynchronizedObserver::SynchronizedObserver(ObserverContext context, SynchronizedGains gains)
+SynchronizedObserver::SynchronizedObserver(const ObserverContext& context, SynchronizedGains gains)
     // Scratch for x̂ with injected outputs, one innovation, and the sum of innovations at a jump.
     : PlantObserver(context, {0, 0, 0, 2 * context.plant->states() + context.plant->max_outputs()},
                     {SensorTiming::kContinuous, SensorTiming::kAtJumps}),

@@ -59,7 +59,7 @@ std::optional<Quantity> output_quantity(const Plant& plant, std::size_t sensor,
   const std::optional<Eigen::VectorXd> row = output_row(plant, sensor, output);
   if (!row) return std::nullopt;
   for (const std::string& state : plant.state_names()) {
-    const std::optional<Quantity> quantity = state_quantity(plant, state);
+    std::optional<Quantity> quantity = state_quantity(plant, state);
     if (measures(plant, sensor, output, *quantity)) return quantity;
   }
   const Sensor& description = plant.sensors()[sensor];

@@ -16,7 +16,7 @@ namespace sampled_data_observers {
 /// their delays: a jump that comes while another is pending applies that one first.
 class DelayedJumps : public LawDecorator {
  public:
-  explicit DelayedJumps(std::shared_ptr<const ObserverLaw> law);
+  explicit DelayedJumps(const std::shared_ptr<const ObserverLaw>& law);
 
   Eigen::Index event_size(EventKind kind, int channel) const override;
   Eigen::Index max_event_size() const override;

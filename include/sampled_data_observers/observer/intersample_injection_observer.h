@@ -30,7 +30,7 @@ class IntersampleInjectionObserver : public PlantObserver {
  public:
   /// @param gains  one per sensor of the plant, in its order
   /// @throws std::invalid_argument when a size does not fit the plant.
-  IntersampleInjectionObserver(ObserverContext context, std::vector<IntersampleGains> gains);
+  IntersampleInjectionObserver(const ObserverContext& context, std::vector<IntersampleGains> gains);
 
   void initialize(double* state) const override;
 

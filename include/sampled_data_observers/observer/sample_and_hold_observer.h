@@ -18,7 +18,7 @@ class SampleAndHoldObserver : public IntersampleInjectionObserver {
  public:
   /// @param L  one gain per sensor of the plant, in its order, in the paper's sign
   /// @throws std::invalid_argument when a size does not fit the plant.
-  SampleAndHoldObserver(ObserverContext context, const std::vector<Eigen::MatrixXd>& L);
+  SampleAndHoldObserver(const ObserverContext& context, const std::vector<Eigen::MatrixXd>& L);
 };
 
 }  // namespace sampled_data_observers

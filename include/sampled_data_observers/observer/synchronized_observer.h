@@ -36,7 +36,7 @@ struct SynchronizedGains {
 class SynchronizedObserver : public PlantObserver {
  public:
   /// @throws std::invalid_argument when a size does not fit the plant.
-  SynchronizedObserver(ObserverContext context, SynchronizedGains gains);
+  SynchronizedObserver(const ObserverContext& context, SynchronizedGains gains);
 
  protected:
   bool flow_is_affine() const override;
