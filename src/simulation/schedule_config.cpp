@@ -24,7 +24,7 @@ void read_bounds(ConfigSection& section, const std::string& key, Schedule& sched
 /// The path of a file that a configuration names; its origins are "path:line".
 std::filesystem::path beside(ConfigSection& section, const std::string& key,
                              const std::string& name) {
-  const std::filesystem::path path = name;
+  std::filesystem::path path = name;
   if (path.is_absolute()) return path;
   const std::string& origin = section.origin();
   const std::size_t colon = origin.rfind(':');
