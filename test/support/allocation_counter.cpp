@@ -4,7 +4,7 @@
 #include <cerrno>
 #include <cstdlib>
 
-#if defined(SDO_SANITIZE)
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define SDO_COUNT_ALLOCATIONS 0
 #else
 #define SDO_COUNT_ALLOCATIONS 1
