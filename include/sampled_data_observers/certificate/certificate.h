@@ -1,0 +1,84 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "sampled_data_observers/certificate/condition.h"
+#include "sampled_data_observers/certificate/error_bound.h"
+#include "sampled_data_observers/certificate/plant_matrices.h"
+
+namespace sampled_data_observers {
+
+/// What a claim is about: the plant, and the bounds on the time between samples or jumps [s].
+struct CertificateSubject {
+  PlantMatrices plant;
+  double T1 = 0.0;
+  double T2 = 0.0;
+};
+
+/// A matrix that a theorem speaks of.
+struct NamedShape {
+  std::string name;
+  Eigen::Index rows = 1;
+  Eigen::Index cols = 1;
+  bool symmetric = false;
+};
+
+/// A theorem of a paper: what it demands of gains and of the matrices that prove them, and what it
+/// then guarantees. Stateless.
+class Theorem {
+ public:
+  Theorem() = default;
+  Theorem(const Theorem&) = delete;
+  Theorem& operator=(const Theorem&) = delete;
+  virtual ~Theorem() = default;
+
+  /// Paper key and number: "ferrante2019_theorem2".
+  virtual std::string name() const = 0;
+
+  /// What it guarantees, in one sentence.
+  virtual std::string guarantee() const = 0;
+
+  /// The observer types whose gains it is about.
+  virtual std::vector<std::string> observer_types() const = 0;
+
+  /// @throws std::invalid_argument saying why, for a plant or times that it is not about.
+  virtual void require_applicable(const CertificateSubject& subject) const = 0;
+
+  // The shapes of all that has a value in a certificate, for an applicable subject.
+
+  /// Gains of the observer.
+  virtual std::vector<NamedShape> gains(const CertificateSubject& subject) const = 0;
+  /// Matrices and multipliers in which the conditions are linear where all else is fixed.
+  virtual std::vector<NamedShape> multipliers(const CertificateSubject& subject) const = 0;
+  /// Scalars that are chosen: rates, levels, and those searched for.
+  virtual std::vector<NamedShape> parameters(const CertificateSubject& subject) const = 0;
+
+  /// The original inequalities of the theorem, in the symbols of gains(), multipliers() and
+  /// parameters(). Together they imply what it guarantees.
+  virtual std::vector<Condition> conditions(const CertificateSubject& subject) const = 0;
+
+  /// The bound that it gives at run time; null where it gives none.
+  /// @pre the conditions hold
+  virtual std::unique_ptr<const ErrorBound> error_bound(
+      const CertificateSubject& subject, const NamedMatrices& values,
+      const ErrorAssumptions& assumptions) const = 0;
+};
+
+/// All theorems, and the one of a name; null where there is none.
+const std::vector<const Theorem*>& theorems();
+const Theorem* find_theorem(const std::string& name);
+
+/// A claim with its proof.
+struct Certificate {
+  const Theorem* theorem = nullptr;
+  CertificateSubject subject;
+  /// Of all that the theorem names.
+  NamedMatrices values;
+};
+
+/// Checks the original inequalities in floating point.
+std::vector<ConditionCheck> check(const Certificate& certificate);
+
+}  // namespace sampled_data_observers
