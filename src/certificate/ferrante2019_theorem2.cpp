@@ -103,6 +103,10 @@ class Theorem2 : public Theorem {
     return all;
   }
 
+  bool is_homogeneous(const CertificateSubject& subject) const override {
+    return subject.plant.N.cols() == 0 && subject.plant.C_p.rows() == 0;
+  }
+
   std::vector<Condition> conditions(const CertificateSubject& subject) const override {
     const auto [n, m] = sizes(subject);
     std::vector<Condition> all = {

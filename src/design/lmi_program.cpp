@@ -15,7 +15,7 @@ class LmiProgram::Algebra {
  public:
   using Matrix = AffineMatrix;
 
-  explicit Algebra(const LmiProgram& program) : program_(program) {}
+  Algebra(const LmiProgram& program, double tau) : program_(program), tau_(tau) {}
 
   Matrix constant(const Eigen::MatrixXd& value) { return {value, {}}; }
 
@@ -32,7 +32,7 @@ class LmiProgram::Algebra {
     return {scalar_matrix(root * root), {}};
   }
 
-  Matrix time() { throw std::logic_error("a block of a linear matrix inequality has no time"); }
+  Matrix time() { return {scalar_matrix(tau_), {}}; }
 
   Matrix sum(const Matrix& a, const Matrix& b) { return sampled_data_observers::sum(a, b); }
   Matrix product(const Matrix& a, const Matrix& b) { return sampled_data_observers::product(a, b); }
@@ -73,6 +73,7 @@ class LmiProgram::Algebra {
   }
 
   const LmiProgram& program_;
+  double tau_;
 };
 
 const LmiProgram::Variable* LmiProgram::find(const std::string& name, bool is_square) const {
@@ -130,7 +131,22 @@ void LmiProgram::fix(const std::string& name, const Eigen::MatrixXd& value) {
 }
 
 void LmiProgram::require_positive(const std::string& name, const MatrixExpression& block) {
-  if (block.rows() > 0) blocks_.push_back({name, block, true});
+  if (block.rows() > 0) blocks_.push_back({name, block, true, 0.0});
+}
+
+void LmiProgram::require(const Condition& condition, std::size_t points) {
+  if (!condition.tau) {
+    require_positive(condition.name, condition.positive_definite);
+    return;
+  }
+  const double low = condition.tau->low;
+  const double high = condition.tau->high;
+  for (std::size_t i = 0; i < points; ++i) {
+    const double tau =
+        points > 1 ? low + (high - low) * static_cast<double>(i) / static_cast<double>(points - 1)
+                   : low;
+    blocks_.push_back({condition.name, condition.positive_definite, true, tau});
+  }
 }
 
 void LmiProgram::require_negative(const std::string& name, const MatrixExpression& block) {
@@ -139,24 +155,31 @@ void LmiProgram::require_negative(const std::string& name, const MatrixExpressio
 
 void LmiProgram::bound_above(const std::string& name, const MatrixExpression& small,
                              const MatrixExpression& large) {
-  if (small.rows() > 0) blocks_.push_back({name, large - small, false});
+  if (small.rows() > 0) blocks_.push_back({name, large - small, false, 0.0});
 }
 
 void LmiProgram::minimize(const MatrixExpression& objective) { objective_ = objective; }
 
 std::vector<LmiProgram::Block> LmiProgram::compile() const {
   std::vector<Block> compiled;
-  Algebra algebra(*this);
-  ExpressionEvaluator<Algebra> evaluator(algebra);
+  // Blocks of one τ share what they have in common.
+  std::optional<Algebra> algebra;
+  std::optional<ExpressionEvaluator<Algebra>> evaluator;
+  double tau = 0.0;
   for (const NamedBlock& block : blocks_) {
-    compiled.push_back({block.name, evaluator.evaluate(block.expression), block.is_strict});
+    if (!evaluator || block.tau != tau) {
+      tau = block.tau;
+      algebra.emplace(*this, tau);
+      evaluator.emplace(*algebra);
+    }
+    compiled.push_back({block.name, evaluator->evaluate(block.expression), block.is_strict});
   }
   return compiled;
 }
 
 std::optional<AffineMatrix> LmiProgram::compile_objective() const {
   if (!objective_) return std::nullopt;
-  Algebra algebra(*this);
+  Algebra algebra(*this, 0.0);
   return ExpressionEvaluator<Algebra>(algebra).evaluate(*objective_);
 }
 

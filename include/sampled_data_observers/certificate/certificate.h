@@ -55,6 +55,9 @@ class Theorem {
   /// Scalars that are chosen: rates, levels, and those searched for.
   virtual std::vector<NamedShape> parameters(const CertificateSubject& subject) const = 0;
 
+  /// Whether the conditions hold for all positive multiples of the multipliers as well.
+  virtual bool is_homogeneous(const CertificateSubject& subject) const = 0;
+
   /// The original inequalities of the theorem, in the symbols of gains(), multipliers() and
   /// parameters(). Together they imply what it guarantees.
   virtual std::vector<Condition> conditions(const CertificateSubject& subject) const = 0;

@@ -36,6 +36,8 @@ class LmiProgram {
   /// objective.
   void require_positive(const std::string& name, const MatrixExpression& block);
   void require_negative(const std::string& name, const MatrixExpression& block);
+  /// A condition of a theorem; where it depends on τ, one block at each of `points` values of it.
+  void require(const Condition& condition, std::size_t points);
   /// Inequalities that only bound the solution: small <= large, met up to their edge.
   void bound_above(const std::string& name, const MatrixExpression& small,
                    const MatrixExpression& large);
@@ -75,6 +77,7 @@ class LmiProgram {
     std::string name;
     MatrixExpression expression;
     bool is_strict = false;
+    double tau = 0.0;
   };
 
   class Algebra;
