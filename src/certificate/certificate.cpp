@@ -6,6 +6,16 @@
 
 namespace sampled_data_observers {
 
+NamedShape scalar_shape(const std::string& name) { return {name, 1, 1, NamedShape::Form::kScalar}; }
+
+NamedShape matrix_shape(const std::string& name, Eigen::Index rows, Eigen::Index cols) {
+  return {name, rows, cols, NamedShape::Form::kMatrix};
+}
+
+NamedShape symmetric_shape(const std::string& name, Eigen::Index n) {
+  return {name, n, n, NamedShape::Form::kSymmetric};
+}
+
 const std::vector<const Theorem*>& theorems() {
   static const std::vector<const Theorem*> all = {
       &ferrante2019_theorem2(),

@@ -87,19 +87,19 @@ class Theorem2 : public Theorem {
 
   std::vector<NamedShape> gains(const CertificateSubject& subject) const override {
     const auto [n, m] = sizes(subject);
-    return {{"L", n, m}, {"H", m, m}};
+    return {matrix_shape("L", n, m), matrix_shape("H", m, m)};
   }
 
   std::vector<NamedShape> multipliers(const CertificateSubject& subject) const override {
     const auto [n, m] = sizes(subject);
-    std::vector<NamedShape> all = {{"P1", n, n, true}, {"P2", m, m, true}};
-    if (!subject.plant.is_linear()) all.push_back({"chi"});
+    std::vector<NamedShape> all = {symmetric_shape("P1", n), symmetric_shape("P2", m)};
+    if (!subject.plant.is_linear()) all.push_back(scalar_shape("chi"));
     return all;
   }
 
   std::vector<NamedShape> parameters(const CertificateSubject& subject) const override {
-    std::vector<NamedShape> all = {{"delta"}, {"lambda_t"}};
-    if (subject.plant.N.cols() > 0) all.push_back({"gamma"});
+    std::vector<NamedShape> all = {scalar_shape("delta"), scalar_shape("lambda_t")};
+    if (subject.plant.N.cols() > 0) all.push_back(scalar_shape("gamma"));
     return all;
   }
 

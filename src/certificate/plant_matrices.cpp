@@ -28,14 +28,17 @@ Eigen::MatrixXd stacked_outputs(const Plant& plant, const PlantMode& mode, Senso
   return stacked;
 }
 
-void require_one_sampled_sensor(const Plant& plant) {
-  const auto sampled =
-      std::count_if(plant.sensors().begin(), plant.sensors().end(),
-                    [](const Sensor& sensor) { return sensor.timing == SensorTiming::kSampled; });
-  if (sampled <= 1) return;
-  throw std::invalid_argument(
-      "the conditions are about one sensor whose outputs are sampled together, but " +
-      std::to_string(sampled) + " sensors are sampled independently");
+void require_one_sensor_of_each_timing(const Plant& plant) {
+  for (const SensorTiming timing :
+       {SensorTiming::kSampled, SensorTiming::kContinuous, SensorTiming::kAtJumps}) {
+    const auto count =
+        std::count_if(plant.sensors().begin(), plant.sensors().end(),
+                      [timing](const Sensor& sensor) { return sensor.timing == timing; });
+    if (count <= 1) continue;
+    throw std::invalid_argument(
+        "the conditions are about one sensor whose outputs are measured together, but " +
+        std::to_string(count) + " sensors are " + to_string(timing));
+  }
 }
 
 }  // namespace
@@ -46,7 +49,7 @@ bool PlantMatrices::jumps() const {
 }
 
 PlantMatrices matrices_of(const Plant& plant) {
-  require_one_sampled_sensor(plant);
+  require_one_sensor_of_each_timing(plant);
   PlantMatrices result;
   result.state_names = plant.state_names();
   const Eigen::Index n = plant.states();

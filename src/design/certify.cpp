@@ -22,7 +22,7 @@ LmiProgram analysis_program(const Theorem& theorem, const CertificateSubject& su
     if (!(minimizes_gamma && name == "gamma")) program.fix(name, value);
   }
   for (const NamedShape& shape : theorem.multipliers(subject)) {
-    if (shape.symmetric) {
+    if (shape.form == NamedShape::Form::kSymmetric) {
       const MatrixExpression P = program.symmetric(shape.name, shape.rows);
       if (theorem.is_homogeneous(subject)) {
         program.bound_above(shape.name + " <= I", P, identity(shape.rows));

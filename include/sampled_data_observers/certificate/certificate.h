@@ -17,13 +17,17 @@ struct CertificateSubject {
   double T2 = 0.0;
 };
 
-/// A matrix that a theorem speaks of.
+/// A matrix or a number that a theorem speaks of. In files, a name "L_d/1" stands below two keys.
 struct NamedShape {
+  enum class Form { kScalar, kMatrix, kSymmetric };
   std::string name;
   Eigen::Index rows = 1;
   Eigen::Index cols = 1;
-  bool symmetric = false;
+  Form form = Form::kScalar;
 };
+NamedShape scalar_shape(const std::string& name);
+NamedShape matrix_shape(const std::string& name, Eigen::Index rows, Eigen::Index cols);
+NamedShape symmetric_shape(const std::string& name, Eigen::Index n);
 
 /// A theorem of a paper: what it demands of gains and of the matrices that prove them, and what it
 /// then guarantees. Stateless.

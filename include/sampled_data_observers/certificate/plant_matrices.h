@@ -9,13 +9,13 @@
 
 namespace sampled_data_observers {
 
-/// The matrices of one mode of a plant. Outputs of one timing are stacked, sensor by sensor.
+/// The matrices of one mode of a plant.
 struct ModeMatrices {
   int label = 0;
   Eigen::MatrixXd A;                   ///< n x n: the linear part of the flow
-  Eigen::MatrixXd C;                   ///< m x n: sampled outputs; may have no rows
-  Eigen::MatrixXd C_c;                 ///< continuous outputs; may have no rows
-  Eigen::MatrixXd C_d;                 ///< outputs measured at jumps; may have no rows
+  Eigen::MatrixXd C;                   ///< m x n: sampled output; may have no rows
+  Eigen::MatrixXd C_c;                 ///< continuous output; may have no rows
+  Eigen::MatrixXd C_d;                 ///< output measured at jumps; may have no rows
   std::optional<Eigen::MatrixXd> A_d;  ///< n x n: x⁺ = A_d x + b_d at jumps
 };
 
@@ -41,7 +41,7 @@ struct PlantMatrices {
 
 /// The matrices of a plant without disturbance and performance output.
 /// @throws std::invalid_argument for a plant that the conditions of the papers are not about: a
-/// flow, jump or output map by formulas, or several sensors that are sampled independently.
+/// flow, jump or output map by formulas, or several sensors of one timing.
 PlantMatrices matrices_of(const Plant& plant);
 
 }  // namespace sampled_data_observers
