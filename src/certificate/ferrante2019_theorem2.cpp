@@ -150,7 +150,11 @@ class Theorem2 : public Theorem {
     const MatrixExpression lambda_t = symbol("lambda_t");
 
     MatrixExpression corner = He(P1 * (A - L * C)) + 2.0 * lambda_t * P1;
-    if (plant.C_p.rows() > 0) corner = corner + Eigen::MatrixXd(plant.C_p.transpose() * plant.C_p);
+    // Products of the file's numbers stand in the formula, where a proof accounts for rounding.
+    if (plant.C_p.rows() > 0) {
+      const MatrixExpression C_p = plant.C_p;
+      corner = corner + transpose(C_p) * C_p;
+    }
     std::vector<MatrixExpression> first;
     std::vector<MatrixExpression> second = {e *
                                             (He(P2 * (C * L + H)) + (2.0 * lambda_t - delta) * P2)};
@@ -169,10 +173,9 @@ class Theorem2 : public Theorem {
     }
     if (n_s > 0) {
       add_column(plant.G);
-      const double ell = *plant.lipschitz_constant;
-      corner =
-          corner + symbol("chi") *
-                       MatrixExpression(Eigen::MatrixXd(ell * ell * plant.S.transpose() * plant.S));
+      const MatrixExpression ell = *plant.lipschitz_constant;
+      const MatrixExpression S = plant.S;
+      corner = corner + symbol("chi") * (ell * ell) * (transpose(S) * S);
       rest.push_back({-(symbol("chi") * identity(n_s))});
     }
     first.insert(first.begin(), {corner, coupling});

@@ -15,5 +15,6 @@ struct ExitStatus {
 };
 constexpr int kNotVerified = 2;
 constexpr int kNoDesign = 3;
+constexpr int kUndecided = 4;
 
 }  // namespace sampled_data_observers
