@@ -61,4 +61,8 @@ Eigen::MatrixXd null_space(const Eigen::MatrixXd& a) {
   return svd.matrixV().rightCols(a.cols() - svd.rank());
 }
 
+Eigen::MatrixXd weakest_directions(const Eigen::MatrixXd& a, Eigen::Index count) {
+  return Eigen::JacobiSVD<Eigen::MatrixXd>(a, Eigen::ComputeFullV).matrixV().rightCols(count);
+}
+
 }  // namespace sampled_data_observers

@@ -40,4 +40,7 @@ Eigen::VectorXcd eigenvalues_of(const Eigen::MatrixXd& a);
 /// An orthonormal basis of the null space of a, as columns.
 Eigen::MatrixXd null_space(const Eigen::MatrixXd& a);
 
+/// The right singular vectors of the `count` least singular values, as orthonormal columns.
+Eigen::MatrixXd weakest_directions(const Eigen::MatrixXd& a, Eigen::Index count);
+
 }  // namespace sampled_data_observers
