@@ -9,56 +9,68 @@
 namespace sampled_data_observers {
 namespace {
 
-/// W >= V(x) = εᵀ P1 ε + e^{δτ} θ̃ᵀ P2 θ̃ of ferrante2019 (27): between samples
-/// Ẇ = −2 λ_t W + γ² |w|² (18), at a sample W⁺ = W + λ_max(P2) e^{δ T2} |η|² (19).
+/// W >= V = εᵀ P1 ε + e^{δ(T2 − s)} θ̃ᵀ P2 θ̃ with s the time since the last sample: ferrante2019
+/// (27) with the timer τ set as if the next sample came T2 after the last, which decides nothing of
+/// the flow, and at an earlier sample V falls all the more. So
+///   Ẇ = −2 λ_t W + γ² |w|² between samples (18), W⁺ = W + ω2 |η|² at them (19),
+/// with ω2 = λ_max(P2) e^{δ T2}, and |ε|² <= W / λ_min(P1). T1 plays no part.
 class Theorem2Bound : public ErrorBound {
  public:
   Theorem2Bound(const CertificateSubject& subject, const NamedMatrices& values,
                 const ErrorAssumptions& assumptions)
       : T2_(subject.T2) {
     const Eigen::MatrixXd& P1 = values.at("P1");
-    const double omega_2 =
-        max_eigenvalue(values.at("P2")) * std::exp(scalar_value(values, "delta") * subject.T2);
-    const double decay = 2.0 * scalar_value(values, "lambda_t");
-    // The held innovation starts at zero: θ̃ = C ε.
-    const double initial_theta = norm2(subject.plant.C()) * assumptions.initial_error;
-    initial_ = max_eigenvalue(P1) * assumptions.initial_error * assumptions.initial_error +
-               omega_2 * initial_theta * initial_theta;
-    rate_ = decay;
+    const Eigen::MatrixXd& P2 = values.at("P2");
+    const Eigen::MatrixXd& C = subject.plant.C();
+    const double e = std::exp(scalar_value(values, "delta") * subject.T2);
+    const double omega_2 = max_eigenvalue(P2) * e;
+    least_ = min_eigenvalue(P1);
+    rate_ = 2.0 * scalar_value(values, "lambda_t");
     if (subject.plant.N.cols() > 0) {
-      const double gamma = scalar_value(values, "gamma");
-      const double level = gamma * assumptions.disturbance;
-      final_ = level * level / decay;
+      const double level = scalar_value(values, "gamma") * assumptions.disturbance;
+      final_ = level * level / rate_;
     }
     per_sample_ = omega_2 * assumptions.noise * assumptions.noise;
-    least_ = min_eigenvalue(P1);
+    of_estimate_ = max_eigenvalue(P1) * assumptions.initial_error * assumptions.initial_error;
+    // θ̃ = C ε − θ at first; √V is a norm of (ε, θ̃).
+    const double of_both =
+        std::sqrt(max_eigenvalue(P1 + e * C.transpose() * P2 * C)) * assumptions.initial_error +
+        std::sqrt(omega_2) * assumptions.initial_injection;
+    initial_ = of_both * of_both;
   }
 
-  // W, and the time since the last sample [s].
-  Eigen::Index state_size() const override { return 2; }
+  // W, the time since the last sample [s], and whether nothing has happened yet.
+  Eigen::Index state_size() const override { return 3; }
   void initialize(double* state) const override {
     state[0] = initial_;
     state[1] = 0.0;
+    state[2] = 1.0;
   }
   void flow(double duration, double* state) const override {
-    state[1] += duration;
+    if (duration == 0.0) return;
     state[0] = final_ + (state[0] - final_) * std::exp(-rate_ * duration);
+    state[1] += duration;
+    state[2] = 0.0;
     if (state[1] > T2_) state[0] = std::numeric_limits<double>::infinity();
   }
   void sample(double* state) const override {
-    state[0] += per_sample_;
+    // A sample sets θ̃ to −η: of V, only ε's part stays. How large that is, is known at first only.
+    const bool is_first_of_all = state[2] != 0.0;
+    state[0] = (is_first_of_all ? of_estimate_ : state[0]) + per_sample_;
     state[1] = 0.0;
+    state[2] = 0.0;
   }
   void jump(double*) const override {}
   double bound(const double* state) const override { return std::sqrt(state[0] / least_); }
 
  private:
   double T2_;
-  double initial_ = 0.0;
-  double rate_ = 0.0;
-  double final_ = 0.0;
-  double per_sample_ = 0.0;
-  double least_ = 0.0;
+  double rate_ = 0.0;         // 2 λ_t
+  double final_ = 0.0;        // of W, without noise
+  double per_sample_ = 0.0;   // ω2 |η|²
+  double of_estimate_ = 0.0;  // εᵀ P1 ε at first
+  double initial_ = 0.0;      // V at first
+  double least_ = 0.0;        // λ_min(P1)
 };
 
 class Theorem2 : public Theorem {
