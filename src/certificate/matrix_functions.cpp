@@ -1,5 +1,6 @@
 #include "sampled_data_observers/certificate/matrix_functions.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/SVD>
@@ -33,6 +34,14 @@ Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& a) { return a.partialPivLu().i
 
 Eigen::MatrixXd solve_linear(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   return a.partialPivLu().solve(b);
+}
+
+Eigen::MatrixXd cholesky_root(const Eigen::MatrixXd& a) {
+  const Eigen::LLT<Eigen::MatrixXd> decomposition(a);
+  if (decomposition.info() != Eigen::Success) {
+    return Eigen::MatrixXd::Constant(a.rows(), a.cols(), std::numeric_limits<double>::quiet_NaN());
+  }
+  return decomposition.matrixU();
 }
 
 Eigen::VectorXcd eigenvalues_of(const Eigen::MatrixXd& a) {

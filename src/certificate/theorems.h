@@ -5,6 +5,8 @@
 namespace sampled_data_observers {
 
 // One source file each.
+const Theorem& ferrante2016_theorem1();
 const Theorem& ferrante2019_theorem2();
+const Theorem& sferlazza2019_theorem2();
 
 }  // namespace sampled_data_observers

@@ -22,6 +22,7 @@ LmiProgram analysis_program(const Theorem& theorem, const CertificateSubject& su
     if (!(minimizes_gamma && name == "gamma")) program.fix(name, value);
   }
   for (const NamedShape& shape : theorem.multipliers(subject)) {
+    if (fixed.count(shape.name) > 0) continue;
     if (shape.form == NamedShape::Form::kSymmetric) {
       const MatrixExpression P = program.symmetric(shape.name, shape.rows);
       if (theorem.is_homogeneous(subject)) {
@@ -54,14 +55,16 @@ DesignCandidate certify_here(const Theorem& theorem, const CertificateSubject& s
     }
     all["gamma"] = kInflation * best.values.at("gamma");
   }
-  const LmiSolution inside =
-      solve_with_csdp(analysis_program(theorem, subject, all, false), SolverOptions());
-  candidate.solver = inside.solver;
-  if (inside.values.empty()) {
-    candidate.message = inside.message;
-    return candidate;
+  const LmiProgram program = analysis_program(theorem, subject, all, false);
+  if (program.scalar_variables() > 0) {
+    const LmiSolution inside = solve_with_csdp(program, SolverOptions());
+    candidate.solver = inside.solver;
+    if (inside.values.empty()) {
+      candidate.message = inside.message;
+      return candidate;
+    }
+    for (const auto& [name, value] : inside.values) all[name] = value;
   }
-  for (const auto& [name, value] : inside.values) all[name] = value;
   const std::vector<ConditionCheck> checks = check(theorem.conditions(subject), all);
   candidate.margin = std::numeric_limits<double>::infinity();
   for (const ConditionCheck& check : checks) {
@@ -70,7 +73,7 @@ DesignCandidate certify_here(const Theorem& theorem, const CertificateSubject& s
   if (!all_hold(checks)) candidate.message = describe_violations(checks);
   candidate.cost = objective == Objective::kMinGamma && all.count("gamma") > 0
                        ? scalar_value(all, "gamma")
-                       : -inside.margin;
+                       : -candidate.margin;
   candidate.values = std::move(all);
   return candidate;
 }

@@ -40,12 +40,16 @@ DesignCandidate LmiDesignMethod::attempt(const CertificateSubject& subject,
   if (fixed.count("gamma") == 0 && solution.values.count("gamma") > 0) {
     fixed["gamma"] = solution.values.at("gamma");
   }
-  return certify_here(theorem(), subject, fixed, objective);
+  DesignCandidate candidate = certify_here(theorem(), subject, fixed, objective);
+  candidate.solver = solution.solver;
+  return candidate;
 }
 
 const std::vector<const DesignMethod*>& design_methods() {
   static const std::vector<const DesignMethod*> all = {
+      &ferrante2016_corollary1(),
       &ferrante2019_proposition2(),
+      &sferlazza2019_algorithm1(),
   };
   return all;
 }

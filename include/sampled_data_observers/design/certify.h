@@ -11,7 +11,7 @@ namespace sampled_data_observers {
 /// possible for a gamma larger by 0.1 %. With others, `fixed` must have a gamma where the theorem
 /// names one.
 ///
-/// @param fixed  gains and parameters of the theorem
+/// @param fixed  gains and parameters of the theorem; multipliers among them are left as they are
 /// To be called in a worker process.
 DesignCandidate certify_here(const Theorem& theorem, const CertificateSubject& subject,
                              const NamedMatrices& fixed, Objective objective);

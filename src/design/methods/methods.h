@@ -5,6 +5,8 @@
 namespace sampled_data_observers {
 
 // One source file each, or each family.
+const DesignMethod& ferrante2016_corollary1();
 const DesignMethod& ferrante2019_proposition2();
+const DesignMethod& sferlazza2019_algorithm1();
 
 }  // namespace sampled_data_observers

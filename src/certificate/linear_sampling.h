@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "sampled_data_observers/certificate/certificate.h"
+
+namespace sampled_data_observers {
+
+/// For theorems about ẋ = A x + B u with one sensor y = C x, sampled T1 to T2 apart.
+/// @throws std::invalid_argument beginning with the paper's key, for all else.
+void require_linear_sampling(const std::string& paper, const CertificateSubject& subject);
+
+}  // namespace sampled_data_observers
