@@ -22,6 +22,7 @@ int run(int argc, char** argv) {
       "hold, "
       "3 no design found, else wrong usage.");
   sdo::add_synthesize(app, command_line);
+  sdo::add_analyze(app, command_line);
   sdo::add_verify(app);
   try {
     app.parse(argc, argv);

@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <cmath>
 
 #include "linear_sampling.h"
 #include "sampled_data_observers/certificate/exponential_norm.h"
+#include "sampled_data_observers/certificate/ferrante2016_bounds.h"
 #include "sampled_data_observers/certificate/matrix_functions.h"
 #include "sampled_data_observers/certificate/sampled_error_bound.h"
 #include "theorems.h"
@@ -83,6 +85,8 @@ class Theorem1 : public Theorem {
     return {scalar_shape("decay")};
   }
 
+  std::string decay_parameter() const override { return "decay"; }
+
   bool is_homogeneous(const CertificateSubject&) const override { return true; }
 
   /// (12) for the error times e^{decay t}, which flows by A + decay I. With decay = 0 it is (12) as
@@ -100,6 +104,15 @@ class Theorem1 : public Theorem {
         {"(I - L C)' e^(A' tau) P e^(A tau) (I - L C) - P < 0, ferrante2016 (12)",
          P - transpose(step) * P * step, Condition::Range{subject.T1, subject.T2}},
     };
+  }
+
+  std::vector<GuaranteedFigure> guaranteed_figures(const CertificateSubject& subject,
+                                                   const NamedMatrices& values) const override {
+    const Ferrante2016Bounds bounds = ferrante2016_bounds(subject, values);
+    return {{"gamma/2 of (21), the rate in t + j [1/s]", bounds.gamma / 2.0},
+            {"sqrt(alpha_2/alpha_1) e^(R/2) of (21), the factor on the initial error",
+             std::sqrt(bounds.alpha_2 / bounds.alpha_1) * std::exp(bounds.R / 2.0)},
+            {"gain of (35) from the noise to the error", bounds.noise_gain}};
   }
 
   /// None where a disturbance acts on the flow, of which the paper does not speak.

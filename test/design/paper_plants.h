@@ -55,9 +55,13 @@ inline CertificateSubject aircraft(double T1, double T2) {
 /// The design by a method of a plant, with what was asked for.
 inline Design design_by(const char* method, const CertificateSubject& subject,
                         const Parameters& given = {}, Objective objective = Objective::kFeasible) {
+  DesignProblem problem;
+  problem.subject = subject;
+  problem.given = given;
+  problem.objective = objective;
   SynthesisOptions options;
   options.jobs = 2;
-  return synthesize(*find_design_method(method), {subject, given, objective}, options);
+  return synthesize(*find_design_method(method), problem, options);
 }
 
 /// The proof that certify_here() finds for given gains and parameters; empty where it finds none.

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -24,19 +25,13 @@ using Parameters = std::map<std::string, double>;
 enum class Objective { kFeasible, kMinGamma, kMaxT2, kMaxDecay };
 const char* to_string(Objective objective);
 
-/// Values between which a parameter is searched for.
-struct SearchRange {
-  double low = 0.0;
-  double high = 0.0;
-  bool is_logarithmic = true;
-};
-
 /// A scalar of a method that is chosen before its inequalities are linear.
 struct DesignParameter {
   std::string name;
   std::string meaning;  ///< for the help, with its unit
-  /// Used where the user gives none and it is not searched for.
+  /// Used where the user gives none and does not ask for a search.
   std::optional<double> default_value;
+  /// Without default, the parameter is always searched for.
   std::optional<SearchRange> search;
 };
 
@@ -44,6 +39,8 @@ struct DesignParameter {
 struct DesignProblem {
   CertificateSubject subject;
   Parameters given;
+  /// Those to search for although they have defaults.
+  std::set<std::string> searched;
   Objective objective = Objective::kFeasible;
 };
 
@@ -88,7 +85,7 @@ class DesignMethod {
   virtual std::vector<DesignParameter> parameters(const CertificateSubject& subject) const = 0;
 
   /// The parameter that is the guaranteed rate of convergence; empty where there is none.
-  virtual std::string decay_parameter() const { return ""; }
+  virtual std::string decay_parameter() const { return theorem().decay_parameter(); }
 
   /// Which objectives it can serve.
   virtual std::vector<Objective> objectives(const CertificateSubject& subject) const = 0;
@@ -107,10 +104,11 @@ class LmiDesignMethod : public DesignMethod {
   DesignCandidate attempt(const CertificateSubject& subject, const Parameters& parameters,
                           Objective objective) const override;
 
- protected:
+  /// @throws std::invalid_argument saying why, for parameters that it can't have.
   virtual LmiProgram program(const CertificateSubject& subject, const Parameters& parameters,
                              Objective objective) const = 0;
 
+ protected:
   /// The gains by name.
   virtual NamedMatrices gains(const CertificateSubject& subject, const Parameters& parameters,
                               const NamedMatrices& solution) const = 0;

@@ -28,8 +28,6 @@ class Corollary1 : public LmiDesignMethod {
              std::nullopt}};
   }
 
-  std::string decay_parameter() const override { return "decay"; }
-
   std::vector<Objective> objectives(const CertificateSubject&) const override {
     return {Objective::kFeasible, Objective::kMaxT2, Objective::kMaxDecay};
   }
@@ -46,7 +44,6 @@ class Corollary1 : public LmiDesignMethod {
     return LmiDesignMethod::attempt(subject, parameters, objective);
   }
 
- protected:
   LmiProgram program(const CertificateSubject& subject, const Parameters& parameters,
                      Objective) const override {
     const Eigen::Index n = subject.plant.states();
@@ -67,6 +64,7 @@ class Corollary1 : public LmiDesignMethod {
     return program;
   }
 
+ protected:
   NamedMatrices gains(const CertificateSubject&, const Parameters&,
                       const NamedMatrices& solution) const override {
     return {{"L", solve_linear(solution.at("F"), solution.at("J"))}, {"P", solution.at("P")}};
