@@ -115,11 +115,10 @@ class Theorem1 : public Theorem {
             {"gain of (35) from the noise to the error", bounds.noise_gain}};
   }
 
-  /// None where a disturbance acts on the flow, of which the paper does not speak.
   std::unique_ptr<const ErrorBound> error_bound(
       const CertificateSubject& subject, const NamedMatrices& values,
       const ErrorAssumptions& assumptions) const override {
-    if (assumptions.disturbance > 0.0) return nullptr;
+    require_no_disturbance("ferrante2016", assumptions);
     const Eigen::MatrixXd& L = values.at("L");
     const Eigen::MatrixXd R = cholesky_root(values.at("P"));
     const Eigen::MatrixXd kept = (unit(subject) - L * subject.plant.C()) * inverse_of(R);

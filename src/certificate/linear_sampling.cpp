@@ -20,4 +20,9 @@ void require_linear_sampling(const std::string& paper, const CertificateSubject&
   }
 }
 
+void require_no_disturbance(const std::string& paper, const ErrorAssumptions& assumptions) {
+  if (assumptions.disturbance == 0.0) return;
+  throw std::invalid_argument(paper + " bounds the error without disturbances only");
+}
+
 }  // namespace sampled_data_observers

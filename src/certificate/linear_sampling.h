@@ -10,4 +10,7 @@ namespace sampled_data_observers {
 /// @throws std::invalid_argument beginning with the paper's key, for all else.
 void require_linear_sampling(const std::string& paper, const CertificateSubject& subject);
 
+/// @throws std::invalid_argument beginning with the paper's key, for a disturbance of the flow.
+void require_no_disturbance(const std::string& paper, const ErrorAssumptions& assumptions);
+
 }  // namespace sampled_data_observers

@@ -10,7 +10,6 @@ constexpr int kLevel = 0;
 constexpr int kTau = 1;         // s
 constexpr int kHasSampled = 2;  // 0 or 1
 
-constexpr double kStampResolution = 1e-9;  // s
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
@@ -23,13 +22,13 @@ void SampledErrorBound::initialize(double* state) const {
 
 void SampledErrorBound::flow(double duration, double* state) const {
   state[kTau] += duration;
-  if (state[kTau] > T2_ + kStampResolution) state[kLevel] = kInfinity;
+  if (state[kTau] > T2_) state[kLevel] = kInfinity;
 }
 
 void SampledErrorBound::sample(double* state) const {
   const double tau = state[kTau];
   const bool is_first = state[kHasSampled] == 0.0;
-  if (!is_first && tau < T1_ - kStampResolution) state[kLevel] = kInfinity;
+  if (!is_first && tau < T1_) state[kLevel] = kInfinity;
   if (state[kLevel] != kInfinity) {
     state[kLevel] = is_first ? first_level(state[kLevel], tau) : next_level(state[kLevel], tau);
   }

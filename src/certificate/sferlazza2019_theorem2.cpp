@@ -149,11 +149,10 @@ class Theorem2 : public Theorem {
     return all;
   }
 
-  /// None where a disturbance acts on the flow, of which the paper does not speak.
   std::unique_ptr<const ErrorBound> error_bound(
       const CertificateSubject& subject, const NamedMatrices& values,
       const ErrorAssumptions& assumptions) const override {
-    if (assumptions.disturbance > 0.0) return nullptr;
+    require_no_disturbance("sferlazza2019", assumptions);
     // Symmetric to the bit, as the gain needs it.
     const Eigen::MatrixXd P = (values.at("P") + values.at("P").transpose()) / 2.0;
     return std::make_unique<const Theorem2Bound>(subject, assumptions, P, cholesky_root(P),

@@ -16,5 +16,6 @@ struct ExitStatus {
 };
 constexpr int kNotVerified = 2;
 constexpr int kNoDesign = 3;
+constexpr int kUndecided = 4;
 
 }  // namespace sampled_data_observers

@@ -8,8 +8,8 @@ namespace sampled_data_observers {
 /// A bound that is carried from sample to sample as one number, a level, and follows between them
 /// from the level and the time τ since the last sample.
 ///
-/// Samples must come T1 to T2 apart, the first one at any time up to T2; stamps being whole
-/// nanoseconds, by less than one of them it doesn't matter. Plant jumps end the guarantee.
+/// Samples must come T1 to T2 apart, the first one at any time up to T2. Plant jumps end the
+/// guarantee.
 class SampledErrorBound : public ErrorBound {
  public:
   Eigen::Index state_size() const final { return 3; }
