@@ -2,8 +2,6 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <cstdio>
-#include <ctime>
-#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <sstream>
@@ -11,6 +9,7 @@
 #include <vector>
 
 #include "commands.h"
+#include "design_arguments.h"
 #include "sampled_data_observers/config/design_config.h"
 #include "sampled_data_observers/design/gain_file.h"
 #include "sampled_data_observers/design/synthesis.h"
@@ -40,34 +39,6 @@ Objective objective_of(const std::string& name) {
   return Objective::kFeasible;
 }
 
-void assign(const std::string& assignment, Parameters& parameters) {
-  const std::size_t equals = assignment.find('=');
-  std::size_t used = 0;
-  double value = 0.0;
-  try {
-    if (equals != std::string::npos) value = std::stod(assignment.substr(equals + 1), &used);
-  } catch (const std::logic_error&) {
-    used = 0;
-  }
-  if (equals == std::string::npos || equals == 0 || used + equals + 1 != assignment.size()) {
-    throw CLI::ValidationError("--set", "expected NAME=NUMBER, found '" + assignment + "'");
-  }
-  parameters[assignment.substr(0, equals)] = value;
-}
-
-std::string today() {
-  const std::time_t now = std::time(nullptr);
-  char text[16];
-  std::strftime(text, sizeof text, "%Y-%m-%d", std::gmtime(&now));
-  return text;
-}
-
-/// The plant file as the gain file names it: relative to its own folder.
-std::string relative_to_output(const std::string& file, const std::string& output) {
-  namespace fs = std::filesystem;
-  return fs::relative(fs::absolute(file), fs::absolute(output).parent_path()).string();
-}
-
 void synthesize_command(const Arguments& arguments, const std::string& command_line) {
   const DesignConfig config = read_design_config(arguments.files, load_plant_plugin);
   DesignProblem problem;
@@ -80,7 +51,7 @@ void synthesize_command(const Arguments& arguments, const std::string& command_l
   }
   if (problem.subject.T1 > problem.subject.T2) throw DesignError("T1 > T2");
   problem.given = config.parameters;
-  for (const std::string& assignment : arguments.assignments) assign(assignment, problem.given);
+  assign(arguments.assignments, problem.given);
   problem.objective = objective_of(arguments.objective);
 
   SynthesisOptions options;
@@ -94,10 +65,9 @@ void synthesize_command(const Arguments& arguments, const std::string& command_l
     throw ExitStatus{kNoDesign};
   }
   std::ostringstream text;
-  write_gain_file(design,
-                  {relative_to_output(arguments.files.front(), arguments.output), config.plant_hash,
-                   command_line, today()},
-                  text);
+  write_gain_file(
+      design, origin_of(arguments.output, arguments.files.front(), config.plant_hash, command_line),
+      text);
   std::ofstream file(arguments.output);
   file << text.str();
   file.close();
@@ -111,18 +81,12 @@ void synthesize_command(const Arguments& arguments, const std::string& command_l
 void add_synthesize(CLI::App& app, const std::string& command_line) {
   CLI::App* command = app.add_subcommand("synthesize", "Find gains for a plant, with their proof");
   auto arguments = std::make_shared<Arguments>();
-  std::vector<std::string> methods;
-  std::string help = "How to design:";
-  for (const DesignMethod* method : design_methods()) {
-    methods.push_back(method->name());
-    help += "\n  " + method->name() + ": " + method->summary();
-  }
   command->add_option("plant", arguments->files, "Files with plant, sensors and design")
       ->required()
       ->type_name("PLANT");
-  command->add_option("--method", arguments->method, help)
+  command->add_option("--method", arguments->method, "How to design:" + help_on_methods())
       ->required()
-      ->check(CLI::IsMember(methods));
+      ->check(CLI::IsMember(method_names()));
   command->add_option("-o,--output", arguments->output, "Gain file to write")->required();
   command->add_option("--objective", arguments->objective, "What to look for")
       ->check(CLI::IsMember({"feasible", "min-gamma", "max-T2", "max-decay"}));
