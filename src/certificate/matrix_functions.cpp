@@ -1,5 +1,6 @@
 #include "sampled_data_observers/certificate/matrix_functions.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/SVD>
@@ -20,6 +21,22 @@ Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& a) {
 double min_eigenvalue(const Eigen::MatrixXd& a) { return symmetric_eigenvalues(a)(0); }
 
 double max_eigenvalue(const Eigen::MatrixXd& a) { return symmetric_eigenvalues(a)(a.rows() - 1); }
+
+Eigen::VectorXd least_eigenvector(const Eigen::MatrixXd& a) {
+  const Eigen::MatrixXd symmetric = (a + a.transpose()) / 2.0;
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric).eigenvectors().col(0);
+}
+
+std::optional<Eigen::MatrixXd> diagonalizing_congruence(const Eigen::MatrixXd& a,
+                                                        const Eigen::MatrixXd& b) {
+  const Eigen::LLT<Eigen::MatrixXd> factor(a);
+  if (!a.allFinite() || !b.allFinite() || factor.info() != Eigen::Success) return std::nullopt;
+  const Eigen::MatrixXd half = factor.matrixL().solve(b);
+  const Eigen::MatrixXd reduced = factor.matrixL().solve(half.transpose());
+  const Eigen::MatrixXd rotation =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(reduced).eigenvectors();
+  return factor.matrixU().solve(rotation);
+}
 
 Eigen::VectorXd singular_values(const Eigen::MatrixXd& a) {
   return Eigen::JacobiSVD<Eigen::MatrixXd>(a).singularValues();

@@ -4,7 +4,9 @@
 
 namespace sampled_data_observers {
 
-// One source file each.
+// One source file each, or each family.
 const Theorem& ferrante2019_theorem2();
+const Theorem& ferrante2019_corollary1();
+const Theorem& ferrante2019_corollary2();
 
 }  // namespace sampled_data_observers

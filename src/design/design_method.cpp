@@ -37,15 +37,13 @@ DesignCandidate LmiDesignMethod::attempt(const CertificateSubject& subject,
     const auto given = parameters.find(shape.name);
     if (given != parameters.end()) fixed[shape.name] = scalar_matrix(given->second);
   }
-  if (fixed.count("gamma") == 0 && solution.values.count("gamma") > 0) {
-    fixed["gamma"] = solution.values.at("gamma");
-  }
   return certify_here(theorem(), subject, fixed, objective);
 }
 
 const std::vector<const DesignMethod*>& design_methods() {
   static const std::vector<const DesignMethod*> all = {
-      &ferrante2019_proposition2(),
+      &ferrante2019_proposition2(), &ferrante2019_proposition3(), &ferrante2019_proposition4(),
+      &ferrante2019_proposition5(), &ferrante2019_alternating(),
   };
   return all;
 }

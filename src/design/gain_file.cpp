@@ -48,7 +48,7 @@ void write_gain_file(const Design& design, const GainFileOrigin& origin, std::os
   const CertificateSubject& subject = certificate.subject;
   const Theorem& theorem = *certificate.theorem;
   out << "# Gains with a certificate, made by\n#   " << origin.command << "\n"
-      << "observer: " << design.method->observer_type() << "\n\n"
+      << "observer: " << design.observer_type << "\n\n"
       << "sampling: {T1: " << shortest_decimal(subject.T1)
       << ", T2: " << shortest_decimal(subject.T2) << "}  # s\n\n"
       << "gains:\n";
@@ -65,7 +65,7 @@ void write_gain_file(const Design& design, const GainFileOrigin& origin, std::os
   write_values(theorem.multipliers(subject), certificate.values, out);
   out << "  margin: " << shortest_decimal(design.margin)
       << "  # least eigenvalue of the conditions\n"
-      << "  method: " << design.method->name() << '\n'
+      << "  method: " << design.method << '\n'
       << "  objective: " << to_string(design.objective) << '\n'
       << "  parameters: {";
   const char* separator = "";

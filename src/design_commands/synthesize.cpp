@@ -2,16 +2,12 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <cstdio>
-#include <fstream>
 #include <memory>
-#include <sstream>
-#include <stdexcept>
 #include <vector>
 
 #include "commands.h"
-#include "design_arguments.h"
+#include "gain_files.h"
 #include "sampled_data_observers/config/design_config.h"
-#include "sampled_data_observers/design/gain_file.h"
 #include "sampled_data_observers/design/synthesis.h"
 #include "sampled_data_observers/design/workers.h"
 #include "sampled_data_observers/ros/plant_plugins.h"
@@ -27,17 +23,10 @@ struct Arguments {
   double T1 = 0.0;
   double T2 = 0.0;
   std::vector<std::string> assignments;
+  std::vector<std::string> searched;
   unsigned jobs = default_jobs();
   double time_limit = 20.0;
 };
-
-Objective objective_of(const std::string& name) {
-  for (const Objective objective :
-       {Objective::kMinGamma, Objective::kMaxT2, Objective::kMaxDecay}) {
-    if (name == to_string(objective)) return objective;
-  }
-  return Objective::kFeasible;
-}
 
 void synthesize_command(const Arguments& arguments, const std::string& command_line) {
   const DesignConfig config = read_design_config(arguments.files, load_plant_plugin);
@@ -51,7 +40,8 @@ void synthesize_command(const Arguments& arguments, const std::string& command_l
   }
   if (problem.subject.T1 > problem.subject.T2) throw DesignError("T1 > T2");
   problem.given = config.parameters;
-  assign(arguments.assignments, problem.given);
+  for (const std::string& assignment : arguments.assignments) assign(assignment, problem.given);
+  problem.searched.insert(arguments.searched.begin(), arguments.searched.end());
   problem.objective = objective_of(arguments.objective);
 
   SynthesisOptions options;
@@ -64,15 +54,9 @@ void synthesize_command(const Arguments& arguments, const std::string& command_l
     std::fprintf(stderr, "design: %s\n", error.what());
     throw ExitStatus{kNoDesign};
   }
-  std::ostringstream text;
-  write_gain_file(
-      design, origin_of(arguments.output, arguments.files.front(), config.plant_hash, command_line),
-      text);
-  std::ofstream file(arguments.output);
-  file << text.str();
-  file.close();
-  if (!file) throw std::runtime_error("cannot write " + arguments.output);
-  std::printf("%s\nwritten to %s after %zu attempts in %.1f s\n", text.str().c_str(),
+  const std::string text = save_gain_file(design, arguments.files.front(), config.plant_hash,
+                                          command_line, arguments.output);
+  std::printf("%s\nwritten to %s after %zu attempts in %.1f s\n", text.c_str(),
               arguments.output.c_str(), design.attempts, design.seconds);
 }
 
@@ -81,12 +65,18 @@ void synthesize_command(const Arguments& arguments, const std::string& command_l
 void add_synthesize(CLI::App& app, const std::string& command_line) {
   CLI::App* command = app.add_subcommand("synthesize", "Find gains for a plant, with their proof");
   auto arguments = std::make_shared<Arguments>();
+  std::vector<std::string> methods;
+  std::string help = "How to design:";
+  for (const DesignMethod* method : design_methods()) {
+    methods.push_back(method->name());
+    help += "\n  " + method->name() + ": " + method->summary();
+  }
   command->add_option("plant", arguments->files, "Files with plant, sensors and design")
       ->required()
       ->type_name("PLANT");
-  command->add_option("--method", arguments->method, "How to design:" + help_on_methods())
+  command->add_option("--method", arguments->method, help)
       ->required()
-      ->check(CLI::IsMember(method_names()));
+      ->check(CLI::IsMember(methods));
   command->add_option("-o,--output", arguments->output, "Gain file to write")->required();
   command->add_option("--objective", arguments->objective, "What to look for")
       ->check(CLI::IsMember({"feasible", "min-gamma", "max-T2", "max-decay"}));
@@ -94,6 +84,11 @@ void add_synthesize(CLI::App& app, const std::string& command_line) {
   command->add_option("--T2", arguments->T2, "Instead of design/sampling/T2 [s]");
   command->add_option("--set", arguments->assignments,
                       "Fix a parameter of the method, NAME=NUMBER; may be given several times");
+  command
+      ->add_option("--search", arguments->searched,
+                   "Search for a parameter that has a default, such as a; may be given several "
+                   "times")
+      ->type_name("NAME");
   command->add_option("--jobs", arguments->jobs, "Solvers at a time (default: all processors)");
   command->add_option("--time-limit", arguments->time_limit, "For one attempt [s]");
   command->callback([arguments, command_line] { synthesize_command(*arguments, command_line); });

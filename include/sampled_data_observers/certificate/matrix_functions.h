@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 
 namespace sampled_data_observers {
 
@@ -10,6 +11,15 @@ namespace sampled_data_observers {
 Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& a);
 double min_eigenvalue(const Eigen::MatrixXd& a);
 double max_eigenvalue(const Eigen::MatrixXd& a);
+
+/// An eigenvector of norm 1 of the least eigenvalue of (a + aᵀ)/2.
+/// @pre a is finite
+Eigen::VectorXd least_eigenvector(const Eigen::MatrixXd& a);
+
+/// W with Wᵀ a W = I and Wᵀ b W diagonal, for symmetric matrices; nothing where a is not positive
+/// definite.
+std::optional<Eigen::MatrixXd> diagonalizing_congruence(const Eigen::MatrixXd& a,
+                                                        const Eigen::MatrixXd& b);
 
 /// Singular values, in decreasing order; the largest is the norm ‖a‖₂.
 Eigen::VectorXd singular_values(const Eigen::MatrixXd& a);
