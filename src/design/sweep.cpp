@@ -49,7 +49,7 @@ double value_of(const Design& design) {
   if (design.objective == Objective::kMinGamma) {
     return scalar_value(design.certificate.values, "gamma");
   }
-  return design.parameters.at(design.method->decay_parameter());
+  return scalar_value(design.certificate.values, design.certificate.theorem->decay_parameter());
 }
 
 void pack(const Parameters& parameters, Packer& packer) {
@@ -98,7 +98,8 @@ void report(const Task& task, const SweepRequest& request, const WorkerOutcome& 
     return;
   }
   Design design;
-  design.method = task.method;
+  design.method = task.method->name();
+  design.observer_type = task.method->observer_type();
   design.objective = request.objective;
   design.certificate = {&task.method->theorem(), subject_at(request, task.T2), unpacker.matrices()};
   design.parameters = unpack_parameters(unpacker);

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "commands.h"
-#include "design_arguments.h"
+#include "gain_files.h"
 #include "sampled_data_observers/config/design_config.h"
 #include "sampled_data_observers/design/csv.h"
 #include "sampled_data_observers/design/sweep_folder.h"
@@ -54,9 +54,8 @@ void note_interruptions() {
   ::sigaction(SIGTERM, &action, nullptr);
 }
 
-Objective objective_of(const Arguments& arguments, const CertificateSubject& subject) {
-  if (arguments.objective == to_string(Objective::kMinGamma)) return Objective::kMinGamma;
-  if (arguments.objective == to_string(Objective::kMaxDecay)) return Objective::kMaxDecay;
+Objective objective_for(const Arguments& arguments, const CertificateSubject& subject) {
+  if (!arguments.objective.empty()) return objective_of(arguments.objective);
   return methods_for(subject, Objective::kMinGamma).empty() ? Objective::kMaxDecay
                                                             : Objective::kMinGamma;
 }
@@ -86,7 +85,7 @@ SweepRequest request_of(const Arguments& arguments, const DesignConfig& config) 
   }
   request.subject.T1 = T1 > 0.0 ? std::min(T1, request.T2.front()) : request.T2.front();
   request.subject.T2 = request.T2.back();
-  request.objective = objective_of(arguments, request.subject);
+  request.objective = objective_for(arguments, request.subject);
   for (const std::string& name : arguments.methods) {
     request.methods.push_back(find_design_method(name));
   }
@@ -97,7 +96,7 @@ SweepRequest request_of(const Arguments& arguments, const DesignConfig& config) 
                       " for this plant; `design explain` tells why not");
   }
   request.given = config.parameters;
-  assign(arguments.assignments, request.given);
+  for (const std::string& assignment : arguments.assignments) assign(assignment, request.given);
   require_sense(request);
   return request;
 }
@@ -217,6 +216,8 @@ void add_sweep(CLI::App& app, const std::string& command_line) {
   CLI::App* command = app.add_subcommand(
       "sweep", "Trade-off curves: the best designs over the longest time between samples");
   auto arguments = std::make_shared<Arguments>();
+  std::vector<std::string> names;
+  for (const DesignMethod* method : design_methods()) names.push_back(method->name());
   command->add_option("plant", arguments->files, "Files with plant, sensors and design")
       ->required()
       ->type_name("PLANT");
@@ -225,10 +226,10 @@ void add_sweep(CLI::App& app, const std::string& command_line) {
                    "Folder for curves and gain files; what is finished in it is kept")
       ->required();
   command
-      ->add_option(
-          "--method", arguments->methods,
-          "May be given several times; else all that are about the plant:" + help_on_methods())
-      ->check(CLI::IsMember(method_names()));
+      ->add_option("--method", arguments->methods,
+                   "As for synthesize; may be given several times (default: all that are about the "
+                   "plant and serve the objective)")
+      ->check(CLI::IsMember(names));
   command
       ->add_option("--objective", arguments->objective,
                    "What is drawn over T2 (default: min-gamma where the plant has N)")
