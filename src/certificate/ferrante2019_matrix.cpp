@@ -5,11 +5,15 @@ namespace sampled_data_observers {
 MatrixExpression ferrante2019_error_weight(const PlantMatrices& plant,
                                            const MatrixExpression& lambda_t) {
   MatrixExpression weight = 2.0 * lambda_t * symbol("P1", plant.states(), plant.states());
-  if (plant.C_p.rows() > 0) weight = weight + Eigen::MatrixXd(plant.C_p.transpose() * plant.C_p);
+  // Products of the file's numbers stand in the formula, where a proof accounts for rounding.
+  if (plant.C_p.rows() > 0) {
+    const MatrixExpression C_p = plant.C_p;
+    weight = weight + transpose(C_p) * C_p;
+  }
   if (plant.is_linear()) return weight;
-  const double ell = *plant.lipschitz_constant;
-  return weight + symbol("chi") *
-                      MatrixExpression(Eigen::MatrixXd(ell * ell * plant.S.transpose() * plant.S));
+  const MatrixExpression ell = *plant.lipschitz_constant;
+  const MatrixExpression S = plant.S;
+  return weight + symbol("chi") * (ell * ell) * (transpose(S) * S);
 }
 
 MatrixExpression ferrante2019_with_inputs(

@@ -25,54 +25,68 @@ LyapunovBounds bounds_of_V(const CertificateSubject& subject, const NamedMatrice
           max_eigenvalue(values.at("P2")) * std::exp(scalar_value(values, "delta") * subject.T2)};
 }
 
-/// V where the estimate begins, at most, for an error of norm 1: the held innovation starts at
-/// zero, so that θ̃ = C ε.
-double initial_V(const CertificateSubject& subject, const LyapunovBounds& V) {
-  const double norm_of_C = norm2(subject.plant.C());
-  return V.alpha_2 + V.omega_2 * norm_of_C * norm_of_C;
+/// V where the estimate begins, at most, for an error of norm 1 and without injection: θ̃ = C ε.
+double initial_V(const CertificateSubject& subject, const NamedMatrices& values) {
+  const Eigen::MatrixXd& C = subject.plant.C();
+  const double e = std::exp(scalar_value(values, "delta") * subject.T2);
+  return max_eigenvalue(values.at("P1") + e * C.transpose() * values.at("P2") * C);
 }
 
-/// W >= V: between samples Ẇ = −2 λ W + γ² |w|² (18), at a sample W⁺ = W + ω2 |η|² (19).
+/// W >= V with the timer τ set as if the next sample came T2 after the last: that decides nothing
+/// of the flow, and at an earlier sample V falls all the more. So
+///   Ẇ = −2 λ W + γ² |w|² between samples (18), W⁺ = W + ω2 |η|² at them (19),
+/// and |ε|² <= W / λ_min(P1). T1 plays no part.
 class LyapunovErrorBound : public ErrorBound {
  public:
   LyapunovErrorBound(const CertificateSubject& subject, const NamedMatrices& values, double rate,
                      const ErrorAssumptions& assumptions)
       : T2_(subject.T2), rate_(2.0 * rate) {
     const LyapunovBounds V = bounds_of_V(subject, values);
-    initial_ = initial_V(subject, V) * assumptions.initial_error * assumptions.initial_error;
     if (subject.plant.N.cols() > 0 && values.count("gamma") > 0) {
       const double level = scalar_value(values, "gamma") * assumptions.disturbance;
       final_ = level * level / rate_;
     }
     per_sample_ = V.omega_2 * assumptions.noise * assumptions.noise;
     least_ = V.alpha_1;
+    of_estimate_ = V.alpha_2 * assumptions.initial_error * assumptions.initial_error;
+    // θ̃ = C ε − θ at first, and √V is a norm of (ε, θ̃).
+    const double root = std::sqrt(initial_V(subject, values)) * assumptions.initial_error +
+                        std::sqrt(V.omega_2) * assumptions.initial_injection;
+    initial_ = root * root;
   }
 
-  // W, and the time since the last sample [s].
-  Eigen::Index state_size() const override { return 2; }
+  // W, the time since the last sample [s], and whether nothing has happened yet.
+  Eigen::Index state_size() const override { return 3; }
   void initialize(double* state) const override {
     state[0] = initial_;
     state[1] = 0.0;
+    state[2] = 1.0;
   }
   void flow(double duration, double* state) const override {
-    state[1] += duration;
+    if (duration == 0.0) return;
     state[0] = final_ + (state[0] - final_) * std::exp(-rate_ * duration);
+    state[1] += duration;
+    state[2] = 0.0;
     if (state[1] > T2_) state[0] = std::numeric_limits<double>::infinity();
   }
   void sample(double* state) const override {
-    state[0] += per_sample_;
+    // A sample sets θ̃ to −η: of V, only ε's part stays. How large that is, is known at first only.
+    const bool is_first_of_all = state[2] != 0.0;
+    state[0] = (is_first_of_all ? of_estimate_ : state[0]) + per_sample_;
     state[1] = 0.0;
+    state[2] = 0.0;
   }
   void jump(double*) const override {}
   double bound(const double* state) const override { return std::sqrt(state[0] / least_); }
 
  private:
   double T2_;
-  double rate_;
-  double initial_ = 0.0;
-  double final_ = 0.0;
-  double per_sample_ = 0.0;
-  double least_ = 0.0;
+  double rate_;               // 2 λ
+  double final_ = 0.0;        // of W, without noise
+  double per_sample_ = 0.0;   // ω2 |η|²
+  double of_estimate_ = 0.0;  // εᵀ P1 ε at first
+  double initial_ = 0.0;      // V at first
+  double least_ = 0.0;        // λ_min(P1)
 };
 
 /// Theorem 2, and its corollaries for a rate only and for a gain only.
@@ -158,7 +172,7 @@ class Ferrante2019Theorem : public Theorem {
     std::vector<GuaranteedFigure> figures;
     if (!variant_.has_rate) figures.push_back({"rate of convergence [1/s]", lambda});
     figures.push_back({"error over initial error, at most, without noise and disturbance",
-                       std::sqrt(initial_V(subject, V) / V.alpha_1)});
+                       std::sqrt(initial_V(subject, values) / V.alpha_1)});
     // (22) with the limit of its geometric series, and with λ_min(P1) for ρ1, since only ε counts.
     const double series = 1.0 / (1.0 - std::exp(-2.0 * lambda * subject.T1));
     figures.push_back(
@@ -173,7 +187,9 @@ class Ferrante2019Theorem : public Theorem {
   std::unique_ptr<const ErrorBound> error_bound(
       const CertificateSubject& subject, const NamedMatrices& values,
       const ErrorAssumptions& assumptions) const override {
-    if (!variant_.has_gain && assumptions.disturbance > 0.0) return nullptr;
+    if (!variant_.has_gain && assumptions.disturbance > 0.0) {
+      throw std::invalid_argument("it is about plants without disturbance");
+    }
     return std::make_unique<const LyapunovErrorBound>(subject, values, rate(subject, values),
                                                       assumptions);
   }

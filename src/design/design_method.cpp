@@ -65,13 +65,16 @@ DesignCandidate LmiDesignMethod::attempt(const CertificateSubject& subject,
     const auto given = parameters.find(shape.name);
     if (given != parameters.end()) fixed[shape.name] = scalar_matrix(given->second);
   }
-  return certify_here(theorem(), subject, fixed, objective);
+  DesignCandidate candidate = certify_here(theorem(), subject, fixed, objective);
+  candidate.solver = solved.solver;
+  return candidate;
 }
 
 const std::vector<const DesignMethod*>& design_methods() {
   static const std::vector<const DesignMethod*> all = {
-      &ferrante2019_proposition2(), &ferrante2019_proposition3(), &ferrante2019_proposition4(),
-      &ferrante2019_proposition5(), &ferrante2019_alternating(),
+      &ferrante2016_corollary1(),   &ferrante2019_proposition2(), &ferrante2019_proposition3(),
+      &ferrante2019_proposition4(), &ferrante2019_proposition5(), &ferrante2019_alternating(),
+      &sferlazza2019_algorithm1(),
   };
   return all;
 }

@@ -19,7 +19,7 @@ DesignCandidate judged(const Theorem& theorem, const CertificateSubject& subject
 /// possible for a gamma enlarged by kGammaInflation. With others, gamma is a multiplier where
 /// `fixed` has none.
 ///
-/// @param fixed  gains and parameters of the theorem
+/// @param fixed  gains and parameters of the theorem; multipliers among them are left as they are
 /// To be called in a worker process.
 DesignCandidate certify_here(const Theorem& theorem, const CertificateSubject& subject,
                              const NamedMatrices& fixed, Objective objective);
