@@ -196,7 +196,7 @@ class RandomRuns {
     const double norm = error().norm();
     // The estimate is rounded, in digits of the state.
     if (norm > bound * (1.0 + 1e-9) + 1e-12 * (1.0 + x_.norm())) ++violations_;
-    if (bound > 0.0) largest_share_ = std::max(largest_share_, norm / bound);
+    if (bound > 1e-6) largest_share_ = std::max(largest_share_, norm / bound);
   }
 
   const ObserverConfig& config_;
