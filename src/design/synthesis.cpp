@@ -9,6 +9,7 @@
 
 #include "sampled_data_observers/design/packing.h"
 #include "sampled_data_observers/design/parameter_search.h"
+#include "sampled_data_observers/design/require_detectable.h"
 #include "sampled_data_observers/design/workers.h"
 
 namespace sampled_data_observers {
@@ -98,6 +99,7 @@ class Synthesis {
     } catch (const std::invalid_argument& fault) {
       throw DesignError(method_.name() + " is not for this plant: " + fault.what());
     }
+    require_detectable(problem_.subject.plant);
     const std::vector<DesignParameter> known = method_.parameters(problem_.subject);
     for (const auto& [name, value] : problem_.given) {
       const auto is_it = [&name = name](const DesignParameter& parameter) {

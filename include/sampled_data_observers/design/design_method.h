@@ -100,10 +100,10 @@ class LmiDesignMethod : public DesignMethod {
   DesignCandidate attempt(const CertificateSubject& subject, const Parameters& parameters,
                           Objective objective) const override;
 
- protected:
   virtual LmiProgram program(const CertificateSubject& subject, const Parameters& parameters,
                              Objective objective) const = 0;
 
+ protected:
   /// The gains by name.
   virtual NamedMatrices gains(const CertificateSubject& subject, const Parameters& parameters,
                               const NamedMatrices& solution) const = 0;
