@@ -21,6 +21,7 @@ int run(int argc, char** argv) {
       "Exit status: 0 done, 1 a fault in files or usage of the plant, 2 a claim that does not "
       "hold, 3 no design found, 4 a claim that ball arithmetic can't decide, else wrong usage.");
   sdo::add_synthesize(app, command_line);
+  sdo::add_analyze(app, command_line);
   sdo::add_verify(app);
   try {
     app.parse(argc, argv);

@@ -44,7 +44,7 @@ constraintmatrix* make_constraints(const StandardForm& form) {
   auto* constraints = allocate<constraintmatrix>(variables + 1);
   // Each list begins with the last block.
   for (std::size_t b = form.blocks.size(); b-- > 0;) {
-    const std::vector<UpperTriangle> entries = upper_triangles(form.blocks[b], variables);
+    const std::vector<TriangleEntries> entries = triangles_of(form.blocks[b], variables);
     for (std::size_t k = 0; k < variables; ++k) {
       if (entries[k].empty()) continue;
       auto* block = allocate<sparseblock>(1);

@@ -57,7 +57,7 @@ void write_gain_file(const Design& design, const GainFileOrigin& origin, std::os
   const CertificateSubject& subject = certificate.subject;
   const Theorem& theorem = *certificate.theorem;
   out << "# Gains with a certificate, made by\n#   " << origin.command << "\n"
-      << "observer: " << design.method->observer_type() << "\n\n"
+      << "observer: " << design.observer_type << "\n\n"
       << "sampling: {T1: " << digits(subject.T1) << ", T2: " << digits(subject.T2) << "}  # s\n\n"
       << "gains:\n";
   write_values(theorem.gains(subject), certificate.values, out);
@@ -72,8 +72,10 @@ void write_gain_file(const Design& design, const GainFileOrigin& origin, std::os
   write_values(theorem.parameters(subject), certificate.values, out);
   write_values(theorem.multipliers(subject), certificate.values, out);
   out << "  margin: " << digits(design.margin) << "  # least eigenvalue of the conditions\n"
-      << "  method: " << design.method->name() << '\n'
-      << "  objective: " << to_string(design.objective) << '\n'
+      << "  method: " << design.method << '\n'
+      << "  objective: " << to_string(design.objective)
+      << (design.has_no_maximum ? "  # the search ended here: no largest value was found" : "")
+      << '\n'
       << "  parameters: {";
   const char* separator = "";
   for (const auto& [name, value] : design.parameters) {

@@ -67,7 +67,7 @@ void write_problem(const StandardForm& form, const std::string& file) {
         write(0, i, j, -(constant(i, j) + constant(j, i)) / 2.0);
       }
     }
-    const auto triangles = upper_triangles(form.blocks[b], form.objective.size());
+    const auto triangles = triangles_of(form.blocks[b], form.objective.size());
     for (std::size_t k = 0; k < triangles.size(); ++k) {
       for (const auto& [at, value] : triangles[k]) write(k + 1, at.first, at.second, value);
     }

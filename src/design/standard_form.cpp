@@ -40,8 +40,8 @@ StandardForm standard_form(const LmiProgram& program, const SolverOptions& optio
   return form;
 }
 
-std::vector<UpperTriangle> upper_triangles(const AffineMatrix& block, std::size_t variables) {
-  std::vector<UpperTriangle> entries(variables);
+std::vector<TriangleEntries> triangles_of(const AffineMatrix& block, std::size_t variables) {
+  std::vector<TriangleEntries> entries(variables);
   for (const AffineMatrix::Term& term : block.terms) {
     const std::pair<int, int> at = std::minmax(term.row, term.col);
     // Off the diagonal, both triangles are averaged.

@@ -19,10 +19,10 @@ struct StandardForm {
 StandardForm standard_form(const LmiProgram& program, const SolverOptions& options);
 
 /// Entries of the upper triangle of a symmetric matrix.
-using UpperTriangle = std::map<std::pair<int, int>, double>;
+using TriangleEntries = std::map<std::pair<int, int>, double>;
 
 /// That of F_k for each variable, of one block.
-std::vector<UpperTriangle> upper_triangles(const AffineMatrix& block, std::size_t variables);
+std::vector<TriangleEntries> triangles_of(const AffineMatrix& block, std::size_t variables);
 
 /// Puts what a solver found into a solution, unless it is not finite, with a judgement of the
 /// program's own blocks.

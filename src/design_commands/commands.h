@@ -7,6 +7,7 @@ namespace sampled_data_observers {
 
 // Each adds a subcommand, with what it does, to the tool `design`.
 void add_synthesize(CLI::App& app, const std::string& command_line);
+void add_analyze(CLI::App& app, const std::string& command_line);
 void add_verify(CLI::App& app);
 
 /// What a subcommand found that is no fault: the tool's exit status, thrown after all is printed.

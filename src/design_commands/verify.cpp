@@ -2,11 +2,11 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <vector>
 
 #include "commands.h"
+#include "gain_files.h"
 #include "sampled_data_observers/config/certificate_config.h"
 #include "sampled_data_observers/config/plant_config.h"
 #include "sampled_data_observers/config/plant_fingerprint.h"
@@ -26,12 +26,7 @@ struct Arguments {
 /// The claim of a gain file together with its plant: the one named, or the one given.
 CertificateConfig read_claim(const Arguments& arguments) {
   const ConfigNode gains = read_yaml_file(arguments.gains);
-  std::vector<std::string> files = arguments.plant;
-  if (files.empty()) {
-    ConfigSection section = ConfigSection(gains, "").section("certificate").section("plant");
-    const auto folder = std::filesystem::absolute(arguments.gains).parent_path();
-    files.push_back((folder / section.text("file")).lexically_normal().string());
-  }
+  const std::vector<std::string> files = plant_files_of(arguments.gains, arguments.plant);
   std::vector<ConfigNode> trees;
   for (const std::string& file : files) trees.push_back(read_yaml_file(file));
   const ConfigNode plant_tree = merge(trees);
