@@ -18,7 +18,7 @@ std::string states_moved_by(const Mode& mode, const std::vector<std::string>& na
   std::string text;
   for (Eigen::Index i = 0; i < sizes.size(); ++i) {
     if (sizes(i) < kSmallPart * sizes.maxCoeff()) continue;
-    text += (text.empty() ? "" : ", ") + names[static_cast<std::size_t>(i)];
+    text += (text.empty() ? "" : ", ") + names.at(static_cast<std::size_t>(i));
   }
   return text;
 }

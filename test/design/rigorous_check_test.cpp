@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "paper_plants.h"
 #include "sampled_data_observers/certificate/matrix_functions.h"
 #include "sampled_data_observers/config/design_config.h"
-#include "sampled_data_observers/design/synthesis.h"
 
-namespace sampled_data_observers {
+namespace sampled_data_observers::test {
 namespace {
 
 const double kPi = std::acos(-1.0);
@@ -130,112 +130,102 @@ TEST(RigorousCheck, DoesNotProveWhatIsNotFinite) {
   EXPECT_EQ(prove_constant(inverse(matrix(2, 2, {1, 1, 1, 1}))).status, ProofStatus::kUndecided);
 }
 
-/// Ξ_P(τ) > 0, sferlazza2019 (21), of the aircraft (66).
-Condition aircraft_condition(double T1, double T2) {
-  const MatrixExpression A = matrix(3, 3, {-0.02, -1.4, 9.8, -0.01, -0.4, 0, 0, 1, 0});
-  const MatrixExpression complement = matrix(3, 2, {1, 0, 0, 1, -1, 0});
-  const MatrixExpression P = symbol("P", 3, 3);
-  const MatrixExpression back = exponential(-(time_tau() * A)) * complement;
-  return {"Xi_P(tau) > 0",
-          symmetric_blocks({{transpose(back) * P * back, transpose(complement) * P}, {P}}),
-          Condition::Range{T1, T2}};
+std::vector<ConditionProof> prove_theorem(const char* theorem, const CertificateSubject& subject,
+                                          const NamedMatrices& values) {
+  return prove(find_theorem(theorem)->conditions(subject), values);
 }
 
-TEST(RigorousCheck, ProvesThePrintedMatrixOfSferlazza2019) {
-  // (67)
-  const NamedMatrices printed = {
-      {"P",
-       matrix(3, 3, {0.8334, -0.0041, 0.8333, -0.0041, 2.0116, -0.0359, 0.8333, -0.0359, 0.8341})}};
-  const ConditionProof proof = prove({aircraft_condition(1, 3)}, printed).front();
-  EXPECT_EQ(proof.status, ProofStatus::kProved) << proof.reason;
-  // Where a turn of the short period makes the plant unobservable from two samples no P will do.
-  const ConditionProof too_long = prove({aircraft_condition(8.5, 8.6)}, printed).front();
-  EXPECT_EQ(too_long.status, ProofStatus::kDisproved);
+void expect_proved(const std::vector<ConditionProof>& proofs) {
+  for (const ConditionProof& proof : proofs) {
+    EXPECT_EQ(proof.status, ProofStatus::kProved) << proof.name << ": " << proof.reason;
+    // Few intervals are enough: less than 0.1 s.
+    EXPECT_LT(proof.intervals, 300u) << proof.name;
+  }
 }
 
-TEST(RigorousCheck, ProvesTheSpreadOutIntervalOfSferlazza2019) {
-  const NamedMatrices shipped = {
-      {"P", matrix(3, 3,
-                   {0.50702492244326325, 0.16007158892513734, 0.46744347768574857,
-                    0.16007158892513734, 0.94621739393045601, -0.15598834576597512,
-                    0.46744347768574857, -0.15598834576597512, 0.54696841322230516})}};
-  const ConditionProof proof = prove({aircraft_condition(4, 8)}, shipped).front();
-  EXPECT_EQ(proof.status, ProofStatus::kProved) << proof.reason;
+bool is_disproved(const std::vector<ConditionProof>& proofs) {
+  return std::any_of(proofs.begin(), proofs.end(), [](const ConditionProof& proof) {
+    return proof.status == ProofStatus::kDisproved && proof.value < 0.0;
+  });
 }
 
-TEST(RigorousCheck, DecidesThePrintedGainOfFerrante2016) {
-  // Example 2, with the sensor's bias as fifth state.
-  const Eigen::MatrixXd A =
-      matrix(5, 5, {0, 0, 1, 0, 0, 0, 0, 0, 1, 0, -2, 1, -1, 0, 0, 2, -2, 0, -2, 0, 0, 0, 0, 0, 0});
-  const Eigen::MatrixXd M = matrix(1, 5, {1, 0, 0, 0, 1});
-  Eigen::MatrixXd L = matrix(5, 1, {0.77524, 0.18123, -0.12123, -0.17406, 0.22469});
-  const MatrixExpression P = symbol("P", 5, 5);
-  const MatrixExpression step =
-      exponential(time_tau() * MatrixExpression(A)) * (identity(5) - symbol("L", 5, 1) * M);
-  const Condition condition = {"(12)", P - transpose(step) * P * step, Condition::Range{0.2, 3.0}};
-  LmiProgram program;
-  program.symmetric("P", 5);
-  program.fix("L", L);
-  program.require_positive("P > 0", P);
-  program.require(condition, 25);
-  program.bound_above("P <= I", P, identity(5));
-  const LmiSolution solution = solve_lmi(program);
-  ASSERT_TRUE(solution.satisfies_all()) << solution.message;
-  NamedMatrices values = {{"P", solution.values.at("P")}, {"L", L}};
-  const ConditionProof proof = prove({condition}, values).front();
-  EXPECT_EQ(proof.status, ProofStatus::kProved) << proof.reason;
-
-  values["L"](0, 0) += 1.0;
-  EXPECT_EQ(prove({condition}, values).front().status, ProofStatus::kDisproved);
+/// P of sferlazza2019 by its upper triangle, row by row.
+NamedMatrices aircraft_values(const std::vector<double>& p) {
+  return {{"P", matrix(3, 3, {p[0], p[1], p[2], p[1], p[3], p[4], p[2], p[4], p[5]})},
+          {"lambda", scalar_matrix(0.0)}};
 }
 
-CertificateSubject example(const std::string& name, double T2) {
+TEST(RigorousCheck, ProvesThePrintedMatrixOfSferlazza2019For1To3Seconds) {
+  const NamedMatrices printed =
+      aircraft_values({0.8334, -0.0041, 0.8333, 2.0116, -0.0359, 0.8341});  // (67)
+  expect_proved(prove_theorem("sferlazza2019_theorem2", aircraft(1.0, 3.0), printed));
+  // From samples 8.541 s apart the plant is not observable.
+  EXPECT_TRUE(is_disproved(prove_theorem("sferlazza2019_theorem2", aircraft(8.5, 8.6), printed)));
+}
+
+TEST(RigorousCheck, DisprovesThePrintedMatrixOfSferlazza2019For4To8Seconds) {
+  const NamedMatrices printed =
+      aircraft_values({0.9573, -0.0031, 0.9571, 2.2754, -0.0122, 0.9573});  // (68)
+  const auto proofs = prove_theorem("sferlazza2019_theorem2", aircraft(4.0, 8.0), printed);
+  EXPECT_TRUE(is_disproved(proofs));
+  EXPECT_NEAR(proofs.back().value, -0.065, 0.001);
+}
+
+TEST(RigorousCheck, ProvesThePrintedGainOfFerrante2016) {
+  NamedMatrices fixed = {{"L", matrix(5, 1, {0.77524, 0.18123, -0.12123, -0.17406, 0.22469})},
+                         {"decay", scalar_matrix(0.0)}};
+  const CertificateSubject subject = mass_spring(0.2, 3.0);
+  const NamedMatrices values = certified("ferrante2016_theorem1", subject, fixed);
+  ASSERT_FALSE(values.empty());
+  expect_proved(prove_theorem("ferrante2016_theorem1", subject, values));
+}
+
+struct DesignCase {
+  const char* method;
+  CertificateSubject subject;
+  Parameters given;
+  Objective objective;
+};
+
+CertificateSubject example(const std::string& name, double T2, const Eigen::MatrixXd& N,
+                           const Eigen::MatrixXd& C_p) {
   const std::string file = std::string(SDO_SOURCE_DIR) + "/config/examples/" + name + "/plant.yaml";
   CertificateSubject subject = read_design_config({file}, {}).subject;
   subject.T1 = T2 / 2.0;
   subject.T2 = T2;
+  subject.plant.N = N;
+  subject.plant.C_p = C_p;
   return subject;
 }
 
-void expect_proved_until_broken(const CertificateSubject& subject, const Parameters& given,
-                                const std::string& method) {
-  DesignProblem problem;
-  problem.subject = subject;
-  problem.given = given;
-  problem.objective = Objective::kMinGamma;
-  SynthesisOptions options;
-  options.jobs = 2;
-  const Certificate certificate =
-      synthesize(*find_design_method(method), problem, options).certificate;
-  const std::vector<Condition> conditions = certificate.theorem->conditions(certificate.subject);
-  for (const ConditionProof& proof : prove(conditions, certificate.values)) {
-    EXPECT_EQ(proof.status, ProofStatus::kProved) << proof.name << ": " << proof.reason;
-  }
-  for (const NamedShape& shape : certificate.theorem->gains(certificate.subject)) {
+TEST(RigorousCheck, ProvesDesignsUntilAGainIsChanged) {
+  const std::vector<DesignCase> cases = {
+      {"ferrante2019_proposition2",
+       example("ferrante2019_oscillator", 0.41, matrix(2, 1, {1, 0}),
+               Eigen::MatrixXd::Identity(2, 2)),
+       {{"lambda_t", 0.05}, {"delta", 3.0}},
+       Objective::kMinGamma},
+      {"ferrante2019_proposition2",
+       example("ferrante2019_flexible_link", 0.1, matrix(4, 1, {0, 1, 0, 0}),
+               matrix(1, 4, {0, 0, 1, 0})),
+       {{"lambda_t", 0.01}, {"delta", 10.0}},
+       Objective::kMinGamma},
+      {"ferrante2016_corollary1", mass_spring(0.2, 3.0), {}, Objective::kFeasible},
+      {"sferlazza2019_algorithm1", aircraft(1.0, 3.0), {}, Objective::kFeasible},
+      {"sferlazza2019_algorithm1", aircraft(4.0, 8.0), {}, Objective::kFeasible},
+  };
+  for (const DesignCase& one : cases) {
+    SCOPED_TRACE(one.method);
+    const Certificate certificate =
+        design_by(one.method, one.subject, one.given, one.objective).certificate;
+    const std::vector<Condition> conditions = certificate.theorem->conditions(certificate.subject);
+    expect_proved(prove(conditions, certificate.values));
+    const NamedShape gain = certificate.theorem->gains(certificate.subject).front();
     NamedMatrices broken = certificate.values;
-    broken.at(shape.name)(0, 0) += 1.0 + std::abs(broken.at(shape.name)(0, 0));
-    const auto proofs = prove(conditions, broken);
-    EXPECT_TRUE(std::any_of(proofs.begin(), proofs.end(), [](const ConditionProof& proof) {
-      return proof.status == ProofStatus::kDisproved && proof.value < 0.0;
-    })) << shape.name;
+    broken.at(gain.name)(0, 0) -= 2.0 * norm2(broken.at(gain.name));
+    EXPECT_TRUE(is_disproved(prove(conditions, broken))) << gain.name;
   }
-}
-
-TEST(RigorousCheck, ProvesADesignForTheOscillatorUntilAGainIsChanged) {
-  CertificateSubject subject = example("ferrante2019_oscillator", 0.41);
-  subject.plant.N = matrix(2, 1, {1, 0});
-  subject.plant.C_p = Eigen::MatrixXd::Identity(2, 2);
-  expect_proved_until_broken(subject, {{"lambda_t", 0.05}, {"delta", 3.0}},
-                             "ferrante2019_proposition2");
-}
-
-TEST(RigorousCheck, ProvesADesignForTheFlexibleLinkUntilAGainIsChanged) {
-  CertificateSubject subject = example("ferrante2019_flexible_link", 0.1);
-  subject.plant.N = matrix(4, 1, {0, 1, 0, 0});
-  subject.plant.C_p = matrix(1, 4, {0, 0, 1, 0});
-  expect_proved_until_broken(subject, {{"lambda_t", 0.01}, {"delta", 10.0}},
-                             "ferrante2019_proposition2");
 }
 
 }  // namespace
-}  // namespace sampled_data_observers
+}  // namespace sampled_data_observers::test
