@@ -62,7 +62,7 @@ DesignCandidate LmiDesignMethod::attempt(const CertificateSubject& subject,
     if (given != parameters.end()) fixed[shape.name] = scalar_matrix(given->second);
   }
   DesignCandidate candidate = certify_here(theorem(), subject, fixed, objective);
-  candidate.solver = solution.solver;
+  candidate.solver = solved.solver;
   return candidate;
 }
 
