@@ -98,6 +98,10 @@ bool ConfigSection::is_map(const std::string& key) {
   return has(key) && node_.find(key)->kind == ConfigNode::Kind::kMap;
 }
 
+bool ConfigSection::is_list(const std::string& key) {
+  return has(key) && node_.find(key)->kind == ConfigNode::Kind::kSequence;
+}
+
 double ConfigSection::number(const std::string& key) {
   const ConfigNode& node = required(key, "a finite number");
   const std::optional<double> value = as_number(node);

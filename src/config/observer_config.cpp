@@ -73,6 +73,7 @@ Eigen::VectorXd read_named_values(ConfigSection& root, const std::string& key,
 ObserverConfig read_observer_config(const ConfigNode& tree, const PlantPluginLoader& load_plugin) {
   ConfigSection root(tree, "");
   root.has("scenario");
+  root.has("design");
   ObserverConfig config;
   config.type = root.choice("observer", observer_types());
   PlantConfig plant_config = read_plant(root, load_plugin);

@@ -11,7 +11,7 @@ namespace sampled_data_observers::test {
 namespace {
 
 const ExampleRun& undelayed() {
-  static const ExampleRun run = Example("bernard2022_neuron_jump_based").run();
+  static const ExampleRun run = Example("bernard2022_neuron_jump_based", kPrinted).run();
   return run;
 }
 
@@ -63,7 +63,7 @@ TEST(Bernard2022NeuronJumpBased, ConvergesByTheSpikesAlone) {
 
 // Figure 4, bottom right: the error is small outside of the delays only, and grows with the delay.
 TEST(Bernard2022NeuronJumpBased, DelayedSpikesCostMoreTheLongerTheyTake) {
-  const Example example("bernard2022_neuron_jump_based");
+  const Example example("bernard2022_neuron_jump_based", kPrinted);
   const ExampleRun run_1 = example.run("scenario_delay_1.yaml", "observer_delayed.yaml");
   const ExampleRun run_5 = example.run("scenario_delay_5.yaml", "observer_delayed.yaml");
   ASSERT_EQ(48u, run_5.jumps.size());
@@ -93,8 +93,8 @@ TEST(Bernard2022NeuronJumpBased, DelayedSpikesCostMoreTheLongerTheyTake) {
 
 // What the paper does not have: a late spike that takes effect at its stamp leaves no trace.
 TEST(Bernard2022NeuronJumpBased, LateSpikesAtTheirStampsCostNothing) {
-  const ExampleRun late =
-      Example("bernard2022_neuron_jump_based").run("scenario_delay_5.yaml", "observer.yaml");
+  const ExampleRun late = Example("bernard2022_neuron_jump_based", kPrinted)
+                              .run("scenario_delay_5.yaml", "observer.yaml");
   const ExampleRun& none = undelayed();
   ASSERT_EQ(none.estimate.size(), late.estimate.size());
   ASSERT_EQ(none.jumps.size(), late.jumps.size());
@@ -108,7 +108,7 @@ TEST(Bernard2022NeuronJumpBased, LateSpikesAtTheirStampsCostNothing) {
 
 // Figure 3. The hold of the potential, every millisecond of the neuron, leaves the small errors.
 TEST(Bernard2022NeuronHighGain, FindsTheParametersBy20) {
-  const ExampleRun run = Example("bernard2022_neuron_high_gain").run();
+  const ExampleRun run = Example("bernard2022_neuron_high_gain", kPrinted).run();
   ASSERT_EQ(6001u, run.error.size());
   ASSERT_EQ(2u, run.jumps.size());
   EXPECT_NEAR(3.15312, run.jumps[0].time, 1e-5);

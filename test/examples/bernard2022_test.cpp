@@ -13,7 +13,7 @@ namespace {
 
 // Example 5.5, (16): observable by flow and jumps together only.
 TEST(Bernard2022Impulsive, EachJumpMultipliesTheErrorByItsInterval) {
-  const ExampleRun run = Example("bernard2022_impulsive").from_zero().run();
+  const ExampleRun run = Example("bernard2022_impulsive", kPrinted).from_zero().run();
   ASSERT_GT(run.jumps.size(), 20u);
   ASSERT_EQ(10001u, run.error.size());
   // Until the first jump e = (3 - 1.5 t, -1.5, 2); there it is mapped to (0, e2 - 0.2259 e1, 0).
@@ -42,13 +42,13 @@ TEST(Bernard2022Impulsive, EachJumpMultipliesTheErrorByItsInterval) {
 
 TEST(Bernard2022Impulsive, TheErrorVanishes) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    const ExampleRun run = Example("bernard2022_impulsive").from_zero().seed(seed).run();
+    const ExampleRun run = Example("bernard2022_impulsive", kPrinted).from_zero().seed(seed).run();
     EXPECT_GT(run.error.max(), 3.0) << seed;
     EXPECT_LT(run.error.max(), 8.0) << seed;
     EXPECT_LT(run.error.from(32.0).max(), 1e-3) << seed;
     EXPECT_LT(run.error.from(50.0).max(), 1e-6) << seed;
   }
-  const ExampleRun as_shipped = Example("bernard2022_impulsive").run();
+  const ExampleRun as_shipped = Example("bernard2022_impulsive", kPrinted).run();
   EXPECT_LT(as_shipped.error.from(32.0).max(), 1e-3);
   EXPECT_LT(as_shipped.error.from(50.0).max(), 1e-6);
 }
@@ -103,7 +103,7 @@ std::vector<Eigen::Vector2d> errors_after_bounces(const ExampleRun& run) {
 
 // Section 7.1, figure 2: up to the Zeno point.
 TEST(Bernard2022BouncingBall, BouncesAsInClosedFormUntilTheZenoPoint) {
-  const ExampleRun run = Example("bernard2022_bouncing_ball").run();
+  const ExampleRun run = Example("bernard2022_bouncing_ball", kPrinted).run();
   ASSERT_EQ(33u, run.jumps.size());
   Ball ball;
   double now = 0.0;
@@ -135,7 +135,7 @@ TEST(Bernard2022BouncingBall, TheErrorShrinksWithEachBounce) {
         Expected{false,
                  {8.174, 4.363, 2.586, 1.649, 1.109, .7753, .5584, .4114, .3083, .2344},
                  1.13e-3}}) {
-    Example example("bernard2022_bouncing_ball");
+    Example example("bernard2022_bouncing_ball", kPrinted);
     if (expected.from_zero) example.from_zero();
     const ExampleRun run = example.run();
     const std::vector<Eigen::Vector2d> errors = errors_after_bounces(run);

@@ -15,7 +15,7 @@ Example& without_noise(Example& example) {
 }
 
 TEST(Etienne2019DcDrive, TheErrorStaysSmallUnderNoise) {
-  const ExampleRun run = Example("etienne2019_dc_drive").run();
+  const ExampleRun run = Example("etienne2019_dc_drive", kPrinted).run();
   EXPECT_NEAR(std::sqrt(3.0), run.error.at(0.0), 1e-12);
   EXPECT_LT(run.error.from(3.0).max(), 0.3);
   EXPECT_LT(run.error.from(10.0).rms(), 0.15);
@@ -28,7 +28,7 @@ TEST(Etienne2019DcDrive, TheErrorObeysThePapersBound) {
   const double asymptotic = 2.7 * std::sqrt(2.2 * 2.2 + 0.16 * 0.16 + 0.45 * 0.45) * 0.2;
   EXPECT_NEAR(1.216, asymptotic, 1e-3);
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
-    const ExampleRun run = Example("etienne2019_dc_drive").seed(seed).run();
+    const ExampleRun run = Example("etienne2019_dc_drive", kPrinted).seed(seed).run();
     EXPECT_LT(run.error.from(10.0).max(), asymptotic) << seed;
     EXPECT_LT(run.error.from(3.0).max(), 0.3) << seed;
     EXPECT_LT(run.error.from(10.0).rms(), 0.15) << seed;
@@ -37,7 +37,7 @@ TEST(Etienne2019DcDrive, TheErrorObeysThePapersBound) {
 
 TEST(Etienne2019DcDrive, TheErrorVanishesWithoutNoise) {
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
-    Example example("etienne2019_dc_drive");
+    Example example("etienne2019_dc_drive", kPrinted);
     const ExampleRun run = without_noise(example).seed(seed).run();
     EXPECT_GT(run.error.from(1.0, 2.0).max(), 0.1) << seed;
     EXPECT_LT(run.error.from(4.0).max(), 0.1) << seed;

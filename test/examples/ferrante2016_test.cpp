@@ -31,7 +31,7 @@ TEST(Ferrante2016Example1, TheConstantsAreThePapers) {
 
 TEST(Ferrante2016Example1, TheErrorObeysTheExponentialBoundAtEveryInstant) {
   const ObserverConfig config =
-      Example("ferrante2016_scalar").observer("scenario.yaml", "observer.yaml");
+      Example("ferrante2016_scalar", kPrinted).observer("scenario.yaml", "observer.yaml");
   constexpr Stamp kStart = kNanosecondsPerSecond;
   for (const double first_sample : {0.001, 0.3, 1.0}) {
     Estimator estimator(config.law, config.options);
@@ -59,7 +59,7 @@ TEST(Ferrante2016Example1, TheErrorObeysTheExponentialBoundAtEveryInstant) {
 }
 
 TEST(Ferrante2016Example1, TheShippedScenarioMultipliesTheErrorAsDesigned) {
-  const ExampleRun run = Example("ferrante2016_scalar").from_zero().run();
+  const ExampleRun run = Example("ferrante2016_scalar", kPrinted).from_zero().run();
   ASSERT_EQ(10u, run.sample_times.size());
   ASSERT_EQ(1001u, run.error.size());
   std::size_t j = 0;
@@ -79,7 +79,8 @@ TEST(Ferrante2016Example1, TheShippedScenarioMultipliesTheErrorAsDesigned) {
 class Ferrante2016Example2 : public ::testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(Ferrante2016Example2, TheErrorFallsBelowAMillionthOfItsStart) {
-  const ExampleRun run = Example("ferrante2016_mass_spring").seed(GetParam()).duration(200.0).run();
+  const ExampleRun run =
+      Example("ferrante2016_mass_spring", kPrinted).seed(GetParam()).duration(200.0).run();
   EXPECT_EQ(0u, run.refused);
   EXPECT_GT(run.duplicates, 0u);
   EXPECT_NEAR(std::sqrt(5.0), run.error.at(0.0), 1e-12);
@@ -94,7 +95,7 @@ TEST_P(Ferrante2016Example2, TheErrorFallsBelowAMillionthOfItsStart) {
 INSTANTIATE_TEST_SUITE_P(Seeds, Ferrante2016Example2, ::testing::Range<std::uint64_t>(0, 10));
 
 TEST(Ferrante2016Example2Shipped, TheEstimateConvergesWithinAMinute) {
-  const ExampleRun run = Example("ferrante2016_mass_spring").run();
+  const ExampleRun run = Example("ferrante2016_mass_spring", kPrinted).run();
   EXPECT_LT(run.error.from(20.0).max(), 0.1);
   EXPECT_LT(run.error.from(40.0).max(), 1e-2);
   EXPECT_LT(run.error.from(58.0).max(), 1e-3);

@@ -11,11 +11,17 @@
 namespace sampled_data_observers::test {
 namespace {
 
+ExampleRun run_undisturbed(const char* name, const char* gains, bool from_zero) {
+  Example example(name, gains);
+  if (from_zero) example.from_zero();
+  return example.run("scenario_undisturbed.yaml", "observer_undisturbed.yaml");
+}
+
 // Example 1, figure 3: |w| = 1 up to 15 s.
 TEST(Ferrante2019Oscillator, RejectsTheDisturbanceBetterThanThePredictor) {
-  const Example example("ferrante2019_oscillator");
-  const ExampleRun designed = example.run();                                             // (51)
-  const ExampleRun predictor = example.run("scenario.yaml", "observer_predictor.yaml");  // (50)
+  const ExampleRun designed = Example("ferrante2019_oscillator", kPrinted).run();  // (51)
+  const ExampleRun predictor =
+      Example("ferrante2019_oscillator", "gains_predictor.yaml").run();  // (50)
   EXPECT_EQ(127u, designed.sample_times.size());
   const double w = std::sqrt(15.0);
   EXPECT_LT(designed.error.l2() / w, 1.0);  // 32.92 is proved
@@ -34,11 +40,9 @@ TEST(Ferrante2019Oscillator, RejectsTheDisturbanceBetterThanThePredictor) {
 // Example 1, figure 4.
 TEST(Ferrante2019Oscillator, ConvergesFasterThanThePredictor) {
   for (const bool from_zero : {true, false}) {
-    Example example("ferrante2019_oscillator");
-    if (from_zero) example.from_zero();
-    const std::string scenario = "scenario_undisturbed.yaml";
-    const ExampleRun designed = example.run(scenario, "observer_undisturbed.yaml");
-    const ExampleRun predictor = example.run(scenario, "observer_predictor_undisturbed.yaml");
+    const ExampleRun designed = run_undisturbed("ferrante2019_oscillator", kPrinted, from_zero);
+    const ExampleRun predictor =
+        run_undisturbed("ferrante2019_oscillator", "gains_predictor.yaml", from_zero);
     if (from_zero) {
       EXPECT_NEAR(std::sqrt(18.0), designed.error.at(0.0), 1e-6);
     }
@@ -59,9 +63,8 @@ TEST(Ferrante2019Oscillator, ConvergesFasterThanThePredictor) {
 
 // Example 2, figure 7: the L2 gain from torque to yaw rate.
 TEST(Ferrante2019Unicycle, ObeysItsGainWhereTheReferenceDoesNot) {
-  const Example example("ferrante2019_unicycle");
-  const ExampleRun designed = example.run();
-  const ExampleRun reference = example.run("scenario.yaml", "observer_reference.yaml");
+  const ExampleRun designed = Example("ferrante2019_unicycle", kPrinted).run();
+  const ExampleRun reference = Example("ferrante2019_unicycle", "gains_reference.yaml").run();
   EXPECT_EQ(129u, designed.sample_times.size());
   const double w = 2.0;
   const Trajectory yaw_rate = designed.error.component(1);
@@ -81,11 +84,9 @@ TEST(Ferrante2019Unicycle, ObeysItsGainWhereTheReferenceDoesNot) {
 // Example 2, figure 6.
 TEST(Ferrante2019Unicycle, ConvergesFasterThanTheReference) {
   for (const bool from_zero : {true, false}) {
-    Example example("ferrante2019_unicycle");
-    if (from_zero) example.from_zero();
-    const std::string scenario = "scenario_undisturbed.yaml";
-    const ExampleRun designed = example.run(scenario, "observer_undisturbed.yaml");
-    const ExampleRun reference = example.run(scenario, "observer_reference_undisturbed.yaml");
+    const ExampleRun designed = run_undisturbed("ferrante2019_unicycle", kPrinted, from_zero);
+    const ExampleRun reference =
+        run_undisturbed("ferrante2019_unicycle", "gains_reference.yaml", from_zero);
     if (from_zero) {
       EXPECT_NEAR(0.7125, designed.error.at(0.0), 1e-4);
     }
@@ -101,41 +102,41 @@ TEST(Ferrante2019Unicycle, ConvergesFasterThanTheReference) {
   }
 }
 
-/// Example 3: the observer files with the L2 gain to z3 that is proved for each, by the design at
+/// Example 3: the files of gains with the L2 gain to z3 that is proved for each, by the design at
 /// delta = 10, for Postoyan's by Theorem 2 at delta = 15.
 const std::map<std::string, double>& link_designs() {
-  static const std::map<std::string, double> designs = {{"observer.yaml", 0.06228},
-                                                        {"observer_proposition3.yaml", 0.6283},
-                                                        {"observer_proposition4.yaml", 0.5346},
-                                                        {"observer_proposition5.yaml", 0.4927},
-                                                        {"observer_postoyan.yaml", 0.276}};
+  static const std::map<std::string, double> designs = {{"gains.yaml", 0.06228},
+                                                        {"gains_proposition3.yaml", 0.6283},
+                                                        {"gains_proposition4.yaml", 0.5346},
+                                                        {"gains_proposition5.yaml", 0.4927},
+                                                        {"gains_postoyan.yaml", 0.276}};
   return designs;
 }
 
 // Example 3, figure 9.
 TEST(Ferrante2019FlexibleLink, TheDesignOfProposition2IsTheBest) {
-  const Example example("ferrante2019_flexible_link");
   const double w = std::sqrt(10.0 - std::sin(80.0) / 8.0);  // of sin(2t) up to 20 s
   EXPECT_NEAR(3.181, w, 1e-3);
   std::map<std::string, ExampleRun> runs;
   for (const auto& [file, gain] : link_designs()) {
-    const ExampleRun& run = runs.emplace(file, example.run("scenario.yaml", file)).first->second;
+    const ExampleRun& run =
+        runs.emplace(file, Example("ferrante2019_flexible_link", file).run()).first->second;
     EXPECT_LE(run.error.component(2).l2() / w, gain) << file;
     EXPECT_LT(run.error.from(24.0).max(), 1e-3) << file;
     EXPECT_GT(run.error.max(), 0.1) << file;
   }
-  EXPECT_EQ(422u, runs.at("observer.yaml").sample_times.size());
+  EXPECT_EQ(422u, runs.at("gains.yaml").sample_times.size());
   const auto l2 = [&](const std::string& file, int component) {
     return runs.at(file).error.component(component).l2();
   };
-  const double e3 = l2("observer.yaml", 2);
-  EXPECT_GT(l2("observer_proposition3.yaml", 2), 1.7 * e3);
-  EXPECT_GT(l2("observer_proposition4.yaml", 2), 1.6 * e3);
-  EXPECT_GT(l2("observer_proposition5.yaml", 2), 2.1 * e3);
-  EXPECT_GT(l2("observer_postoyan.yaml", 2), 1.1 * e3);
-  const double e4 = l2("observer.yaml", 3);
+  const double e3 = l2("gains.yaml", 2);
+  EXPECT_GT(l2("gains_proposition3.yaml", 2), 1.7 * e3);
+  EXPECT_GT(l2("gains_proposition4.yaml", 2), 1.6 * e3);
+  EXPECT_GT(l2("gains_proposition5.yaml", 2), 2.1 * e3);
+  EXPECT_GT(l2("gains_postoyan.yaml", 2), 1.1 * e3);
+  const double e4 = l2("gains.yaml", 3);
   for (const auto& [file, run] : runs) {
-    if (file != "observer.yaml") {
+    if (file != "gains.yaml") {
       EXPECT_GT(l2(file, 3), 1.25 * e4) << file;
     }
   }
@@ -144,7 +145,7 @@ TEST(Ferrante2019FlexibleLink, TheDesignOfProposition2IsTheBest) {
 TEST(Ferrante2019FlexibleLink, EveryDesignConverges) {
   for (const auto& [file, gain] : link_designs()) {
     const ExampleRun run =
-        Example("ferrante2019_flexible_link").run("scenario_undisturbed.yaml", file);
+        Example("ferrante2019_flexible_link", file).run("scenario_undisturbed.yaml");
     EXPECT_GT(run.error.max(), 0.5) << file;
     EXPECT_LT(run.error.max(), 6.0) << file;
     EXPECT_LT(run.error.from(5.0).max(), 0.02) << file;

@@ -48,7 +48,8 @@ class LiveExamplesTest(unittest.TestCase):
         run_tool("simulate", *scenario, "-o", self.path("simulated.bag"), "--duration",
                  str(duration))
         run_tool("replay", self.path("simulated.bag"), *scenario,
-                 os.path.join(EXAMPLES, name, "observer.yaml"), "-o", self.path("replayed.bag"))
+                 os.path.join(EXAMPLES, name, "observer.yaml"),
+                 os.path.join(EXAMPLES, name, "gains.yaml"), "-o", self.path("replayed.bag"))
         run_tool("compare_estimates", self.path("live.bag"), self.path("replayed.bag"),
                  "--at-least", str(AT_LEAST))
 

@@ -16,6 +16,7 @@ namespace {
 
 struct Aircraft {
   std::string name;
+  const char* gains;
   double largest_ratio;   ///< of V at a sample, for lambda = 0
   double smallest_ratio;  ///< over the time between samples, for the worst error
   double peak;            ///< of the error
@@ -23,8 +24,9 @@ struct Aircraft {
   double tiny;            ///< time from which it is below 1e-5
 };
 
-const Aircraft kFast = {"sferlazza2019_aircraft_1_3", 0.4430, 0.132, 80.0, 35.0, 60.0};
-const Aircraft kSlow = {"sferlazza2019_aircraft_4_8", 0.5464, 0.0076, 150.0, 65.0, 110.0};
+const Aircraft kFast = {"sferlazza2019_aircraft_1_3", kPrinted, 0.4430, 0.132, 80.0, 35.0, 60.0};
+const Aircraft kSlow = {
+    "sferlazza2019_aircraft_4_8", "gains.yaml", 0.5464, 0.0076, 150.0, 65.0, 110.0};
 
 Eigen::MatrixXd flow_matrix(const Scenario& scenario) {
   return scenario.plant->modes().front().flow->affine()->M();
@@ -72,7 +74,7 @@ class Sferlazza2019 : public ::testing::TestWithParam<Aircraft> {};
 TEST_P(Sferlazza2019, TheErrorVanishes) {
   const Aircraft& aircraft = GetParam();
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-    const ExampleRun run = Example(aircraft.name).seed(seed).run();
+    const ExampleRun run = Example(aircraft.name, aircraft.gains).seed(seed).run();
     EXPECT_EQ(0u, run.refused);
     EXPECT_NEAR(std::sqrt(3.0), run.error.at(0.0), 1e-12);
     EXPECT_LT(run.error.max(), aircraft.peak) << seed;
@@ -85,7 +87,7 @@ TEST_P(Sferlazza2019, TheLyapunovFunctionIsConstantInFlowAndFallsAtSamples) {
   const Aircraft& aircraft = GetParam();
   for (const double lambda : {0.0, 0.3, 0.7, 0.95}) {
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-      Example example(aircraft.name);
+      Example example(aircraft.name, aircraft.gains);
       example.seed(seed).override_observer("gains: {lambda: " + std::to_string(lambda) + "}");
       const ExampleRun run = example.run();
       EXPECT_LT(run.error.from(aircraft.tiny).max(), 1e-5) << lambda;
@@ -110,7 +112,7 @@ TEST_P(Sferlazza2019, TheLyapunovFunctionIsConstantInFlowAndFallsAtSamples) {
 // V is multiplied by at most the largest eigenvalue of Ψ(τ)⁻¹ P there.
 TEST_P(Sferlazza2019, TheCertificateGivesTheRatio) {
   const Aircraft& aircraft = GetParam();
-  const Example example(aircraft.name);
+  const Example example(aircraft.name, aircraft.gains);
   const Scenario scenario = example.scenario("scenario.yaml");
   const Eigen::MatrixXd A = flow_matrix(scenario);
   const Eigen::MatrixXd P = certificate(example);

@@ -41,11 +41,16 @@ TEST_P(ShippedExampleTest, EveryObserverIsValidWithEveryScenario) {
   const std::vector<std::string> scenarios = files(GetParam(), "scenario");
   const std::vector<std::string> observers = files(GetParam(), "observer");
   ASSERT_FALSE(scenarios.empty());
+  const std::vector<std::string> gains = files(GetParam(), "gains");
   ASSERT_FALSE(observers.empty());
+  ASSERT_FALSE(gains.empty());
   for (const std::string& scenario : scenarios) {
     EXPECT_NO_THROW(example.scenario(scenario)) << scenario;
     for (const std::string& observer : observers) {
-      EXPECT_NO_THROW(example.observer(scenario, observer)) << scenario << " " << observer;
+      for (const std::string& file : gains) {
+        EXPECT_NO_THROW(Example(GetParam(), file).observer(scenario, observer))
+            << scenario << " " << observer << " " << file;
+      }
     }
   }
 }

@@ -119,7 +119,8 @@ std::string folder() {
 
 ObserverConfig shipped() {
   return read_observer_config(
-      std::vector<std::string>{folder() + "scenario.yaml", folder() + "observer.yaml"},
+      std::vector<std::string>{folder() + "scenario.yaml", folder() + "observer.yaml",
+                               folder() + "gains_printed.yaml"},
       no_plant_plugins);
 }
 

@@ -14,7 +14,7 @@ import recordings  # noqa: E402
 from ros_tools import PACKAGE, RosProcess, find_tool, free_port, run_tool  # noqa: E402
 ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", ".."))
 EXAMPLE = os.path.join(ROOT, "config", "examples", "ferrante2016_mass_spring")
-MASS_SPRING = [os.path.join(EXAMPLE, name) for name in ("scenario.yaml", "observer.yaml")]
+MASS_SPRING = [os.path.join(EXAMPLE, name) for name in ("scenario.yaml", "observer.yaml", "gains.yaml")]
 CRAZYFLIE = os.path.join(ROOT, "config", "crazyflie_position.yaml")
 
 

@@ -178,7 +178,9 @@ Scenario Example::scenario(const std::string& file) const {
 ConfigNode Example::observer_tree(const std::string& scenario_file,
                                   const std::string& observer_file) const {
   std::vector<ConfigNode> trees = plant_and(scenario_file);
-  trees.push_back(read_yaml_file(examples_folder() + name_ + "/" + observer_file));
+  for (const std::string& file : {observer_file, gains_}) {
+    trees.push_back(read_yaml_file(examples_folder() + name_ + "/" + file));
+  }
   return override_with(merge(trees), overriding_);
 }
 

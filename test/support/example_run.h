@@ -36,10 +36,15 @@ struct ExampleRun {
   std::size_t refused = 0;
 };
 
-/// A directory in config/examples, with what a test changes in it.
+/// The gains that a paper prints for its example.
+constexpr char kPrinted[] = "gains_printed.yaml";
+
+/// A directory in config/examples, with one of its files of gains, and
+/// with what a test changes in it.
 class Example {
  public:
-  explicit Example(std::string name) : name_(std::move(name)) {}
+  explicit Example(std::string name, std::string gains = "gains.yaml")
+      : name_(std::move(name)), gains_(std::move(gains)) {}
 
   /// The estimate begins at t = 0, as in the papers' figures. As shipped it begins with the first
   /// event.
@@ -47,7 +52,7 @@ class Example {
   Example& change_scenario(std::function<void(Scenario&)> change);
   Example& seed(std::uint64_t seed);
   Example& duration(double seconds);
-  /// Replaces keys of the observer's file by those of a YAML text.
+  /// Replaces keys of the observer's files by those of a YAML text.
   Example& override_observer(const std::string& yaml);
 
   /// The files as `simulate` and the observers read them: plant.yaml, where there is one, comes
@@ -64,6 +69,7 @@ class Example {
   std::vector<ConfigNode> plant_and(const std::string& scenario_file) const;
 
   std::string name_;
+  std::string gains_;
   bool from_zero_ = false;
   std::vector<std::function<void(Scenario&)>> changes_;
   ConfigNode overriding_;

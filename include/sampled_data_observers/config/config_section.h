@@ -55,6 +55,7 @@ class ConfigSection {
   /// A map whose keys are names that the user chose.
   std::vector<std::string> keys() const;
   bool is_map(const std::string& key);
+  bool is_list(const std::string& key);
   /// A section that has no keys where the key is missing.
   ConfigSection section_or_empty(const std::string& key);
 

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace sampled_data_observers {
+
+/// What is known beforehand of what an observer meets.
+struct ErrorAssumptions {
+  double initial_error = 0.0;  ///< |x − x̂| <= this where the estimate begins, units of the state
+  double noise = 0.0;          ///< |η| <= this at every measurement, units of the outputs
+  double disturbance = 0.0;    ///< |w| <= this at all times, units of w
+};
+
+/// How a certificate bounds the norm of the estimation error |x − x̂| along flow and events: a small
+/// hybrid system of its own, driven by the same events as the observer, so that the bound is a
+/// function of them, too.
+///
+/// Its maps allocate nothing and throw nothing. A bound of infinity says that there is no
+/// guarantee: the events left the set for which the theorem holds, for example by a time between
+/// samples longer than T2. It stays until a reset.
+class ErrorBound {
+ public:
+  ErrorBound() = default;
+  ErrorBound(const ErrorBound&) = delete;
+  ErrorBound& operator=(const ErrorBound&) = delete;
+  virtual ~ErrorBound() = default;
+
+  /// Number of entries of its state.
+  virtual Eigen::Index state_size() const = 0;
+
+  /// The state where the estimate begins (at any time before the first sample).
+  virtual void initialize(double* state) const = 0;
+
+  /// Carries the state over `duration` >= 0 [s].
+  virtual void flow(double duration, double* state) const = 0;
+
+  /// At a sample of the sensor, and at a jump of the plant.
+  virtual void sample(double* state) const = 0;
+  virtual void jump(double* state) const = 0;
+
+  /// The bound on |x − x̂|, units of the state.
+  virtual double bound(const double* state) const = 0;
+};
+
+}  // namespace sampled_data_observers

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace sampled_data_observers {
+
+// Functions of whole matrices, compiled once: Eigen's decompositions are slow to compile.
+
+/// Eigenvalues of (a + aᵀ)/2, in increasing order; NaN where a is not finite.
+Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& a);
+double min_eigenvalue(const Eigen::MatrixXd& a);
+double max_eigenvalue(const Eigen::MatrixXd& a);
+
+/// Singular values, in decreasing order; the largest is the norm ‖a‖₂.
+Eigen::VectorXd singular_values(const Eigen::MatrixXd& a);
+double norm2(const Eigen::MatrixXd& a);
+
+/// e^a
+Eigen::MatrixXd exponential_of(const Eigen::MatrixXd& a);
+
+/// a⁻¹; not finite where a is singular.
+Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& a);
+
+/// a⁻¹ b
+Eigen::MatrixXd solve_linear(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
+
+/// The eigenvalues of a square matrix, in no order.
+Eigen::VectorXcd eigenvalues_of(const Eigen::MatrixXd& a);
+
+/// An orthonormal basis of the null space of a, as columns.
+Eigen::MatrixXd null_space(const Eigen::MatrixXd& a);
+
+}  // namespace sampled_data_observers

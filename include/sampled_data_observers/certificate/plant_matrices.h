@@ -1,0 +1,47 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sampled_data_observers/plant/plant.h"
+
+namespace sampled_data_observers {
+
+/// The matrices of one mode of a plant.
+struct ModeMatrices {
+  int label = 0;
+  Eigen::MatrixXd A;                   ///< n x n: the linear part of the flow
+  Eigen::MatrixXd C;                   ///< m x n: sampled output; may have no rows
+  Eigen::MatrixXd C_c;                 ///< continuous output; may have no rows
+  Eigen::MatrixXd C_d;                 ///< output measured at jumps; may have no rows
+  std::optional<Eigen::MatrixXd> A_d;  ///< n x n: x⁺ = A_d x + b_d at jumps
+};
+
+/// The plant as the papers' conditions see it:
+///   ẋ = A x + B u + G ψ(S x) + N w between jumps, y = C x at samples, y_p = C_p (x − x̂).
+struct PlantMatrices {
+  std::vector<std::string> state_names;  ///< n
+  std::vector<ModeMatrices> modes;       ///< at least one
+  Eigen::MatrixXd G;                     ///< n x s; no columns for a linear flow
+  Eigen::MatrixXd S;                     ///< q x n
+  std::optional<double> lipschitz_constant;
+  std::vector<Eigen::MatrixXd> vertices;  ///< n x n each
+  Eigen::MatrixXd N;                      ///< n x n_w; no columns without disturbance
+  Eigen::MatrixXd C_p;                    ///< n_p x n; no rows without performance output
+
+  const ModeMatrices& mode() const { return modes.front(); }
+  const Eigen::MatrixXd& A() const { return mode().A; }
+  const Eigen::MatrixXd& C() const { return mode().C; }
+  Eigen::Index states() const { return A().rows(); }
+  bool is_linear() const { return G.cols() == 0; }
+  bool jumps() const;
+};
+
+/// The matrices of a plant without disturbance and performance output.
+/// @throws std::invalid_argument for a plant that the conditions of the papers are not about: a
+/// flow, jump or output map by formulas, or several sensors of one timing.
+PlantMatrices matrices_of(const Plant& plant);
+
+}  // namespace sampled_data_observers

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "sampled_data_observers/certificate/certificate.h"
+#include "sampled_data_observers/config/plant_config.h"
+
+namespace sampled_data_observers {
+
+/// What a plant file says to a design.
+struct DesignConfig {
+  std::shared_ptr<const Plant> plant;
+  /// With N, C_p and, where given, T1 and T2 (else 0).
+  CertificateSubject subject;
+  /// The section design/parameters.
+  std::map<std::string, double> parameters;
+  std::string plant_hash;
+};
+
+/// Reads plant, sensors and the section `design` (sampling, N, C_p, parameters) of YAML files;
+/// leaves the other sections alone.
+/// @throws ConfigError for the first fault found.
+DesignConfig read_design_config(const std::vector<std::string>& files,
+                                const PlantPluginLoader& load_plugin);
+
+}  // namespace sampled_data_observers

@@ -1,0 +1,116 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "sampled_data_observers/certificate/certificate.h"
+#include "sampled_data_observers/design/lmi_program.h"
+#include "sampled_data_observers/design/lmi_solver.h"
+
+namespace sampled_data_observers {
+
+/// A design that can't be made, with what to change.
+class DesignError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Scalars by name, such as delta or lambda_t.
+using Parameters = std::map<std::string, double>;
+
+enum class Objective { kFeasible, kMinGamma, kMaxT2, kMaxDecay };
+const char* to_string(Objective objective);
+
+/// A scalar of a method that is chosen before its inequalities are linear.
+struct DesignParameter {
+  std::string name;
+  std::string meaning;  ///< for the help, with its unit
+  /// Used where the user gives none and it is not searched for.
+  std::optional<double> default_value;
+  std::optional<SearchRange> search;
+};
+
+/// What a design starts from: the plant, the times, and what the user fixed.
+struct DesignProblem {
+  CertificateSubject subject;
+  Parameters given;
+  Objective objective = Objective::kFeasible;
+};
+
+/// Gains with the matrices that prove them; or why there are none.
+struct DesignCandidate {
+  /// All that the theorem names; empty where there is no design.
+  NamedMatrices values;
+  /// Least eigenvalue of the theorem's own conditions: > 0 where they hold.
+  double margin = 0.0;
+  /// How good it is by the objective: the smaller the better.
+  double cost = 0.0;
+  std::string solver;
+  /// What went wrong, where there is no design.
+  std::string message;
+
+  bool is_verified() const { return !values.empty() && margin > 0.0; }
+};
+
+/// A way to find gains for which the conditions of a theorem hold.
+class DesignMethod {
+ public:
+  DesignMethod() = default;
+  DesignMethod(const DesignMethod&) = delete;
+  DesignMethod& operator=(const DesignMethod&) = delete;
+  virtual ~DesignMethod() = default;
+
+  /// Paper key and number: "ferrante2019_proposition2".
+  virtual std::string name() const = 0;
+  /// What it does, in one sentence.
+  virtual std::string summary() const = 0;
+  /// The theorem whose original conditions its gains must satisfy.
+  virtual const Theorem& theorem() const = 0;
+  /// The observer type of its gains.
+  virtual std::string observer_type() const { return theorem().observer_types().front(); }
+
+  /// @throws std::invalid_argument saying why, for a plant or times that it is not about.
+  virtual void require_applicable(const CertificateSubject& subject) const {
+    theorem().require_applicable(subject);
+  }
+
+  /// All scalars that the user may fix.
+  virtual std::vector<DesignParameter> parameters(const CertificateSubject& subject) const = 0;
+
+  /// The parameter that is the guaranteed rate of convergence; empty where there is none.
+  virtual std::string decay_parameter() const { return theorem().decay_parameter(); }
+
+  /// Which objectives it can serve.
+  virtual std::vector<Objective> objectives(const CertificateSubject& subject) const = 0;
+
+  /// One attempt with all parameters chosen. Solves in the calling process, which is a worker.
+  /// The candidate is verified by the theorem's own conditions.
+  virtual DesignCandidate attempt(const CertificateSubject& subject, const Parameters& parameters,
+                                  Objective objective) const = 0;
+};
+
+/// A method that is one semidefinite program: it states its variables and its inequalities as named
+/// blocks in the paper's notation, and how gains come out of a solution. The matrices that prove
+/// them are found by the theorem itself, with the gains fixed (see certify_here()).
+class LmiDesignMethod : public DesignMethod {
+ public:
+  DesignCandidate attempt(const CertificateSubject& subject, const Parameters& parameters,
+                          Objective objective) const override;
+
+ protected:
+  virtual LmiProgram program(const CertificateSubject& subject, const Parameters& parameters,
+                             Objective objective) const = 0;
+
+  /// The gains by name.
+  virtual NamedMatrices gains(const CertificateSubject& subject, const Parameters& parameters,
+                              const NamedMatrices& solution) const = 0;
+};
+
+/// All methods, and the one of a name; null where there is none.
+const std::vector<const DesignMethod*>& design_methods();
+const DesignMethod* find_design_method(const std::string& name);
+
+}  // namespace sampled_data_observers

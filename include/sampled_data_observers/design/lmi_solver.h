@@ -1,0 +1,59 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sampled_data_observers/design/lmi_program.h"
+
+namespace sampled_data_observers {
+
+/// What a solver said of a program. It is never enough to accept a design: that takes a check of
+/// the theorem's own inequalities.
+enum class SolverStatus {
+  kSolved,
+  kInaccurate,  ///< stopped before its tolerances, with a solution that may do
+  kInfeasible,
+  kUnbounded,
+  kFailed,
+  kTimedOut,  ///< its process was ended at the time limit
+  kCrashed    ///< its process died
+};
+const char* to_string(SolverStatus status);
+
+struct ViolatedBlock {
+  std::string name;
+  double min_eigenvalue = 0.0;
+};
+
+struct LmiSolution {
+  SolverStatus status = SolverStatus::kFailed;
+  std::string solver;   ///< name and version
+  int return_code = 0;  ///< the solver's own
+  std::string message;  ///< what the code means, or why there is none
+  double primal_objective = 0.0;
+  double dual_objective = 0.0;
+  /// Least eigenvalue of all strict blocks: how far inside the solution is.
+  double margin = 0.0;
+  std::vector<ViolatedBlock> violated;
+  double seconds = 0.0;
+  /// The decision variables, whatever the status; empty where the solver left none.
+  NamedMatrices values;
+
+  /// Whether there are values that satisfy all blocks.
+  bool satisfies_all() const { return !values.empty() && violated.empty(); }
+};
+
+struct SolverOptions {
+  /// How far strict blocks are kept from singular where there is an objective.
+  double margin = 1e-7;
+};
+
+/// Solves in the calling process with CSDP, which is not thread-safe, may loop for ever, and writes
+/// to standard output: to be called in a worker process only (see workers.h).
+LmiSolution solve_with_csdp(const LmiProgram& program, const SolverOptions& options);
+
+/// Solves in a worker process of its own.
+LmiSolution solve_lmi(const LmiProgram& program, double time_limit = 10.0,
+                      const SolverOptions& options = {});
+
+}  // namespace sampled_data_observers

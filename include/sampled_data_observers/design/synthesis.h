@@ -1,0 +1,40 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+
+#include "sampled_data_observers/design/design_method.h"
+
+namespace sampled_data_observers {
+
+struct SynthesisOptions {
+  unsigned jobs = 1;
+  /// For one attempt [s]; a longer one is lost, with its process.
+  double time_limit = 20.0;
+  /// Called now and then with what is being done, for a progress display.
+  std::function<void(const std::string& what, std::size_t attempts)> on_progress;
+};
+
+/// A verified design, and how it was found.
+struct Design {
+  const DesignMethod* method = nullptr;
+  Certificate certificate;
+  Objective objective = Objective::kFeasible;
+  /// All scalars with which it was made.
+  Parameters parameters;
+  double margin = 0.0;
+  std::string solver;
+  double seconds = 0.0;
+  std::size_t attempts = 0;
+};
+
+/// Finds gains by a method: chooses what the user left open, searches for the parameters with a
+/// range, and for max-T2 and max-decay by bisection for the largest value (to 0.1 %).
+/// @throws DesignError when the method is not about the plant or the objective, a parameter means
+/// nothing to it or is not finite, or no attempt led to gains that the theorem's own conditions
+/// accept; the message says what was tried and what to change.
+Design synthesize(const DesignMethod& method, const DesignProblem& problem,
+                  const SynthesisOptions& options);
+
+}  // namespace sampled_data_observers

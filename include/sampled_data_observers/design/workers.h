@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace sampled_data_observers {
+
+/// What became of one task.
+struct WorkerOutcome {
+  enum class Status { kDone, kThrew, kTimedOut, kCrashed };
+  Status status = Status::kCrashed;
+  /// The task's result, or the message of what it threw.
+  std::string result;
+  double seconds = 0.0;
+};
+
+struct WorkerOptions {
+  unsigned jobs = 1;
+  /// A task that takes longer is ended, with its process [s].
+  double time_limit = 10.0;
+  /// Called in the calling process after each task, with its number.
+  std::function<void(std::size_t task, const WorkerOutcome& outcome)> on_outcome;
+};
+
+/// Number of processors.
+unsigned default_jobs();
+
+/// Runs task(0), …, task(count - 1) in forked processes, `jobs` at a time, and gives their outcomes
+/// in this order. A task that hangs, crashes or throws costs its own outcome only. In a worker,
+/// standard output is closed and the working directory is /.
+/// @pre the calling process has one thread
+/// @throws std::system_error where no process can be started
+std::vector<WorkerOutcome> run_in_workers(std::size_t count,
+                                          const std::function<std::string(std::size_t)>& task,
+                                          const WorkerOptions& options);
+
+}  // namespace sampled_data_observers

@@ -1,0 +1,37 @@
+#include "sampled_data_observers/certificate/certificate.h"
+
+#include <algorithm>
+
+#include "theorems.h"
+
+namespace sampled_data_observers {
+
+NamedShape scalar_shape(const std::string& name) { return {name, 1, 1, NamedShape::Form::kScalar}; }
+
+NamedShape matrix_shape(const std::string& name, Eigen::Index rows, Eigen::Index cols) {
+  return {name, rows, cols, NamedShape::Form::kMatrix};
+}
+
+NamedShape symmetric_shape(const std::string& name, Eigen::Index n) {
+  return {name, n, n, NamedShape::Form::kSymmetric};
+}
+
+const std::vector<const Theorem*>& theorems() {
+  static const std::vector<const Theorem*> all = {
+      &ferrante2019_theorem2(),
+  };
+  return all;
+}
+
+const Theorem* find_theorem(const std::string& name) {
+  const auto& all = theorems();
+  const auto found = std::find_if(all.begin(), all.end(),
+                                  [&](const Theorem* theorem) { return theorem->name() == name; });
+  return found == all.end() ? nullptr : *found;
+}
+
+std::vector<ConditionCheck> check(const Certificate& certificate) {
+  return check(certificate.theorem->conditions(certificate.subject), certificate.values);
+}
+
+}  // namespace sampled_data_observers

@@ -1,0 +1,47 @@
+#include "sampled_data_observers/certificate/matrix_functions.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <Eigen/SVD>
+#include <limits>
+#include <unsupported/Eigen/MatrixFunctions>
+
+namespace sampled_data_observers {
+
+Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& a) {
+  if (!a.allFinite()) {
+    return Eigen::VectorXd::Constant(a.rows(), std::numeric_limits<double>::quiet_NaN());
+  }
+  const Eigen::MatrixXd symmetric = (a + a.transpose()) / 2.0;
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric, Eigen::EigenvaluesOnly)
+      .eigenvalues();
+}
+
+double min_eigenvalue(const Eigen::MatrixXd& a) { return symmetric_eigenvalues(a)(0); }
+
+double max_eigenvalue(const Eigen::MatrixXd& a) { return symmetric_eigenvalues(a)(a.rows() - 1); }
+
+Eigen::VectorXd singular_values(const Eigen::MatrixXd& a) {
+  return Eigen::JacobiSVD<Eigen::MatrixXd>(a).singularValues();
+}
+
+double norm2(const Eigen::MatrixXd& a) { return a.size() == 0 ? 0.0 : singular_values(a)(0); }
+
+Eigen::MatrixXd exponential_of(const Eigen::MatrixXd& a) { return a.exp(); }
+
+Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& a) { return a.partialPivLu().inverse(); }
+
+Eigen::MatrixXd solve_linear(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  return a.partialPivLu().solve(b);
+}
+
+Eigen::VectorXcd eigenvalues_of(const Eigen::MatrixXd& a) {
+  return Eigen::EigenSolver<Eigen::MatrixXd>(a, false).eigenvalues();
+}
+
+Eigen::MatrixXd null_space(const Eigen::MatrixXd& a) {
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(a, Eigen::ComputeFullV);
+  return svd.matrixV().rightCols(a.cols() - svd.rank());
+}
+
+}  // namespace sampled_data_observers

@@ -1,0 +1,85 @@
+#include "sampled_data_observers/certificate/plant_matrices.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "sampled_data_observers/plant/lipschitz_map.h"
+
+namespace sampled_data_observers {
+namespace {
+
+const AffineMap& affine(const VectorMap& map, const std::string& what) {
+  const AffineMap* result = map.affine();
+  if (result != nullptr) return *result;
+  throw std::invalid_argument("the conditions are about linear maps, but " + what +
+                              " is given by formulas or a plug-in");
+}
+
+Eigen::MatrixXd stacked_outputs(const Plant& plant, const PlantMode& mode, SensorTiming timing) {
+  Eigen::MatrixXd stacked(plant.outputs(timing), plant.states());
+  Eigen::Index row = 0;
+  for (std::size_t i = 0; i < plant.sensors().size(); ++i) {
+    const Sensor& sensor = plant.sensors()[i];
+    if (sensor.timing != timing) continue;
+    stacked.middleRows(row, sensor.outputs()) =
+        affine(*mode.outputs[i], "the output of sensor '" + sensor.name + "'").M();
+    row += sensor.outputs();
+  }
+  return stacked;
+}
+
+void require_one_sensor_of_each_timing(const Plant& plant) {
+  for (const SensorTiming timing :
+       {SensorTiming::kSampled, SensorTiming::kContinuous, SensorTiming::kAtJumps}) {
+    const auto count =
+        std::count_if(plant.sensors().begin(), plant.sensors().end(),
+                      [timing](const Sensor& sensor) { return sensor.timing == timing; });
+    if (count <= 1) continue;
+    throw std::invalid_argument(
+        "the conditions are about one sensor whose outputs are measured together, but " +
+        std::to_string(count) + " sensors are " + to_string(timing));
+  }
+}
+
+}  // namespace
+
+bool PlantMatrices::jumps() const {
+  return std::any_of(modes.begin(), modes.end(),
+                     [](const ModeMatrices& mode) { return mode.A_d.has_value(); });
+}
+
+PlantMatrices matrices_of(const Plant& plant) {
+  require_one_sensor_of_each_timing(plant);
+  PlantMatrices result;
+  result.state_names = plant.state_names();
+  const Eigen::Index n = plant.states();
+  result.G.resize(n, 0);
+  result.S.resize(0, n);
+  result.N.resize(n, 0);
+  result.C_p.resize(0, n);
+  for (const PlantMode& mode : plant.modes()) {
+    ModeMatrices matrices;
+    matrices.label = mode.label;
+    if (const auto* lipschitz = dynamic_cast<const LipschitzMap*>(mode.flow.get())) {
+      if (plant.switches()) {
+        throw std::invalid_argument("the conditions are about switched plants with linear flows");
+      }
+      const LipschitzDescription& description = lipschitz->description();
+      matrices.A = description.A;
+      result.G = description.G;
+      result.S = description.S;
+      result.lipschitz_constant = description.lipschitz_constant;
+      result.vertices = description.vertices;
+    } else {
+      matrices.A = affine(*mode.flow, "the flow").M();
+    }
+    if (mode.jump) matrices.A_d = affine(*mode.jump, "the jump map").M();
+    matrices.C = stacked_outputs(plant, mode, SensorTiming::kSampled);
+    matrices.C_c = stacked_outputs(plant, mode, SensorTiming::kContinuous);
+    matrices.C_d = stacked_outputs(plant, mode, SensorTiming::kAtJumps);
+    result.modes.push_back(std::move(matrices));
+  }
+  return result;
+}
+
+}  // namespace sampled_data_observers

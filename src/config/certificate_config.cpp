@@ -1,0 +1,70 @@
+#include "sampled_data_observers/config/certificate_config.h"
+
+#include <stdexcept>
+#include <utility>
+
+#include "sampled_data_observers/config/named_values.h"
+
+namespace sampled_data_observers {
+namespace {
+
+/// What the file says for readers only.
+const char* const kRemarks[] = {"guarantee",  "method", "objective", "solver",
+                                "parameters", "margin", "date"};
+
+const Theorem& read_theorem(ConfigSection& section) {
+  std::vector<std::string> names;
+  for (const Theorem* theorem : theorems()) names.push_back(theorem->name());
+  return *find_theorem(section.choice("theorem", names));
+}
+
+CertificateSubject read_subject(ConfigSection& section, const Plant& plant) {
+  CertificateSubject subject;
+  try {
+    subject.plant = matrices_of(plant);
+  } catch (const std::invalid_argument& fault) {
+    throw section.error("theorem", "a plant that the theorem is about", fault.what());
+  }
+  const Eigen::Index n = subject.plant.states();
+  if (section.has("N")) subject.plant.N = section.matrix("N", n, -1);
+  if (section.has("C_p")) subject.plant.C_p = section.matrix("C_p", -1, n);
+  subject.T1 = section.number("T1");
+  subject.T2 = section.number("T2");
+  if (!(0.0 <= subject.T1 && subject.T1 <= subject.T2)) {
+    throw section.error("T2", "0 <= T1 <= T2", "T1 or T2 out of order");
+  }
+  return subject;
+}
+
+}  // namespace
+
+std::optional<CertificateConfig> read_certificate(ConfigSection& root, const Plant& plant) {
+  if (!root.has("certificate")) return std::nullopt;
+  ConfigSection section = root.section("certificate");
+  CertificateConfig config;
+  config.origin = section.origin();
+  Certificate& certificate = config.certificate;
+  certificate.theorem = &read_theorem(section);
+  certificate.subject = read_subject(section, plant);
+  try {
+    certificate.theorem->require_applicable(certificate.subject);
+  } catch (const std::invalid_argument& fault) {
+    throw section.error("theorem", "a plant that the theorem is about", fault.what());
+  }
+  ConfigSection of_plant = section.section("plant");
+  config.plant_file = of_plant.text("file");
+  config.plant_hash = of_plant.text("hash");
+  of_plant.finish();
+
+  const Theorem& theorem = *certificate.theorem;
+  certificate.values = read_named_values(section, theorem.parameters(certificate.subject));
+  certificate.values.merge(read_named_values(section, theorem.multipliers(certificate.subject)));
+  ConfigSection gains = root.section("gains");
+  certificate.values.merge(
+      read_gain_values(gains, theorem.gains(certificate.subject), certificate.subject));
+  for (const char* remark : kRemarks) section.has(remark);
+  section.finish();
+  return config;
+}
+
+}  // namespace sampled_data_observers

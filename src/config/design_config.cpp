@@ -1,0 +1,46 @@
+#include "sampled_data_observers/config/design_config.h"
+
+#include <stdexcept>
+
+#include "sampled_data_observers/config/config_section.h"
+#include "sampled_data_observers/config/plant_fingerprint.h"
+#include "sampled_data_observers/config/yaml_file.h"
+
+namespace sampled_data_observers {
+
+DesignConfig read_design_config(const std::vector<std::string>& files,
+                                const PlantPluginLoader& load_plugin) {
+  std::vector<ConfigNode> trees;
+  for (const std::string& file : files) trees.push_back(read_yaml_file(file));
+  const ConfigNode tree = merge(trees);
+  ConfigSection root(tree, "");
+  DesignConfig config;
+  config.plant = read_plant(root, load_plugin).plant;
+  config.plant_hash = plant_fingerprint(tree);
+  try {
+    config.subject.plant = matrices_of(*config.plant);
+  } catch (const std::invalid_argument& fault) {
+    throw root.error("plant", "a plant that a design can be made for", fault.what());
+  }
+  ConfigSection section = root.section_or_empty("design");
+  const Eigen::Index n = config.plant->states();
+  if (section.has("N")) config.subject.plant.N = section.matrix("N", n, -1);
+  if (section.has("C_p")) config.subject.plant.C_p = section.matrix("C_p", -1, n);
+  if (section.has("sampling")) {
+    ConfigSection sampling = section.section("sampling");
+    config.subject.T1 = sampling.number_in("T1", 1e-9, 1e6, std::nullopt);
+    config.subject.T2 = sampling.number_in("T2", 1e-9, 1e6, std::nullopt);
+    if (config.subject.T1 > config.subject.T2) {
+      throw sampling.error("T2", "a number not less than T1", "T1 > T2");
+    }
+    sampling.finish();
+  }
+  ConfigSection parameters = section.section_or_empty("parameters");
+  for (const std::string& name : parameters.keys()) {
+    config.parameters[name] = parameters.number(name);
+  }
+  section.finish();
+  return config;
+}
+
+}  // namespace sampled_data_observers

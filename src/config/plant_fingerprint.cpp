@@ -1,0 +1,81 @@
+#include "sampled_data_observers/config/plant_fingerprint.h"
+
+#include <boost/uuid/name_generator_sha1.hpp>
+#include <boost/uuid/uuid_io.hpp>
+#include <cstdlib>
+#include <iomanip>
+#include <locale>
+#include <map>
+#include <set>
+#include <sstream>
+
+namespace sampled_data_observers {
+namespace {
+
+using Skipped = std::set<std::string>;
+
+const Skipped kNotThePlant = {"integration"};
+const Skipped kNotTheMeasurement = {"source"};
+
+/// A number in one way of writing; another text as it is.
+std::string canonical_scalar(const std::string& text) {
+  std::istringstream in(text);
+  in.imbue(std::locale::classic());
+  double value = 0.0;
+  if (!(in >> value) || in.peek() != std::char_traits<char>::eof()) return "'" + text + "'";
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out << std::setprecision(17) << value + 0.0;  // no negative zero
+  return out.str();
+}
+
+void write(const ConfigNode& node, const Skipped& skipped, std::string& text) {
+  switch (node.kind) {
+    case ConfigNode::Kind::kEmpty:
+      text += '~';
+      break;
+    case ConfigNode::Kind::kScalar:
+      text += canonical_scalar(node.scalar);
+      break;
+    case ConfigNode::Kind::kSequence:
+      text += '[';
+      for (const ConfigNode& item : node.items) {
+        write(item, {}, text);
+        text += ',';
+      }
+      text += ']';
+      break;
+    case ConfigNode::Kind::kMap: {
+      std::map<std::string, const ConfigNode*> sorted;
+      for (const auto& [key, value] : node.entries) sorted[key] = &value;
+      text += '{';
+      for (const auto& [key, value] : sorted) {
+        if (skipped.count(key) > 0) continue;
+        text += "'" + key + "':";
+        write(*value, {}, text);
+        text += ',';
+      }
+      text += '}';
+      break;
+    }
+  }
+}
+
+}  // namespace
+
+std::string plant_fingerprint(const ConfigNode& root) {
+  std::string text;
+  if (const ConfigNode* plant = root.find("plant")) write(*plant, kNotThePlant, text);
+  std::map<std::string, const ConfigNode*> sorted;
+  if (const ConfigNode* sensors = root.find("sensors")) {
+    for (const auto& [name, sensor] : sensors->entries) sorted[name] = &sensor;
+  }
+  for (const auto& [name, sensor] : sorted) {
+    text += "'" + name + "':";
+    write(*sensor, kNotTheMeasurement, text);
+  }
+  const boost::uuids::name_generator_sha1 generator(boost::uuids::ns::url());
+  return to_string(generator(text));
+}
+
+}  // namespace sampled_data_observers

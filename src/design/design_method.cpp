@@ -1,0 +1,60 @@
+#include "sampled_data_observers/design/design_method.h"
+
+#include <algorithm>
+
+#include "methods/methods.h"
+#include "sampled_data_observers/design/certify.h"
+
+namespace sampled_data_observers {
+
+const char* to_string(Objective objective) {
+  switch (objective) {
+    case Objective::kFeasible:
+      return "feasible";
+    case Objective::kMinGamma:
+      return "min-gamma";
+    case Objective::kMaxT2:
+      return "max-T2";
+    case Objective::kMaxDecay:
+      break;
+  }
+  return "max-decay";
+}
+
+DesignCandidate LmiDesignMethod::attempt(const CertificateSubject& subject,
+                                         const Parameters& parameters, Objective objective) const {
+  const LmiSolution solution =
+      solve_with_csdp(program(subject, parameters, objective), SolverOptions());
+  if (solution.values.empty() || solution.status == SolverStatus::kInfeasible ||
+      solution.status == SolverStatus::kUnbounded) {
+    DesignCandidate none;
+    none.solver = solution.solver;
+    none.message = solution.message;
+    return none;
+  }
+  NamedMatrices fixed = gains(subject, parameters, solution.values);
+  for (const NamedShape& shape : theorem().parameters(subject)) {
+    const auto given = parameters.find(shape.name);
+    if (given != parameters.end()) fixed[shape.name] = scalar_matrix(given->second);
+  }
+  if (fixed.count("gamma") == 0 && solution.values.count("gamma") > 0) {
+    fixed["gamma"] = solution.values.at("gamma");
+  }
+  return certify_here(theorem(), subject, fixed, objective);
+}
+
+const std::vector<const DesignMethod*>& design_methods() {
+  static const std::vector<const DesignMethod*> all = {
+      &ferrante2019_proposition2(),
+  };
+  return all;
+}
+
+const DesignMethod* find_design_method(const std::string& name) {
+  const auto& all = design_methods();
+  const auto found = std::find_if(
+      all.begin(), all.end(), [&](const DesignMethod* method) { return method->name() == name; });
+  return found == all.end() ? nullptr : *found;
+}
+
+}  // namespace sampled_data_observers

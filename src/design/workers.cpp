@@ -1,0 +1,240 @@
+#include "sampled_data_observers/design/workers.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdint>
+#include <exception>
+#include <memory>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+namespace sampled_data_observers {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+
+/// What precedes a result in the pipe.
+struct Header {
+  std::uint64_t size = 0;
+  std::uint64_t threw = 0;
+};
+
+bool write_all(int fd, const void* data, std::size_t size) {
+  const char* at = static_cast<const char*>(data);
+  while (size > 0) {
+    const ssize_t written = ::write(fd, at, size);
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) return false;
+    at += written;
+    size -= static_cast<std::size_t>(written);
+  }
+  return true;
+}
+
+bool read_all(int fd, void* data, std::size_t size) {
+  char* at = static_cast<char*>(data);
+  while (size > 0) {
+    const ssize_t got = ::read(fd, at, size);
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) return false;
+    at += got;
+    size -= static_cast<std::size_t>(got);
+  }
+  return true;
+}
+
+[[noreturn]] void serve(int from_parent, int to_parent,
+                        const std::function<std::string(std::size_t)>& task) {
+  const int null = ::open("/dev/null", O_WRONLY);
+  if (null >= 0) ::dup2(null, STDOUT_FILENO);
+  if (::chdir("/") != 0) ::_exit(1);
+  std::uint64_t number = 0;
+  while (read_all(from_parent, &number, sizeof number)) {
+    Header header;
+    std::string result;
+    try {
+      result = task(number);
+    } catch (const std::exception& error) {
+      result = error.what();
+      header.threw = 1;
+    }
+    header.size = result.size();
+    if (!write_all(to_parent, &header, sizeof header) ||
+        !write_all(to_parent, result.data(), result.size())) {
+      break;
+    }
+  }
+  // Without destructors: they belong to the parent.
+  ::_exit(0);
+}
+
+class Worker {
+ public:
+  explicit Worker(const std::function<std::string(std::size_t)>& task) {
+    int down[2];
+    int up[2];
+    if (::pipe2(down, O_CLOEXEC) != 0) fail("pipe");
+    if (::pipe2(up, O_CLOEXEC) != 0) fail("pipe");
+    pid_ = ::fork();
+    if (pid_ < 0) fail("fork");
+    if (pid_ == 0) {
+      ::close(down[1]);
+      ::close(up[0]);
+      serve(down[0], up[1], task);
+    }
+    ::close(down[0]);
+    ::close(up[1]);
+    to_ = down[1];
+    from_ = up[0];
+  }
+  Worker(const Worker&) = delete;
+  Worker& operator=(const Worker&) = delete;
+  ~Worker() {
+    ::kill(pid_, SIGKILL);
+    ::close(to_);
+    ::close(from_);
+    while (::waitpid(pid_, nullptr, 0) < 0 && errno == EINTR) {
+    }
+  }
+
+  int from() const { return from_; }
+  std::size_t task() const { return task_; }
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - since_).count(); }
+
+  bool start(std::size_t task) {
+    task_ = task;
+    since_ = Clock::now();
+    const std::uint64_t number = task;
+    return write_all(to_, &number, sizeof number);
+  }
+
+  /// Waits for the rest of a result that has begun to arrive.
+  WorkerOutcome finish() {
+    WorkerOutcome outcome;
+    Header header;
+    if (read_all(from_, &header, sizeof header)) {
+      outcome.result.resize(header.size);
+      if (read_all(from_, outcome.result.data(), header.size)) {
+        outcome.status =
+            header.threw != 0 ? WorkerOutcome::Status::kThrew : WorkerOutcome::Status::kDone;
+      }
+    }
+    outcome.seconds = seconds();
+    return outcome;
+  }
+
+ private:
+  [[noreturn]] static void fail(const char* what) {
+    throw std::system_error(errno, std::generic_category(), what);
+  }
+
+  pid_t pid_ = -1;
+  int to_ = -1;
+  int from_ = -1;
+  std::size_t task_ = kNone;
+  Clock::time_point since_;
+};
+
+/// A worker that died must give an error on writing, not a signal.
+class IgnoredBrokenPipes {
+ public:
+  IgnoredBrokenPipes() : before_(std::signal(SIGPIPE, SIG_IGN)) {}
+  IgnoredBrokenPipes(const IgnoredBrokenPipes&) = delete;
+  IgnoredBrokenPipes& operator=(const IgnoredBrokenPipes&) = delete;
+  ~IgnoredBrokenPipes() { std::signal(SIGPIPE, before_); }
+
+ private:
+  void (*before_)(int);
+};
+
+class Pool {
+ public:
+  Pool(std::size_t count, const std::function<std::string(std::size_t)>& task,
+       const WorkerOptions& options)
+      : task_(task), options_(options), outcomes_(count) {}
+
+  std::vector<WorkerOutcome> run() {
+    const IgnoredBrokenPipes ignored;
+    const std::size_t jobs = std::min<std::size_t>(std::max(1U, options_.jobs), outcomes_.size());
+    workers_.resize(jobs);
+    for (auto& worker : workers_) give_next(worker);
+    while (done_ < outcomes_.size()) wait();
+    return std::move(outcomes_);
+  }
+
+ private:
+  void give_next(std::unique_ptr<Worker>& worker) {
+    if (next_ == outcomes_.size()) {
+      worker.reset();
+      return;
+    }
+    if (!worker) worker = std::make_unique<Worker>(task_);
+    // Where it died meanwhile, the end of its pipe tells.
+    worker->start(next_++);
+  }
+
+  void wait() {
+    std::vector<pollfd> waiting;
+    std::vector<std::size_t> positions;
+    double remaining = options_.time_limit;
+    for (std::size_t i = 0; i < workers_.size(); ++i) {
+      if (!workers_[i]) continue;
+      waiting.push_back({workers_[i]->from(), POLLIN, 0});
+      positions.push_back(i);
+      remaining = std::min(remaining, options_.time_limit - workers_[i]->seconds());
+    }
+    const int timeout = static_cast<int>(std::min(1e6, std::max(0.0, remaining)) * 1000.0) + 1;
+    if (::poll(waiting.data(), waiting.size(), timeout) < 0) return;  // interrupted
+    for (std::size_t k = 0; k < waiting.size(); ++k) {
+      std::unique_ptr<Worker>& worker = workers_[positions[k]];
+      if (waiting[k].revents != 0) {
+        take(worker, worker->finish());
+      } else if (worker->seconds() > options_.time_limit) {
+        WorkerOutcome outcome;
+        outcome.status = WorkerOutcome::Status::kTimedOut;
+        outcome.seconds = worker->seconds();
+        take(worker, std::move(outcome));
+      }
+    }
+  }
+
+  void take(std::unique_ptr<Worker>& worker, WorkerOutcome outcome) {
+    const std::size_t task = worker->task();
+    const bool ended = outcome.status == WorkerOutcome::Status::kTimedOut ||
+                       outcome.status == WorkerOutcome::Status::kCrashed;
+    if (ended) worker.reset();
+    outcomes_[task] = std::move(outcome);
+    ++done_;
+    if (options_.on_outcome) options_.on_outcome(task, outcomes_[task]);
+    give_next(worker);
+  }
+
+  const std::function<std::string(std::size_t)>& task_;
+  const WorkerOptions& options_;
+  std::vector<WorkerOutcome> outcomes_;
+  std::vector<std::unique_ptr<Worker>> workers_;
+  std::size_t next_ = 0;
+  std::size_t done_ = 0;
+};
+
+}  // namespace
+
+unsigned default_jobs() { return std::max(1U, std::thread::hardware_concurrency()); }
+
+std::vector<WorkerOutcome> run_in_workers(std::size_t count,
+                                          const std::function<std::string(std::size_t)>& task,
+                                          const WorkerOptions& options) {
+  return Pool(count, task, options).run();
+}
+
+}  // namespace sampled_data_observers

@@ -1,0 +1,78 @@
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "commands.h"
+#include "sampled_data_observers/config/certificate_config.h"
+#include "sampled_data_observers/config/plant_config.h"
+#include "sampled_data_observers/config/plant_fingerprint.h"
+#include "sampled_data_observers/config/yaml_file.h"
+#include "sampled_data_observers/ros/plant_plugins.h"
+
+namespace sampled_data_observers {
+namespace {
+
+struct Arguments {
+  std::string gains;
+  std::vector<std::string> plant;
+};
+
+/// The claim of a gain file together with its plant: the one named, or the one given.
+CertificateConfig read_claim(const Arguments& arguments) {
+  const ConfigNode gains = read_yaml_file(arguments.gains);
+  std::vector<std::string> files = arguments.plant;
+  if (files.empty()) {
+    ConfigSection section = ConfigSection(gains, "").section("certificate").section("plant");
+    const auto folder = std::filesystem::absolute(arguments.gains).parent_path();
+    files.push_back((folder / section.text("file")).lexically_normal().string());
+  }
+  std::vector<ConfigNode> trees;
+  for (const std::string& file : files) trees.push_back(read_yaml_file(file));
+  const ConfigNode plant_tree = merge(trees);
+  ConfigSection plant_root(plant_tree, "");
+  const PlantConfig plant = read_plant(plant_root, load_plant_plugin);
+  ConfigSection root(gains, "");
+  auto config = read_certificate(root, *plant.plant);
+  if (!config) throw root.error("certificate", "a gain file with a certificate", "none");
+  const std::string hash = plant_fingerprint(plant_tree);
+  if (hash != config->plant_hash) {
+    throw ConfigError(config->origin, "certificate/plant/hash",
+                      "the fingerprint of " + files.front() + ", " + hash, config->plant_hash);
+  }
+  return *config;
+}
+
+void verify_command(const Arguments& arguments) {
+  const CertificateConfig config = read_claim(arguments);
+  const Certificate& certificate = config.certificate;
+  std::printf("%s: %s\n", certificate.theorem->name().c_str(),
+              certificate.theorem->guarantee().c_str());
+  const auto checks = check(certificate);
+  for (const ConditionCheck& check : checks) {
+    std::printf("  %-9s %s, least eigenvalue %.3g", check.holds() ? "holds" : "VIOLATED",
+                check.name.c_str(), check.min_eigenvalue);
+    if (check.tau) std::printf(" at tau = %.6g s", *check.tau);
+    std::printf("\n");
+  }
+  if (!all_hold(checks)) throw ExitStatus{kNotVerified};
+}
+
+}  // namespace
+
+void add_verify(CLI::App& app) {
+  CLI::App* command =
+      app.add_subcommand("verify", "Check the original inequalities of a gain file's theorem");
+  auto arguments = std::make_shared<Arguments>();
+  command->add_option("gains", arguments->gains, "Gain file")->required()->type_name("GAINS");
+  command
+      ->add_option("--plant", arguments->plant,
+                   "Files with the plant, instead of the one that the gain file names")
+      ->type_name("PLANT");
+  command->callback([arguments] { verify_command(*arguments); });
+}
+
+}  // namespace sampled_data_observers
