@@ -18,7 +18,8 @@ NamedShape symmetric_shape(const std::string& name, Eigen::Index n) {
 
 const std::vector<const Theorem*>& theorems() {
   static const std::vector<const Theorem*> all = {
-      &ferrante2019_theorem2(),
+      &ferrante2016_theorem1(),   &ferrante2019_theorem2(),  &ferrante2019_corollary1(),
+      &ferrante2019_corollary2(), &sferlazza2019_theorem2(),
   };
   return all;
 }

@@ -1,5 +1,6 @@
 #include "sampled_data_observers/certificate/matrix_functions.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/SVD>
@@ -21,6 +22,22 @@ double min_eigenvalue(const Eigen::MatrixXd& a) { return symmetric_eigenvalues(a
 
 double max_eigenvalue(const Eigen::MatrixXd& a) { return symmetric_eigenvalues(a)(a.rows() - 1); }
 
+Eigen::VectorXd least_eigenvector(const Eigen::MatrixXd& a) {
+  const Eigen::MatrixXd symmetric = (a + a.transpose()) / 2.0;
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric).eigenvectors().col(0);
+}
+
+std::optional<Eigen::MatrixXd> diagonalizing_congruence(const Eigen::MatrixXd& a,
+                                                        const Eigen::MatrixXd& b) {
+  const Eigen::LLT<Eigen::MatrixXd> factor(a);
+  if (!a.allFinite() || !b.allFinite() || factor.info() != Eigen::Success) return std::nullopt;
+  const Eigen::MatrixXd half = factor.matrixL().solve(b);
+  const Eigen::MatrixXd reduced = factor.matrixL().solve(half.transpose());
+  const Eigen::MatrixXd rotation =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(reduced).eigenvectors();
+  return factor.matrixU().solve(rotation);
+}
+
 Eigen::VectorXd singular_values(const Eigen::MatrixXd& a) {
   return Eigen::JacobiSVD<Eigen::MatrixXd>(a).singularValues();
 }
@@ -35,6 +52,14 @@ Eigen::MatrixXd solve_linear(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b)
   return a.partialPivLu().solve(b);
 }
 
+Eigen::MatrixXd cholesky_root(const Eigen::MatrixXd& a) {
+  const Eigen::LLT<Eigen::MatrixXd> decomposition(a);
+  if (decomposition.info() != Eigen::Success) {
+    return Eigen::MatrixXd::Constant(a.rows(), a.cols(), std::numeric_limits<double>::quiet_NaN());
+  }
+  return decomposition.matrixU();
+}
+
 Eigen::VectorXcd eigenvalues_of(const Eigen::MatrixXd& a) {
   return Eigen::EigenSolver<Eigen::MatrixXd>(a, false).eigenvalues();
 }
@@ -42,6 +67,10 @@ Eigen::VectorXcd eigenvalues_of(const Eigen::MatrixXd& a) {
 Eigen::MatrixXd null_space(const Eigen::MatrixXd& a) {
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(a, Eigen::ComputeFullV);
   return svd.matrixV().rightCols(a.cols() - svd.rank());
+}
+
+Eigen::MatrixXd weakest_directions(const Eigen::MatrixXd& a, Eigen::Index count) {
+  return Eigen::JacobiSVD<Eigen::MatrixXd>(a, Eigen::ComputeFullV).matrixV().rightCols(count);
 }
 
 }  // namespace sampled_data_observers

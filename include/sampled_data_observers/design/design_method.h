@@ -2,6 +2,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -28,8 +29,9 @@ const char* to_string(Objective objective);
 struct DesignParameter {
   std::string name;
   std::string meaning;  ///< for the help, with its unit
-  /// Used where the user gives none and it is not searched for.
+  /// Used where the user gives none and does not ask for a search.
   std::optional<double> default_value;
+  /// Without default, the parameter is always searched for.
   std::optional<SearchRange> search;
 };
 
@@ -37,6 +39,8 @@ struct DesignParameter {
 struct DesignProblem {
   CertificateSubject subject;
   Parameters given;
+  /// Those to search for although they have defaults.
+  std::set<std::string> searched;
   Objective objective = Objective::kFeasible;
 };
 
@@ -93,17 +97,23 @@ class DesignMethod {
 };
 
 /// A method that is one semidefinite program: it states its variables and its inequalities as named
-/// blocks in the paper's notation, and how gains come out of a solution. The matrices that prove
-/// them are found by the theorem itself, with the gains fixed (see certify_here()).
+/// blocks in the paper's notation, and how gains come out of a solution.
 class LmiDesignMethod : public DesignMethod {
  public:
+  /// Solves the program, and takes the matrices that prove the gains from its solution where it has
+  /// all that the theorem names. The candidate is checked by the theorem's own conditions.
+  DesignCandidate solve(const CertificateSubject& subject, const Parameters& parameters,
+                        Objective objective) const;
+
+  /// The same, but lets the theorem find these matrices, with the gains fixed (certify_here()).
   DesignCandidate attempt(const CertificateSubject& subject, const Parameters& parameters,
                           Objective objective) const override;
 
- protected:
+  /// @throws std::invalid_argument saying why, for parameters that it can't have.
   virtual LmiProgram program(const CertificateSubject& subject, const Parameters& parameters,
                              Objective objective) const = 0;
 
+ protected:
   /// The gains by name.
   virtual NamedMatrices gains(const CertificateSubject& subject, const Parameters& parameters,
                               const NamedMatrices& solution) const = 0;
