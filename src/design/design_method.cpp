@@ -34,6 +34,10 @@ DesignCandidate LmiDesignMethod::solve(const CertificateSubject& subject,
     return candidate;
   }
   NamedMatrices values = gains(subject, parameters, solution.values);
+  if (values.empty()) {
+    candidate.message = "the solver left a bound";
+    return candidate;
+  }
   for (const NamedShape& shape : theorem().parameters(subject)) {
     const auto given = parameters.find(shape.name);
     if (given != parameters.end()) values[shape.name] = scalar_matrix(given->second);
