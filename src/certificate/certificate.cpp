@@ -18,6 +18,9 @@ NamedShape symmetric_shape(const std::string& name, Eigen::Index n) {
 
 const std::vector<const Theorem*>& theorems() {
   static const std::vector<const Theorem*> all = {
+      &bernard2022_corollary5_2(), &bernard2022_equation14(),   &bernard2022_equation22(),
+      &bernard2022_equation26(),   &bernard2022_example4_2(),   &bernard2022_example7_1(),
+      &bernard2022_section7_3_2(), &etienne2019_proposition1(), &etienne2019_proposition2(),
       &ferrante2019_theorem2(),
   };
   return all;

@@ -1,5 +1,6 @@
 #include "sampled_data_observers/certificate/matrix_functions.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/SVD>
@@ -20,6 +21,12 @@ Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& a) {
 double min_eigenvalue(const Eigen::MatrixXd& a) { return symmetric_eigenvalues(a)(0); }
 
 double max_eigenvalue(const Eigen::MatrixXd& a) { return symmetric_eigenvalues(a)(a.rows() - 1); }
+
+double largest_generalized_eigenvalue(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  const Eigen::LLT<Eigen::MatrixXd> root(b);
+  const Eigen::MatrixXd half = root.matrixL().solve(a);
+  return max_eigenvalue(root.matrixL().solve(half.transpose()));
+}
 
 Eigen::VectorXd singular_values(const Eigen::MatrixXd& a) {
   return Eigen::JacobiSVD<Eigen::MatrixXd>(a).singularValues();

@@ -11,6 +11,9 @@ Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& a);
 double min_eigenvalue(const Eigen::MatrixXd& a);
 double max_eigenvalue(const Eigen::MatrixXd& a);
 
+/// The least c for which a <= c b, a symmetric and b symmetric positive definite.
+double largest_generalized_eigenvalue(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
+
 /// Singular values, in decreasing order; the largest is the norm ‖a‖₂.
 Eigen::VectorXd singular_values(const Eigen::MatrixXd& a);
 double norm2(const Eigen::MatrixXd& a);
