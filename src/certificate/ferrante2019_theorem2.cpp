@@ -103,6 +103,12 @@ class Theorem2 : public Theorem {
     return all;
   }
 
+  std::string decay_parameter() const override { return "lambda_t"; }
+
+  std::vector<NamedRange> search_ranges(const CertificateSubject& subject) const override {
+    return {{"delta", {0.1 / subject.T2, 30.0 / subject.T2, true}}};
+  }
+
   bool is_homogeneous(const CertificateSubject& subject) const override {
     return subject.plant.N.cols() == 0 && subject.plant.C_p.rows() == 0;
   }

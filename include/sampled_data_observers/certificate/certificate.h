@@ -29,6 +29,23 @@ NamedShape scalar_shape(const std::string& name);
 NamedShape matrix_shape(const std::string& name, Eigen::Index rows, Eigen::Index cols);
 NamedShape symmetric_shape(const std::string& name, Eigen::Index n);
 
+/// Values between which a scalar is searched for.
+struct SearchRange {
+  double low = 0.0;
+  double high = 0.0;
+  bool is_logarithmic = true;
+};
+struct NamedRange {
+  std::string name;
+  SearchRange range;
+};
+
+/// A number that follows from a proof, such as the gain from the noise to the error.
+struct GuaranteedFigure {
+  std::string meaning;  ///< with its unit
+  double value = 0.0;
+};
+
 /// A theorem of a paper: what it demands of gains and of the matrices that prove them, and what it
 /// then guarantees. Stateless.
 class Theorem {
@@ -59,12 +76,27 @@ class Theorem {
   /// Scalars that are chosen: rates, levels, and those searched for.
   virtual std::vector<NamedShape> parameters(const CertificateSubject& subject) const = 0;
 
+  /// The parameter that is the guaranteed rate of convergence; empty where there is none. What
+  /// holds for a rate holds for smaller ones.
+  virtual std::string decay_parameter() const { return ""; }
+
+  /// The parameters that say nothing of the guarantee and only help to prove it, with the values
+  /// among which a proof for given gains is searched.
+  virtual std::vector<NamedRange> search_ranges(const CertificateSubject&) const { return {}; }
+
   /// Whether the conditions hold for all positive multiples of the multipliers as well.
   virtual bool is_homogeneous(const CertificateSubject& subject) const = 0;
 
   /// The original inequalities of the theorem, in the symbols of gains(), multipliers() and
   /// parameters(). Together they imply what it guarantees.
   virtual std::vector<Condition> conditions(const CertificateSubject& subject) const = 0;
+
+  /// What it guarantees in numbers besides its parameters.
+  /// @pre the conditions hold
+  virtual std::vector<GuaranteedFigure> guaranteed_figures(const CertificateSubject&,
+                                                           const NamedMatrices& /*values*/) const {
+    return {};
+  }
 
   /// The bound that it gives at run time; null where it gives none.
   /// @pre the conditions hold

@@ -24,13 +24,6 @@ using Parameters = std::map<std::string, double>;
 enum class Objective { kFeasible, kMinGamma, kMaxT2, kMaxDecay };
 const char* to_string(Objective objective);
 
-/// Values between which a parameter is searched for.
-struct SearchRange {
-  double low = 0.0;
-  double high = 0.0;
-  bool is_logarithmic = true;
-};
-
 /// A scalar of a method that is chosen before its inequalities are linear.
 struct DesignParameter {
   std::string name;
@@ -88,7 +81,7 @@ class DesignMethod {
   virtual std::vector<DesignParameter> parameters(const CertificateSubject& subject) const = 0;
 
   /// The parameter that is the guaranteed rate of convergence; empty where there is none.
-  virtual std::string decay_parameter() const { return ""; }
+  virtual std::string decay_parameter() const { return theorem().decay_parameter(); }
 
   /// Which objectives it can serve.
   virtual std::vector<Objective> objectives(const CertificateSubject& subject) const = 0;

@@ -9,12 +9,6 @@
 
 namespace sampled_data_observers {
 
-/// A range by name.
-struct NamedRange {
-  std::string name;
-  SearchRange range;
-};
-
 /// The cost of each of several choices of the parameters; not finite where there is no solution.
 using BatchCost = std::function<std::vector<double>(const std::vector<Parameters>&)>;
 

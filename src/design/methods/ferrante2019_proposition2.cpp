@@ -28,8 +28,6 @@ class Proposition2 : public LmiDesignMethod {
     };
   }
 
-  std::string decay_parameter() const override { return "lambda_t"; }
-
   std::vector<Objective> objectives(const CertificateSubject& subject) const override {
     std::vector<Objective> all = {Objective::kFeasible, Objective::kMaxT2, Objective::kMaxDecay};
     if (subject.plant.N.cols() > 0) all.push_back(Objective::kMinGamma);
