@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -7,12 +8,18 @@
 namespace sampled_data_observers {
 namespace {
 
+const char* const kConverges =
+    "the error falls by the factor exp(-jump_decay) or more from jump to jump, in the norm of P, "
+    "for all times between jumps in [T1, T2]";
+const char* const kWithKnownOutput =
+    "the error falls by the factor exp(-jump_decay) or more from jump to jump, in the norm of P, "
+    "for all times between jumps of T1 or more, with the continuous output known at all times";
+
 /// Where the innovation acts.
 enum class Innovation { kFlowAndJumps, kFlow, kJumps };
 
-/// bernard2022, Theorem 3.1 with V = (x − x̂)ᵀ P (x − x̂) for linear maps: V̇ <= a_c V in flow,
-/// V⁺ <= e^{a_d} V at jumps, and a_c τ + a_d < 0 at both ends of [T1, T2], which is (C1a) for
-/// a_c < 0 and (C2a) for a_d < 0.
+/// bernard2022, Theorem 3.1 with V = (x − x̂)ᵀ P (x − x̂) for linear maps; see
+/// quadratic_conditions().
 class QuadraticCondition : public Theorem {
  public:
   QuadraticCondition(int number, Innovation innovation, std::string guarantee)
@@ -48,7 +55,14 @@ class QuadraticCondition : public Theorem {
   }
 
   std::vector<NamedShape> parameters(const CertificateSubject&) const override {
-    return {scalar_shape("a_c"), scalar_shape("a_d")};
+    return {scalar_shape(in_flow_ ? "flow_decay" : "flow_growth"), scalar_shape("jump_decay")};
+  }
+
+  std::string decay_parameter() const override { return "jump_decay"; }
+
+  std::vector<NamedRange> search_ranges(const CertificateSubject& subject) const override {
+    if (in_flow_) return {{"flow_decay", flow_decay_range(subject)}};
+    return {{"flow_growth", {1e-3 / subject.T2, 10.0 / subject.T2, true}}};
   }
 
   bool is_homogeneous(const CertificateSubject&) const override { return true; }
@@ -60,7 +74,8 @@ class QuadraticCondition : public Theorem {
     MatrixExpression reset = *plant.A_d;
     if (in_flow_) flow = flow - symbol("L_c", n, plant.C_c.rows()) * plant.C_c;
     if (at_jumps_) reset = reset - symbol("L_d", n, plant.C_d.rows()) * plant.C_d;
-    return quadratic_conditions(subject, flow, reset, "bernard2022 (" + number_);
+    return quadratic_conditions(subject, in_flow_ ? FlowOfError::kDecays : FlowOfError::kMayGrow,
+                                flow, reset, "bernard2022 (" + number_);
   }
 
   std::unique_ptr<const ErrorBound> error_bound(
@@ -94,44 +109,42 @@ void require_linear_jumping_plant(const CertificateSubject& subject) {
   if (!subject.plant.jumps()) throw std::invalid_argument("it is about plants that jump");
 }
 
-std::vector<Condition> quadratic_conditions(const CertificateSubject& subject,
+SearchRange flow_decay_range(const CertificateSubject& subject) {
+  return {1e-2 / subject.T2, 100.0 / std::max(subject.T1, 1e-3 * subject.T2), true};
+}
+
+std::vector<Condition> quadratic_conditions(const CertificateSubject& subject, FlowOfError kind,
                                             const MatrixExpression& flow,
                                             const MatrixExpression& reset,
                                             const std::string& source) {
+  const bool decays = kind == FlowOfError::kDecays;
   const MatrixExpression P = symbol("P", flow.rows(), flow.rows());
-  const MatrixExpression a_c = symbol("a_c");
-  const MatrixExpression a_d = symbol("a_d");
+  const MatrixExpression rate = symbol(decays ? "flow_decay" : "flow_growth");
+  const MatrixExpression jump_decay = symbol("jump_decay");
+  const MatrixExpression a_c = decays ? -rate : rate;
+  const MatrixExpression a_d =
+      -(a_c * MatrixExpression(decays ? subject.T1 : subject.T2)) - 2.0 * jump_decay;
   return {
       {"P > 0", P, std::nullopt},
+      {decays ? "a_c < 0" : "a_c > 0", rate, std::nullopt},
+      {"jump_decay > 0", jump_decay, std::nullopt},
       {"flow, " + source + "a)", a_c * P - He(P * flow), std::nullopt},
       {"jump, " + source + "b)", exponential(a_d) * P - transpose(reset) * P * reset, std::nullopt},
-      {"a_c T1 + a_d < 0, bernard2022 (C)", -(a_c * MatrixExpression(subject.T1) + a_d),
-       std::nullopt},
-      {"a_c T2 + a_d < 0, bernard2022 (C)", -(a_c * MatrixExpression(subject.T2) + a_d),
-       std::nullopt},
   };
 }
 
 const Theorem& bernard2022_equation14() {
-  static const QuadraticCondition theorem(
-      14, Innovation::kFlowAndJumps,
-      "the error converges exponentially for all times between jumps in [T1, T2], with the "
-      "continuous output known at all times");
+  static const QuadraticCondition theorem(14, Innovation::kFlowAndJumps, kWithKnownOutput);
   return theorem;
 }
 
 const Theorem& bernard2022_equation22() {
-  static const QuadraticCondition theorem(
-      22, Innovation::kFlow,
-      "the error converges exponentially for all times between jumps in [T1, T2], with the "
-      "continuous output known at all times");
+  static const QuadraticCondition theorem(22, Innovation::kFlow, kWithKnownOutput);
   return theorem;
 }
 
 const Theorem& bernard2022_equation26() {
-  static const QuadraticCondition theorem(
-      26, Innovation::kJumps,
-      "the error converges exponentially for all times between jumps in [T1, T2]");
+  static const QuadraticCondition theorem(26, Innovation::kJumps, kConverges);
   return theorem;
 }
 

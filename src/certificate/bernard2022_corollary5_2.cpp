@@ -39,6 +39,8 @@ class Corollary52 : public Theorem {
     return {scalar_shape("jump_decay")};
   }
 
+  std::string decay_parameter() const override { return "jump_decay"; }
+
   bool is_homogeneous(const CertificateSubject&) const override { return true; }
 
   std::vector<Condition> conditions(const CertificateSubject& subject) const override {

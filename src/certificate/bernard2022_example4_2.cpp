@@ -1,3 +1,4 @@
+#include <map>
 #include <stdexcept>
 
 #include "sampled_data_observers/observer/observable_form.h"
@@ -13,8 +14,9 @@ class Example42 : public Theorem {
   std::string name() const override { return "bernard2022_example4_2"; }
 
   std::string guarantee() const override {
-    return "the error converges exponentially for all times between jumps in [T1, T2], with the "
-           "continuous output known at all times";
+    return "the error falls by the factor exp(-jump_decay) or more from jump to jump, in the norm "
+           "of P, for all times between jumps of T1 or more, with the continuous output known at "
+           "all times";
   }
 
   std::vector<std::string> observer_types() const override { return {"HighGainObserver"}; }
@@ -32,19 +34,28 @@ class Example42 : public Theorem {
     return {scalar_shape("ell"), matrix_shape("K", 1, subject.plant.states())};
   }
 
+  std::map<std::string, std::string> gain_choices() const override { return {{"form", "linear"}}; }
+
   std::vector<NamedShape> multipliers(const CertificateSubject& subject) const override {
     return {symmetric_shape("P", subject.plant.states())};
   }
 
   std::vector<NamedShape> parameters(const CertificateSubject&) const override {
-    return {scalar_shape("a_c"), scalar_shape("a_d")};
+    return {scalar_shape("flow_decay"), scalar_shape("jump_decay")};
+  }
+
+  std::string decay_parameter() const override { return "jump_decay"; }
+
+  std::vector<NamedRange> search_ranges(const CertificateSubject& subject) const override {
+    return {{"flow_decay", flow_decay_range(subject)}};
   }
 
   bool is_homogeneous(const CertificateSubject&) const override { return true; }
 
   std::vector<Condition> conditions(const CertificateSubject& subject) const override {
     const ModeMatrices& plant = subject.plant.mode();
-    return quadratic_conditions(subject, plant.A - high_gain_of(plant) * plant.C_c,
+    return quadratic_conditions(subject, FlowOfError::kDecays,
+                                plant.A - high_gain_of(plant) * plant.C_c,
                                 MatrixExpression(*plant.A_d), "bernard2022 (22");
   }
 

@@ -34,6 +34,8 @@ class SwitchedCondition : public Theorem {
 
   bool is_homogeneous(const CertificateSubject&) const override { return true; }
 
+  std::string decay_parameter() const override { return "jump_decay"; }
+
   std::unique_ptr<const ErrorBound> error_bound(const CertificateSubject&, const NamedMatrices&,
                                                 const ErrorAssumptions&) const override {
     // (49) takes y_c as known at all times, which comes in messages; (52) that modes change.
@@ -51,14 +53,16 @@ class SwitchedCondition : public Theorem {
   }
 };
 
-/// Example 7.1: (47b) in each mode and (49) between all, with a_c T1 + a_d < 0, which is (C1a).
+/// Example 7.1 with (C1a): (47b) in each mode with a_c = −flow_decay, and (49) between all with
+/// a_d = flow_decay T1 − 2 jump_decay.
 class Example71 : public SwitchedCondition {
  public:
   std::string name() const override { return "bernard2022_example7_1"; }
 
   std::string guarantee() const override {
-    return "the error converges exponentially for all times between switches of T1 or more, with "
-           "the continuous output known at all times";
+    return "the error falls by the factor exp(-jump_decay) or more from switch to switch, in the "
+           "norms of the P of their modes, for all times between switches of T1 or more, with the "
+           "continuous output known at all times";
   }
 
   void require_applicable(const CertificateSubject& subject) const override {
@@ -76,17 +80,20 @@ class Example71 : public SwitchedCondition {
   }
 
   std::vector<NamedShape> parameters(const CertificateSubject&) const override {
-    return {scalar_shape("a_c"), scalar_shape("a_d")};
+    return {scalar_shape("flow_decay"), scalar_shape("jump_decay")};
+  }
+
+  std::vector<NamedRange> search_ranges(const CertificateSubject& subject) const override {
+    return {{"flow_decay", flow_decay_range(subject)}};
   }
 
   std::vector<Condition> conditions(const CertificateSubject& subject) const override {
-    const MatrixExpression a_c = symbol("a_c");
-    const MatrixExpression a_d = symbol("a_d");
-    std::vector<Condition> all = {
-        {"a_c < 0", -a_c, std::nullopt},
-        {"a_c T1 + a_d < 0, bernard2022 (C1a)", -(a_c * MatrixExpression(subject.T1) + a_d),
-         std::nullopt},
-    };
+    const MatrixExpression flow_decay = symbol("flow_decay");
+    const MatrixExpression jump_decay = symbol("jump_decay");
+    const MatrixExpression a_c = -flow_decay;
+    const MatrixExpression a_d = flow_decay * MatrixExpression(subject.T1) - 2.0 * jump_decay;
+    std::vector<Condition> all = {{"a_c < 0", flow_decay, std::nullopt},
+                                  {"jump_decay > 0", jump_decay, std::nullopt}};
     for (const ModeMatrices& mode : subject.plant.modes) {
       const MatrixExpression P = P_of(mode);
       const MatrixExpression L = symbol(of_mode("L_c", mode), mode.A.rows(), mode.C_c.rows());

@@ -59,7 +59,7 @@ class IssBound : public ErrorBound {
       return;
     }
     state[1] += duration;
-    if (!(state[1] <= T2_)) state[0] = std::numeric_limits<double>::infinity();
+    if (!(state[1] <= T2_ + kClockRounding)) state[0] = std::numeric_limits<double>::infinity();
     if (std::isinf(state[0])) return;
     state[0] = std::sqrt(final_ + (state[0] * state[0] - final_) * std::exp(-rate_ * duration));
   }
@@ -94,6 +94,8 @@ class Proposition : public Theorem {
       throw std::invalid_argument("etienne2019 needs plant/vertices, the polytope of G psi(S x)");
     }
   }
+
+  std::string decay_parameter() const override { return "alpha"; }
 
   std::vector<NamedShape> gains(const CertificateSubject& subject) const override {
     return {matrix_shape("L", subject.plant.states(), subject.plant.C().rows())};
@@ -213,6 +215,14 @@ class Proposition2 : public Proposition {
     // Else gamma would say nothing: it scales with P.
     all.push_back({"c_1 = 1: P > I", symbol("P", n, n) - identity(n), std::nullopt});
     return all;
+  }
+
+  std::vector<GuaranteedFigure> guaranteed_figures(const CertificateSubject&,
+                                                   const NamedMatrices& values) const override {
+    const double gain = scalar_value(values, "gamma") /
+                        std::sqrt(min_eigenvalue(values.at("P")) * scalar_value(values, "alpha"));
+    return {{"final error per unit of |L noise + disturbance| [s]", gain},
+            {"final error per unit of noise", gain * norm2(values.at("L"))}};
   }
 
   std::unique_ptr<const ErrorBound> error_bound(

@@ -41,18 +41,18 @@ class JumpBasedBound : public ErrorBound {
   void flow(double duration, double* state) const override {
     state[kTau] += duration;
     state[kCausedSince] = flowed_linearly(state[kCausedSince], growth_, push_, duration);
-    if (!(state[kTau] <= T2_)) lose(state);
+    if (!(state[kTau] <= T2_ + kClockRounding)) lose(state);
   }
   void jump(double* state) const override {
     const double tau = state[kTau];
-    if (state[kJumped] == 0.0) {
-      state[kAfterJump] = reset_ * flowed_linearly(state[kAfterJump], growth_, 0.0, tau);
-    } else if (tau >= T1_) {
-      state[kAfterJump] *= std::exp(contraction_.offset + contraction_.slope * tau);
-    } else {
-      lose(state);
+    const bool is_first = state[kJumped] == 0.0;
+    if (!is_first && tau < T1_ - kClockRounding) lose(state);
+    if (!std::isinf(state[kAfterJump])) {
+      const double carried =
+          is_first ? reset_ * flowed_linearly(state[kAfterJump], growth_, 0.0, tau)
+                   : state[kAfterJump] * std::exp(contraction_.offset + contraction_.slope * tau);
+      state[kAfterJump] = carried + reset_ * state[kCausedSince] + noise_;
     }
-    state[kAfterJump] += reset_ * state[kCausedSince] + noise_;
     state[kCausedSince] = 0.0;
     state[kTau] = 0.0;
     state[kJumped] = 1.0;

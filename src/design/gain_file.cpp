@@ -60,6 +60,9 @@ void write_gain_file(const Design& design, const GainFileOrigin& origin, std::os
       << "observer: " << design.method->observer_type() << "\n\n"
       << "sampling: {T1: " << digits(subject.T1) << ", T2: " << digits(subject.T2) << "}  # s\n\n"
       << "gains:\n";
+  for (const auto& [key, choice] : theorem.gain_choices()) {
+    out << "  " << key << ": " << choice << '\n';
+  }
   write_values(theorem.gains(subject), certificate.values, out);
   out << "\ncertificate:\n"
       << "  theorem: " << theorem.name() << '\n'
@@ -69,6 +72,9 @@ void write_gain_file(const Design& design, const GainFileOrigin& origin, std::os
       << "  T2: " << digits(subject.T2) << '\n';
   if (subject.plant.N.cols() > 0) out << "  N: " << nested_lists(subject.plant.N) << '\n';
   if (subject.plant.C_p.rows() > 0) out << "  C_p: " << nested_lists(subject.plant.C_p) << '\n';
+  const StatedErrorMaps& stated = subject.plant.stated;
+  if (stated.A) out << "  A: " << nested_lists(*stated.A) << '\n';
+  if (stated.A_d) out << "  A_d: " << nested_lists(*stated.A_d) << '\n';
   write_values(theorem.parameters(subject), certificate.values, out);
   write_values(theorem.multipliers(subject), certificate.values, out);
   out << "  margin: " << digits(design.margin) << "  # least eigenvalue of the conditions\n"

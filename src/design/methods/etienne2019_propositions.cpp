@@ -17,8 +17,6 @@ class GainDesign : public LmiDesignMethod {
     return {{"alpha", "twice the rate of convergence [1/s]", 0.1 / subject.T2, std::nullopt}};
   }
 
-  std::string decay_parameter() const override { return "alpha"; }
-
  protected:
   static LmiProgram common_program(const CertificateSubject& subject, double alpha,
                                    bool has_disturbance) {
