@@ -94,6 +94,7 @@ int run(int argc, char** argv) {
 
   const sdo::ObserverConfig config =
       sdo::read_observer_config(config_files, sdo::load_plant_plugin);
+  if (!config.warning.empty()) std::cerr << "replay: " << config.warning << "\n";
   const sdo::ReplaySummary summary = sdo::replay(config, options);
   sdo::print_table(summary, std::cout);
   if (!json_path.empty()) sdo::write_json(summary, json_path);

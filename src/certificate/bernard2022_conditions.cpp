@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "jump_based_bound.h"
+#include "bernard2022.h"
 #include "theorems.h"
 
 namespace sampled_data_observers {

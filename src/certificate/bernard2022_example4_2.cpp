@@ -2,6 +2,7 @@
 #include <stdexcept>
 
 #include "sampled_data_observers/observer/observable_form.h"
+#include "bernard2022.h"
 #include "theorems.h"
 
 namespace sampled_data_observers {

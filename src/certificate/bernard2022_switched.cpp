@@ -1,5 +1,6 @@
 #include <stdexcept>
 
+#include "bernard2022.h"
 #include "theorems.h"
 
 namespace sampled_data_observers {

@@ -2,74 +2,109 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <string>
+#include <utility>
 
+#include "sampled_data_observers/certificate/ferrante2019_matrix.h"
 #include "sampled_data_observers/certificate/matrix_functions.h"
 #include "theorems.h"
 
 namespace sampled_data_observers {
 namespace {
 
-/// W >= V(x) = εᵀ P1 ε + e^{δτ} θ̃ᵀ P2 θ̃ of ferrante2019 (27): between samples
-/// Ẇ = −2 λ_t W + γ² |w|² (18), at a sample W⁺ = W + λ_max(P2) e^{δ T2} |η|² (19).
-class Theorem2Bound : public ErrorBound {
+/// Bounds of V(x) = εᵀ P1 ε + e^{δτ} θ̃ᵀ P2 θ̃, ferrante2019 (27), for (A1) and (A2).
+struct LyapunovBounds {
+  double alpha_1 = 0.0;  ///< λ_min(P1)
+  double alpha_2 = 0.0;  ///< λ_max(P1)
+  double omega_2 = 0.0;  ///< λ_max(P2) e^{δ T2}
+};
+
+LyapunovBounds bounds_of_V(const CertificateSubject& subject, const NamedMatrices& values) {
+  const Eigen::VectorXd of_P1 = symmetric_eigenvalues(values.at("P1"));
+  return {of_P1(0), of_P1(of_P1.size() - 1),
+          max_eigenvalue(values.at("P2")) * std::exp(scalar_value(values, "delta") * subject.T2)};
+}
+
+/// V where the estimate begins, at most, for an error of norm 1 and no injection: θ̃ = C ε.
+double initial_V(const CertificateSubject& subject, const NamedMatrices& values) {
+  const Eigen::MatrixXd& C = subject.plant.C();
+  const double e = std::exp(scalar_value(values, "delta") * subject.T2);
+  return max_eigenvalue(values.at("P1") + e * C.transpose() * values.at("P2") * C);
+}
+
+/// W >= V = εᵀ P1 ε + e^{δ(T2 − s)} θ̃ᵀ P2 θ̃ with s the time since the last sample: ferrante2019
+/// (27) with the timer τ set as if the next sample came T2 after the last, which decides nothing of
+/// the flow, and at an earlier sample V falls all the more. So
+///   Ẇ = −2 λ W + γ² |w|² between samples (18), W⁺ = W + ω2 |η|² at them (19),
+/// and |ε|² <= W / λ_min(P1). T1 plays no part.
+class LyapunovErrorBound : public ErrorBound {
  public:
-  Theorem2Bound(const CertificateSubject& subject, const NamedMatrices& values,
-                const ErrorAssumptions& assumptions)
-      : T2_(subject.T2) {
-    const Eigen::MatrixXd& P1 = values.at("P1");
-    const double omega_2 =
-        max_eigenvalue(values.at("P2")) * std::exp(scalar_value(values, "delta") * subject.T2);
-    const double decay = 2.0 * scalar_value(values, "lambda_t");
-    // The held innovation starts at zero: θ̃ = C ε.
-    const double initial_theta = norm2(subject.plant.C()) * assumptions.initial_error;
-    initial_ = max_eigenvalue(P1) * assumptions.initial_error * assumptions.initial_error +
-               omega_2 * initial_theta * initial_theta;
-    rate_ = decay;
-    if (subject.plant.N.cols() > 0) {
-      const double gamma = scalar_value(values, "gamma");
-      const double level = gamma * assumptions.disturbance;
-      final_ = level * level / decay;
+  LyapunovErrorBound(const CertificateSubject& subject, const NamedMatrices& values, double rate,
+                     const ErrorAssumptions& assumptions)
+      : T2_(subject.T2), rate_(2.0 * rate) {
+    const LyapunovBounds V = bounds_of_V(subject, values);
+    if (subject.plant.N.cols() > 0 && values.count("gamma") > 0) {
+      const double level = scalar_value(values, "gamma") * assumptions.disturbance;
+      final_ = level * level / rate_;
     }
-    per_sample_ = omega_2 * assumptions.noise * assumptions.noise;
-    least_ = min_eigenvalue(P1);
+    per_sample_ = V.omega_2 * assumptions.noise * assumptions.noise;
+    least_ = V.alpha_1;
+    of_estimate_ = V.alpha_2 * assumptions.initial_error * assumptions.initial_error;
+    // θ̃ = C ε − θ at first; √V is a norm of (ε, θ̃).
+    const double of_both = std::sqrt(initial_V(subject, values)) * assumptions.initial_error +
+                           std::sqrt(V.omega_2) * assumptions.initial_injection;
+    initial_ = of_both * of_both;
   }
 
-  // W, and the time since the last sample [s].
-  Eigen::Index state_size() const override { return 2; }
+  // W, the time since the last sample [s], and whether nothing has happened yet.
+  Eigen::Index state_size() const override { return 3; }
   void initialize(double* state) const override {
     state[0] = initial_;
     state[1] = 0.0;
+    state[2] = 1.0;
   }
   void flow(double duration, double* state) const override {
-    state[1] += duration;
+    if (duration == 0.0) return;
     state[0] = final_ + (state[0] - final_) * std::exp(-rate_ * duration);
+    state[1] += duration;
+    state[2] = 0.0;
     if (state[1] > T2_) state[0] = std::numeric_limits<double>::infinity();
   }
   void sample(double* state) const override {
-    state[0] += per_sample_;
+    // A sample sets θ̃ to −η: of V, only ε's part stays. How large that is, is known at first only.
+    const bool is_first_of_all = state[2] != 0.0;
+    state[0] = (is_first_of_all ? of_estimate_ : state[0]) + per_sample_;
     state[1] = 0.0;
+    state[2] = 0.0;
   }
   void jump(double*) const override {}
   double bound(const double* state) const override { return std::sqrt(state[0] / least_); }
 
  private:
   double T2_;
-  double initial_ = 0.0;
-  double rate_ = 0.0;
-  double final_ = 0.0;
-  double per_sample_ = 0.0;
-  double least_ = 0.0;
+  double rate_;               // 2 λ
+  double final_ = 0.0;        // of W, without noise
+  double per_sample_ = 0.0;   // ω2 |η|²
+  double of_estimate_ = 0.0;  // εᵀ P1 ε at first
+  double initial_ = 0.0;      // V at first
+  double least_ = 0.0;        // λ_min(P1)
 };
 
-class Theorem2 : public Theorem {
+/// Theorem 2, and its corollaries for a rate only and for a gain only.
+struct Variant {
+  std::string name;
+  std::string guarantee;
+  std::string number;
+  bool has_rate = true;
+  bool has_gain = true;
+};
+
+class Ferrante2019Theorem : public Theorem {
  public:
-  std::string name() const override { return "ferrante2019_theorem2"; }
+  explicit Ferrante2019Theorem(Variant variant) : variant_(std::move(variant)) {}
 
-  std::string guarantee() const override {
-    return "the error converges at the rate lambda_t, and its performance output has the L2 gain "
-           "gamma from the disturbance, for all times between samples up to T2";
-  }
-
+  std::string name() const override { return variant_.name; }
+  std::string guarantee() const override { return variant_.guarantee; }
   std::vector<std::string> observer_types() const override {
     return {"IntersampleInjectionObserver"};
   }
@@ -82,6 +117,9 @@ class Theorem2 : public Theorem {
     if (plant.C().rows() == 0) throw std::invalid_argument("ferrante2019 needs a sampled sensor");
     if (!plant.is_linear() && !plant.lipschitz_constant) {
       throw std::invalid_argument("ferrante2019 needs plant/lipschitz_constant");
+    }
+    if (!variant_.has_rate && plant.N.cols() == 0) {
+      throw std::invalid_argument(name() + " is about the gain from a disturbance: give design/N");
     }
   }
 
@@ -98,19 +136,21 @@ class Theorem2 : public Theorem {
   }
 
   std::vector<NamedShape> parameters(const CertificateSubject& subject) const override {
-    std::vector<NamedShape> all = {scalar_shape("delta"), scalar_shape("lambda_t")};
-    if (subject.plant.N.cols() > 0) all.push_back(scalar_shape("gamma"));
+    std::vector<NamedShape> all = {scalar_shape("delta")};
+    if (variant_.has_rate) all.push_back(scalar_shape("lambda_t"));
+    if (relevant(subject).N.cols() > 0) all.push_back(scalar_shape("gamma"));
     return all;
   }
 
-  std::string decay_parameter() const override { return "lambda_t"; }
+  std::string decay_parameter() const override { return variant_.has_rate ? "lambda_t" : ""; }
 
   std::vector<NamedRange> search_ranges(const CertificateSubject& subject) const override {
     return {{"delta", {0.1 / subject.T2, 30.0 / subject.T2, true}}};
   }
 
   bool is_homogeneous(const CertificateSubject& subject) const override {
-    return subject.plant.N.cols() == 0 && subject.plant.C_p.rows() == 0;
+    const PlantMatrices plant = relevant(subject);
+    return plant.N.cols() == 0 && plant.C_p.rows() == 0;
   }
 
   std::vector<Condition> conditions(const CertificateSubject& subject) const override {
@@ -118,18 +158,39 @@ class Theorem2 : public Theorem {
     std::vector<Condition> all = {
         {"P1 > 0", symbol("P1", n, n), std::nullopt},
         {"P2 > 0", symbol("P2", m, m), std::nullopt},
-        {"M(0) <= 0, ferrante2019 (28)", -M(subject, 1.0), std::nullopt},
-        {"M(T2) <= 0, ferrante2019 (28)",
+        {"M(0) <= 0, ferrante2019 " + variant_.number, -M(subject, 1.0), std::nullopt},
+        {"M(T2) <= 0, ferrante2019 " + variant_.number,
          -M(subject, exponential(symbol("delta") * MatrixExpression(subject.T2))), std::nullopt},
     };
     if (!subject.plant.is_linear()) all.push_back({"chi > 0", symbol("chi"), std::nullopt});
     return all;
   }
 
+  std::vector<GuaranteedFigure> guaranteed_figures(const CertificateSubject& subject,
+                                                   const NamedMatrices& values) const override {
+    const LyapunovBounds V = bounds_of_V(subject, values);
+    const double lambda = rate(subject, values);
+    std::vector<GuaranteedFigure> figures;
+    if (!variant_.has_rate) figures.push_back({"rate of convergence [1/s]", lambda});
+    figures.push_back({"error over initial error, at most, without noise and disturbance",
+                       std::sqrt(initial_V(subject, values) / V.alpha_1)});
+    // (22) with the limit of its geometric series, and with λ_min(P1) for ρ1, since only ε counts.
+    const double series = 1.0 / (1.0 - std::exp(-2.0 * lambda * subject.T1));
+    figures.push_back(
+        {"final error over noise [state/output]", std::sqrt(V.omega_2 * series / V.alpha_1)});
+    if (relevant(subject).N.cols() > 0) {
+      figures.push_back({"final error over disturbance [state/w]",
+                         scalar_value(values, "gamma") / std::sqrt(2.0 * lambda * V.alpha_1)});
+    }
+    return figures;
+  }
+
   std::unique_ptr<const ErrorBound> error_bound(
       const CertificateSubject& subject, const NamedMatrices& values,
       const ErrorAssumptions& assumptions) const override {
-    return std::make_unique<const Theorem2Bound>(subject, values, assumptions);
+    if (!variant_.has_gain && assumptions.disturbance > 0.0) return nullptr;
+    return std::make_unique<const LyapunovErrorBound>(subject, values, rate(subject, values),
+                                                      assumptions);
   }
 
  private:
@@ -141,57 +202,66 @@ class Theorem2 : public Theorem {
     return {subject.plant.states(), subject.plant.C().rows()};
   }
 
-  /// M(τ) of ferrante2019 (30), e = e^{δτ}; the rows of ψ and of w only where the plant has them
-  /// (Remark 2).
-  static MatrixExpression M(const CertificateSubject& subject, const MatrixExpression& e) {
-    const auto [n, m] = sizes(subject);
-    const PlantMatrices& plant = subject.plant;
-    const MatrixExpression A = plant.A();
-    const MatrixExpression C = plant.C();
-    const MatrixExpression L = symbol("L", n, m);
-    const MatrixExpression H = symbol("H", m, m);
-    const MatrixExpression P1 = symbol("P1", n, n);
-    const MatrixExpression P2 = symbol("P2", m, m);
-    const MatrixExpression delta = symbol("delta");
-    const MatrixExpression lambda_t = symbol("lambda_t");
-
-    MatrixExpression corner = He(P1 * (A - L * C)) + 2.0 * lambda_t * P1;
-    if (plant.C_p.rows() > 0) corner = corner + Eigen::MatrixXd(plant.C_p.transpose() * plant.C_p);
-    std::vector<MatrixExpression> first;
-    std::vector<MatrixExpression> second = {e *
-                                            (He(P2 * (C * L + H)) + (2.0 * lambda_t - delta) * P2)};
-    std::vector<std::vector<MatrixExpression>> rest;
-    const MatrixExpression coupling = P1 * L + e * (transpose(C * A - C * L * C - H * C) * P2);
-    const auto add_column = [&, C](const MatrixExpression& gain) {
-      first.push_back(P1 * gain);
-      second.push_back(e * (P2 * C * gain));
-    };
-    const Eigen::Index n_w = plant.N.cols();
-    const Eigen::Index n_s = plant.G.cols();
-    if (n_w > 0) {
-      add_column(plant.N);
-      rest.push_back({-(square("gamma") * identity(n_w))});
-      if (n_s > 0) rest.back().push_back(zeros(n_w, n_s));
+  /// What the inequalities speak of. Without the row of w, C_pᵀ C_p says nothing either: the other
+  /// terms may be scaled until they outweigh it.
+  PlantMatrices relevant(const CertificateSubject& subject) const {
+    PlantMatrices plant = subject.plant;
+    if (!variant_.has_gain) {
+      plant.N.resize(plant.states(), 0);
+      plant.C_p.resize(0, plant.states());
     }
-    if (n_s > 0) {
-      add_column(plant.G);
-      const double ell = *plant.lipschitz_constant;
-      corner =
-          corner + symbol("chi") *
-                       MatrixExpression(Eigen::MatrixXd(ell * ell * plant.S.transpose() * plant.S));
-      rest.push_back({-(symbol("chi") * identity(n_s))});
-    }
-    first.insert(first.begin(), {corner, coupling});
-    std::vector<std::vector<MatrixExpression>> rows = {first, second};
-    rows.insert(rows.end(), rest.begin(), rest.end());
-    return symmetric_blocks(rows);
+    return plant;
   }
+
+  MatrixExpression M(const CertificateSubject& subject, const MatrixExpression& e) const {
+    const auto [n, m] = sizes(subject);
+    const MatrixExpression L = symbol("L", n, m);
+    const MatrixExpression P2_CL_H =
+        symbol("P2", m, m) * (MatrixExpression(subject.plant.C()) * L + symbol("H", m, m));
+    return ferrante2019_M(relevant(subject), e, variant_.has_rate ? symbol("lambda_t") : 0.0,
+                          symbol("P1", n, n) * L, P2_CL_H);
+  }
+
+  /// λ_t, or β/(2 ρ2) of Corollary 2. M is affine in e^{δτ}: its largest eigenvalue is at an end.
+  double rate(const CertificateSubject& subject, const NamedMatrices& values) const {
+    if (variant_.has_rate) return scalar_value(values, "lambda_t");
+    const MatrixExpression at_T2 =
+        M(subject, exponential(symbol("delta") * MatrixExpression(subject.T2)));
+    const double beta = -std::max(max_eigenvalue(evaluate(M(subject, 1.0), values)),
+                                  max_eigenvalue(evaluate(at_T2, values)));
+    const LyapunovBounds V = bounds_of_V(subject, values);
+    return beta / (2.0 * std::max(V.alpha_2, V.omega_2));
+  }
+
+  Variant variant_;
 };
 
 }  // namespace
 
 const Theorem& ferrante2019_theorem2() {
-  static const Theorem2 theorem;
+  static const Ferrante2019Theorem theorem(
+      {"ferrante2019_theorem2",
+       "the error converges at the rate lambda_t, and its performance output has the L2 gain gamma "
+       "from the disturbance, for all times between samples up to T2",
+       "(28)", true, true});
+  return theorem;
+}
+
+const Theorem& ferrante2019_corollary1() {
+  static const Ferrante2019Theorem theorem({"ferrante2019_corollary1",
+                                            "without disturbance the error converges at the rate "
+                                            "lambda_t, for all times between samples "
+                                            "up to T2",
+                                            "(32)", true, false});
+  return theorem;
+}
+
+const Theorem& ferrante2019_corollary2() {
+  static const Ferrante2019Theorem theorem({"ferrante2019_corollary2",
+                                            "the error converges, and its performance output has "
+                                            "the L2 gain gamma from the disturbance, "
+                                            "for all times between samples up to T2",
+                                            "(33)", false, true});
   return theorem;
 }
 

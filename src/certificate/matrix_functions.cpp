@@ -28,6 +28,22 @@ double largest_generalized_eigenvalue(const Eigen::MatrixXd& a, const Eigen::Mat
   return max_eigenvalue(root.matrixL().solve(half.transpose()));
 }
 
+Eigen::VectorXd least_eigenvector(const Eigen::MatrixXd& a) {
+  const Eigen::MatrixXd symmetric = (a + a.transpose()) / 2.0;
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric).eigenvectors().col(0);
+}
+
+std::optional<Eigen::MatrixXd> diagonalizing_congruence(const Eigen::MatrixXd& a,
+                                                        const Eigen::MatrixXd& b) {
+  const Eigen::LLT<Eigen::MatrixXd> factor(a);
+  if (!a.allFinite() || !b.allFinite() || factor.info() != Eigen::Success) return std::nullopt;
+  const Eigen::MatrixXd half = factor.matrixL().solve(b);
+  const Eigen::MatrixXd reduced = factor.matrixL().solve(half.transpose());
+  const Eigen::MatrixXd rotation =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(reduced).eigenvectors();
+  return factor.matrixU().solve(rotation);
+}
+
 Eigen::VectorXd singular_values(const Eigen::MatrixXd& a) {
   return Eigen::JacobiSVD<Eigen::MatrixXd>(a).singularValues();
 }
@@ -49,6 +65,10 @@ Eigen::VectorXcd eigenvalues_of(const Eigen::MatrixXd& a) {
 Eigen::MatrixXd null_space(const Eigen::MatrixXd& a) {
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(a, Eigen::ComputeFullV);
   return svd.matrixV().rightCols(a.cols() - svd.rank());
+}
+
+Eigen::MatrixXd weakest_directions(const Eigen::MatrixXd& a, Eigen::Index count) {
+  return Eigen::JacobiSVD<Eigen::MatrixXd>(a, Eigen::ComputeFullV).matrixV().rightCols(count);
 }
 
 }  // namespace sampled_data_observers

@@ -169,6 +169,10 @@ std::vector<std::string> ConfigSection::texts(const std::string& key, std::size_
   return result;
 }
 
+bool ConfigSection::flag(const std::string& key, bool fallback) {
+  return has(key) ? choice(key, {"true", "false"}) == "true" : fallback;
+}
+
 std::vector<bool> ConfigSection::flags(const std::string& key, std::size_t size) {
   const std::string expected = "a list of " + std::to_string(size) + " of true and false";
   std::vector<bool> result;

@@ -3,7 +3,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "sampled_data_observers/certificate/guaranteed_bound.h"
 #include "sampled_data_observers/config/config_section.h"
+#include "sampled_data_observers/config/guarantee_config.h"
 #include "sampled_data_observers/config/law_registry.h"
 #include "sampled_data_observers/config/plant_config.h"
 #include "sampled_data_observers/config/yaml_file.h"
@@ -95,6 +97,13 @@ ObserverConfig read_observer_config(const ConfigNode& tree, const PlantPluginLoa
   if (plant.jumps()) config.jumps = read_jumps(root, plant, config.law);
 
   config.options.sampling = read_sampling(root, plant);
+  Guarantee guarantee = read_guarantee(root, tree, config);
+  config.guarantee = std::move(guarantee.text);
+  config.warning = std::move(guarantee.warning);
+  if (guarantee.bound) {
+    config.law = std::make_shared<const GuaranteedBound>(config.law, std::move(guarantee.bound),
+                                                         guarantee.error_limit);
+  }
   config.options.history = read_history(root);
   config.options.future_tolerance =
       from_seconds(root.number_in("future_tolerance", 0.0, kLongest, 0.5));

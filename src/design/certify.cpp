@@ -31,7 +31,11 @@ LmiProgram analysis_program(const Theorem& theorem, const CertificateSubject& su
       program.matrix(shape.name, shape.rows, shape.cols);
     }
   }
-  if (minimizes_gamma) program.minimize(program.squared("gamma"));
+  if (minimizes_gamma) {
+    program.minimize(program.squared("gamma"));
+  } else if (names(theorem.parameters(subject), "gamma") && fixed.count("gamma") == 0) {
+    program.squared("gamma");
+  }
   for (const Condition& condition : theorem.conditions(subject)) {
     program.require(condition, kTauPoints);
   }

@@ -37,9 +37,6 @@ DesignCandidate LmiDesignMethod::attempt(const CertificateSubject& subject,
     const auto given = parameters.find(shape.name);
     if (given != parameters.end()) fixed[shape.name] = scalar_matrix(given->second);
   }
-  if (fixed.count("gamma") == 0 && solution.values.count("gamma") > 0) {
-    fixed["gamma"] = solution.values.at("gamma");
-  }
   return certify_here(theorem(), subject, fixed, objective);
 }
 
@@ -55,6 +52,8 @@ const std::vector<const DesignMethod*>& design_methods() {
       &etienne2019_proposition1_design(),
       &etienne2019_proposition2_design(),
       &ferrante2019_proposition2(),
+      &ferrante2019_proposition2(), &ferrante2019_proposition3(), &ferrante2019_proposition4(),
+      &ferrante2019_proposition5(), &ferrante2019_alternating(),
   };
   return all;
 }

@@ -57,7 +57,7 @@ void write_gain_file(const Design& design, const GainFileOrigin& origin, std::os
   const CertificateSubject& subject = certificate.subject;
   const Theorem& theorem = *certificate.theorem;
   out << "# Gains with a certificate, made by\n#   " << origin.command << "\n"
-      << "observer: " << design.method->observer_type() << "\n\n"
+      << "observer: " << design.observer_type << "\n\n"
       << "sampling: {T1: " << digits(subject.T1) << ", T2: " << digits(subject.T2) << "}  # s\n\n"
       << "gains:\n";
   for (const auto& [key, choice] : theorem.gain_choices()) {
@@ -78,7 +78,7 @@ void write_gain_file(const Design& design, const GainFileOrigin& origin, std::os
   write_values(theorem.parameters(subject), certificate.values, out);
   write_values(theorem.multipliers(subject), certificate.values, out);
   out << "  margin: " << digits(design.margin) << "  # least eigenvalue of the conditions\n"
-      << "  method: " << design.method->name() << '\n'
+      << "  method: " << design.method << '\n'
       << "  objective: " << to_string(design.objective) << '\n'
       << "  parameters: {";
   const char* separator = "";

@@ -50,7 +50,8 @@ std::vector<Parameters> grid(const std::vector<NamedRange>& ranges, const std::v
 
 }  // namespace
 
-std::size_t search_parameters(const std::vector<NamedRange>& ranges, const BatchCost& cost) {
+std::size_t search_parameters(const std::vector<NamedRange>& ranges, SearchGoal goal,
+                              const BatchCost& cost) {
   if (ranges.empty()) return cost({{}}).size();
   std::size_t points = points_per_range(ranges.size());
   std::vector<Box> whole;
@@ -76,6 +77,7 @@ std::size_t search_parameters(const std::vector<NamedRange>& ranges, const Batch
       points = 2 * points - 1;
       continue;
     }
+    if (goal == SearchGoal::kAnySolution) break;
     if (round > 0 && !(before - best_cost > kSmallChange * std::abs(best_cost)) &&
         std::isfinite(before)) {
       break;

@@ -7,6 +7,7 @@
 #include <optional>
 #include <sstream>
 
+#include "sampled_data_observers/design/analysis.h"
 #include "sampled_data_observers/design/packing.h"
 #include "sampled_data_observers/design/parameter_search.h"
 #include "sampled_data_observers/design/workers.h"
@@ -65,21 +66,21 @@ class Synthesis {
     switch (problem_.objective) {
       case Objective::kFeasible:
       case Objective::kMinGamma:
-        search(problem_.subject, problem_.given, problem_.objective);
+        search(problem_.subject, problem_.given, problem_.objective, SearchGoal::kLeastCost);
         break;
       case Objective::kMaxT2:
         maximize(problem_.subject.T2, [this](double T2) {
           CertificateSubject subject = problem_.subject;
           subject.T2 = T2;
           subject.T1 = std::min(subject.T1, T2);
-          return search(subject, problem_.given, Objective::kFeasible);
+          return search(subject, problem_.given, Objective::kFeasible, SearchGoal::kAnySolution);
         });
         break;
       case Objective::kMaxDecay:
         maximize(starting_decay(), [this](double decay) {
           Parameters given = problem_.given;
           given[method_.decay_parameter()] = decay;
-          return search(problem_.subject, given, Objective::kFeasible);
+          return search(problem_.subject, given, Objective::kFeasible, SearchGoal::kAnySolution);
         });
         break;
     }
@@ -100,18 +101,14 @@ class Synthesis {
     }
     const std::vector<DesignParameter> known = method_.parameters(problem_.subject);
     for (const auto& [name, value] : problem_.given) {
-      const auto is_it = [&name = name](const DesignParameter& parameter) {
-        return parameter.name == name;
-      };
-      if (std::none_of(known.begin(), known.end(), is_it)) {
-        std::string names;
-        for (const DesignParameter& parameter : known) {
-          names += (names.empty() ? "" : ", ") + parameter.name;
-        }
-        throw DesignError(method_.name() + " has no parameter '" + name + "'; it has " + names);
-      }
+      parameter_named(known, name);
       if (!std::isfinite(value)) {
         throw DesignError("parameter " + name + ": expected a finite number");
+      }
+    }
+    for (const std::string& name : problem_.searched) {
+      if (!parameter_named(known, name).search) {
+        throw DesignError(method_.name() + " can't search for " + name + ": give a number");
       }
     }
     const auto objectives = method_.objectives(problem_.subject);
@@ -125,6 +122,16 @@ class Synthesis {
     }
   }
 
+  const DesignParameter& parameter_named(const std::vector<DesignParameter>& known,
+                                         const std::string& name) const {
+    std::string names;
+    for (const DesignParameter& parameter : known) {
+      if (parameter.name == name) return parameter;
+      names += (names.empty() ? "" : ", ") + parameter.name;
+    }
+    throw DesignError(method_.name() + " has no parameter '" + name + "'; it has " + names);
+  }
+
   double starting_decay() const {
     const auto given = problem_.given.find(method_.decay_parameter());
     if (given != problem_.given.end()) return given->second;
@@ -132,14 +139,16 @@ class Synthesis {
   }
 
   /// Tries all that is left open. Whether there is a verified design; the best one goes to best_.
-  bool search(const CertificateSubject& subject, const Parameters& given, Objective objective) {
+  bool search(const CertificateSubject& subject, const Parameters& given, Objective objective,
+              SearchGoal goal) {
     Parameters fixed;
     std::vector<NamedRange> ranges;
     for (const DesignParameter& parameter : method_.parameters(subject)) {
       const auto own = given.find(parameter.name);
       if (own != given.end()) {
         fixed[parameter.name] = own->second;
-      } else if (parameter.search) {
+      } else if (parameter.search &&
+                 (!parameter.default_value || problem_.searched.count(parameter.name) > 0)) {
         ranges.push_back({parameter.name, *parameter.search});
       } else if (parameter.default_value) {
         fixed[parameter.name] = *parameter.default_value;
@@ -147,7 +156,7 @@ class Synthesis {
     }
     std::optional<Design> found;
     double found_cost = std::numeric_limits<double>::infinity();
-    attempts_ += search_parameters(ranges, [&](const std::vector<Parameters>& choices) {
+    attempts_ += search_parameters(ranges, goal, [&](const std::vector<Parameters>& choices) {
       std::vector<Parameters> whole = choices;
       for (Parameters& parameters : whole) parameters.insert(fixed.begin(), fixed.end());
       const std::vector<DesignCandidate> candidates = attempt_all(subject, whole, objective);
@@ -190,7 +199,8 @@ class Synthesis {
   Design as_design(const CertificateSubject& subject, const Parameters& parameters,
                    const DesignCandidate& candidate) const {
     Design design;
-    design.method = &method_;
+    design.method = method_.name();
+    design.observer_type = method_.observer_type();
     design.certificate = {&method_.theorem(), subject, candidate.values};
     design.parameters = parameters;
     design.margin = candidate.margin;
@@ -244,9 +254,14 @@ class Synthesis {
 
 }  // namespace
 
+Design search_design(const DesignMethod& method, const DesignProblem& problem,
+                     const SynthesisOptions& options) {
+  return Synthesis(method, problem, options).run();
+}
+
 Design synthesize(const DesignMethod& method, const DesignProblem& problem,
                   const SynthesisOptions& options) {
-  return Synthesis(method, problem, options).run();
+  return prove_further(search_design(method, problem, options), options);
 }
 
 }  // namespace sampled_data_observers

@@ -2,17 +2,12 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <cstdio>
-#include <ctime>
-#include <filesystem>
-#include <fstream>
 #include <memory>
-#include <sstream>
-#include <stdexcept>
 #include <vector>
 
 #include "commands.h"
+#include "gain_files.h"
 #include "sampled_data_observers/config/design_config.h"
-#include "sampled_data_observers/design/gain_file.h"
 #include "sampled_data_observers/design/synthesis.h"
 #include "sampled_data_observers/design/workers.h"
 #include "sampled_data_observers/ros/plant_plugins.h"
@@ -28,45 +23,10 @@ struct Arguments {
   double T1 = 0.0;
   double T2 = 0.0;
   std::vector<std::string> assignments;
+  std::vector<std::string> searched;
   unsigned jobs = default_jobs();
   double time_limit = 20.0;
 };
-
-Objective objective_of(const std::string& name) {
-  for (const Objective objective :
-       {Objective::kMinGamma, Objective::kMaxT2, Objective::kMaxDecay}) {
-    if (name == to_string(objective)) return objective;
-  }
-  return Objective::kFeasible;
-}
-
-void assign(const std::string& assignment, Parameters& parameters) {
-  const std::size_t equals = assignment.find('=');
-  std::size_t used = 0;
-  double value = 0.0;
-  try {
-    if (equals != std::string::npos) value = std::stod(assignment.substr(equals + 1), &used);
-  } catch (const std::logic_error&) {
-    used = 0;
-  }
-  if (equals == std::string::npos || equals == 0 || used + equals + 1 != assignment.size()) {
-    throw CLI::ValidationError("--set", "expected NAME=NUMBER, found '" + assignment + "'");
-  }
-  parameters[assignment.substr(0, equals)] = value;
-}
-
-std::string today() {
-  const std::time_t now = std::time(nullptr);
-  char text[16];
-  std::strftime(text, sizeof text, "%Y-%m-%d", std::gmtime(&now));
-  return text;
-}
-
-/// The plant file as the gain file names it: relative to its own folder.
-std::string relative_to_output(const std::string& file, const std::string& output) {
-  namespace fs = std::filesystem;
-  return fs::relative(fs::absolute(file), fs::absolute(output).parent_path()).string();
-}
 
 void synthesize_command(const Arguments& arguments, const std::string& command_line) {
   const DesignConfig config = read_design_config(arguments.files, load_plant_plugin);
@@ -81,6 +41,7 @@ void synthesize_command(const Arguments& arguments, const std::string& command_l
   if (problem.subject.T1 > problem.subject.T2) throw DesignError("T1 > T2");
   problem.given = config.parameters;
   for (const std::string& assignment : arguments.assignments) assign(assignment, problem.given);
+  problem.searched.insert(arguments.searched.begin(), arguments.searched.end());
   problem.objective = objective_of(arguments.objective);
 
   SynthesisOptions options;
@@ -93,16 +54,9 @@ void synthesize_command(const Arguments& arguments, const std::string& command_l
     std::fprintf(stderr, "design: %s\n", error.what());
     throw ExitStatus{kNoDesign};
   }
-  std::ostringstream text;
-  write_gain_file(design,
-                  {relative_to_output(arguments.files.front(), arguments.output), config.plant_hash,
-                   command_line, today()},
-                  text);
-  std::ofstream file(arguments.output);
-  file << text.str();
-  file.close();
-  if (!file) throw std::runtime_error("cannot write " + arguments.output);
-  std::printf("%s\nwritten to %s after %zu attempts in %.1f s\n", text.str().c_str(),
+  const std::string text = save_gain_file(design, arguments.files.front(), config.plant_hash,
+                                          command_line, arguments.output);
+  std::printf("%s\nwritten to %s after %zu attempts in %.1f s\n", text.c_str(),
               arguments.output.c_str(), design.attempts, design.seconds);
 }
 
@@ -130,6 +84,11 @@ void add_synthesize(CLI::App& app, const std::string& command_line) {
   command->add_option("--T2", arguments->T2, "Instead of design/sampling/T2 [s]");
   command->add_option("--set", arguments->assignments,
                       "Fix a parameter of the method, NAME=NUMBER; may be given several times");
+  command
+      ->add_option("--search", arguments->searched,
+                   "Search for a parameter that has a default, such as a; may be given several "
+                   "times")
+      ->type_name("NAME");
   command->add_option("--jobs", arguments->jobs, "Solvers at a time (default: all processors)");
   command->add_option("--time-limit", arguments->time_limit, "For one attempt [s]");
   command->callback([arguments, command_line] { synthesize_command(*arguments, command_line); });

@@ -2,15 +2,16 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <vector>
 
 #include "commands.h"
+#include "gain_files.h"
 #include "sampled_data_observers/config/certificate_config.h"
 #include "sampled_data_observers/config/plant_config.h"
 #include "sampled_data_observers/config/plant_fingerprint.h"
 #include "sampled_data_observers/config/yaml_file.h"
+#include "sampled_data_observers/design/rigorous_check.h"
 #include "sampled_data_observers/ros/plant_plugins.h"
 
 namespace sampled_data_observers {
@@ -19,17 +20,13 @@ namespace {
 struct Arguments {
   std::string gains;
   std::vector<std::string> plant;
+  bool is_rigorous = false;
 };
 
 /// The claim of a gain file together with its plant: the one named, or the one given.
 CertificateConfig read_claim(const Arguments& arguments) {
   const ConfigNode gains = read_yaml_file(arguments.gains);
-  std::vector<std::string> files = arguments.plant;
-  if (files.empty()) {
-    ConfigSection section = ConfigSection(gains, "").section("certificate").section("plant");
-    const auto folder = std::filesystem::absolute(arguments.gains).parent_path();
-    files.push_back((folder / section.text("file")).lexically_normal().string());
-  }
+  const std::vector<std::string> files = plant_files_of(arguments.gains, arguments.plant);
   std::vector<ConfigNode> trees;
   for (const std::string& file : files) trees.push_back(read_yaml_file(file));
   const ConfigNode plant_tree = merge(trees);
@@ -46,11 +43,7 @@ CertificateConfig read_claim(const Arguments& arguments) {
   return *config;
 }
 
-void verify_command(const Arguments& arguments) {
-  const CertificateConfig config = read_claim(arguments);
-  const Certificate& certificate = config.certificate;
-  std::printf("%s: %s\n", certificate.theorem->name().c_str(),
-              certificate.theorem->guarantee().c_str());
+void verify_in_floating_point(const Certificate& certificate) {
   const auto checks = check(certificate);
   for (const ConditionCheck& check : checks) {
     std::printf("  %-9s %s, least eigenvalue %.3g", check.holds() ? "holds" : "VIOLATED",
@@ -59,6 +52,45 @@ void verify_command(const Arguments& arguments) {
     std::printf("\n");
   }
   if (!all_hold(checks)) throw ExitStatus{kNotVerified};
+}
+
+void verify_rigorously(const Certificate& certificate) {
+  const auto proofs =
+      prove(certificate.theorem->conditions(certificate.subject), certificate.values);
+  bool is_disproved = false;
+  bool is_undecided = false;
+  for (const ConditionProof& proof : proofs) {
+    std::printf("  %-9s %s", to_string(proof.status), proof.name.c_str());
+    switch (proof.status) {
+      case ProofStatus::kProved:
+        if (proof.intervals > 1) std::printf(", on %zu intervals of tau", proof.intervals);
+        break;
+      case ProofStatus::kDisproved:
+        is_disproved = true;
+        std::printf(", an eigenvalue <= %.17g", proof.value);
+        if (proof.tau) std::printf(" at tau = %.17g s", *proof.tau);
+        break;
+      case ProofStatus::kUndecided:
+        is_undecided = true;
+        std::printf(": %s", proof.reason.c_str());
+        break;
+    }
+    std::printf("\n");
+  }
+  if (is_disproved) throw ExitStatus{kNotVerified};
+  if (is_undecided) throw ExitStatus{kUndecided};
+}
+
+void verify_command(const Arguments& arguments) {
+  const CertificateConfig config = read_claim(arguments);
+  const Certificate& certificate = config.certificate;
+  std::printf("%s: %s\n", certificate.theorem->name().c_str(),
+              certificate.theorem->guarantee().c_str());
+  if (arguments.is_rigorous) {
+    verify_rigorously(certificate);
+  } else {
+    verify_in_floating_point(certificate);
+  }
 }
 
 }  // namespace
@@ -72,6 +104,9 @@ void add_verify(CLI::App& app) {
       ->add_option("--plant", arguments->plant,
                    "Files with the plant, instead of the one that the gain file names")
       ->type_name("PLANT");
+  command->add_flag("--rigorous", arguments->is_rigorous,
+                    "Prove or disprove them in ball arithmetic, for all tau and for the decimals "
+                    "in the files, instead of a check in floating point");
   command->callback([arguments] { verify_command(*arguments); });
 }
 

@@ -89,6 +89,7 @@ Timeline::Query Timeline::state_at(Stamp stamp, StateRef state, EventCounts& cou
   } else {
     state = base_state_;
   }
+  system_->hold(state.data());
   return Query::kHeld;
 }
 
@@ -181,14 +182,22 @@ Timeline::Effect Timeline::apply(std::size_t position) {
   current.counts = is_first ? base_counts_ : slot(position - 1).counts;
   ++current.counts.events;
 
+  const auto hold = [&] {
+    restore();
+    system_->hold(state.data());
+  };
   restore();
   flow();
   const bool flow_is_finite = is_usable(state);
-  if (!flow_is_finite) restore();
+  if (!flow_is_finite) hold();
   if (!system_->reset(current.event, state.data(), workspace_.data())) return Effect::kRefused;
   if (!is_usable(state)) {
-    restore();
-    if (flow_is_finite) flow();
+    if (flow_is_finite) {
+      restore();
+      flow();
+    } else {
+      hold();
+    }
     return Effect::kNotFinite;
   }
   if (current.event.kind == EventKind::kJump) ++current.counts.jumps;

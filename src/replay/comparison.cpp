@@ -4,11 +4,21 @@
 #include <cmath>
 #include <utility>
 
+#include "sampled_data_observers/certificate/matrix_functions.h"
+
 namespace sampled_data_observers {
 namespace {
 
 double difference(const Quantity& quantity, double a, double b) {
   return quantity.angular ? wrap_angle(a - b) : a - b;
+}
+
+double norm_of(const std::vector<Quantity>& quantities, Eigen::Index states) {
+  Eigen::MatrixXd rows(static_cast<Eigen::Index>(quantities.size()), states);
+  for (std::size_t i = 0; i < quantities.size(); ++i) {
+    rows.row(static_cast<Eigen::Index>(i)) = quantities[i].row;
+  }
+  return norm2(rows);
 }
 
 std::optional<double> root_mean(double squares, std::size_t size) {
@@ -72,7 +82,8 @@ Comparison::Comparison(std::vector<Quantity> quantities, std::shared_ptr<const P
       plant_(std::move(plant)),
       held_(quantities_.size()),
       squares_(quantities_.size(), 0.0),
-      hold_squares_(quantities_.size(), 0.0) {
+      hold_squares_(quantities_.size(), 0.0),
+      weight_(norm_of(quantities_, plant_->states())) {
   for (std::size_t i = 0; i < quantities_.size(); ++i) {
     for (std::size_t sensor = 0; sensor < plant_->sensors().size(); ++sensor) {
       if (plant_->sensors()[sensor].timing == SensorTiming::kAtJumps) continue;
@@ -95,19 +106,30 @@ void Comparison::add_sample(std::size_t sensor, Stamp stamp, const double* value
   }
 }
 
-void Comparison::add_truth(const std::vector<double>& truth, const double* x) {
+void Comparison::add_truth(const std::vector<double>& truth, const double* x, double error_bound) {
   for (const Held& held : held_) {
     if (held.is_measured && !held.value) return;
   }
+  double squares = 0.0;
   for (std::size_t i = 0; i < quantities_.size(); ++i) {
     const Eigen::VectorXd& row = quantities_[i].row;
     const double estimate = row.dot(Eigen::Map<const Eigen::VectorXd>(x, row.size()));
-    squares_[i] += std::pow(difference(quantities_[i], estimate, truth[i]), 2);
+    const double square = std::pow(difference(quantities_[i], estimate, truth[i]), 2);
+    squares += square;
+    squares_[i] += square;
     if (held_[i].is_measured) {
       hold_squares_[i] += std::pow(difference(quantities_[i], *held_[i].value, truth[i]), 2);
     }
   }
   ++size_;
+  if (!std::isfinite(error_bound)) return;
+  const double error = std::sqrt(squares);
+  const double allowed = weight_ * error_bound;
+  ++bound_check_.stamps;
+  if (error > allowed) ++bound_check_.exceeded;
+  if (allowed > 0.0) {
+    bound_check_.share = std::max(bound_check_.share.value_or(0.0), error / allowed);
+  }
 }
 
 std::vector<std::optional<double>> Comparison::rmse() const {

@@ -34,6 +34,7 @@ bool rest_on_same_events(const StateEstimate& a, const StateEstimate& b) {
 
 bool identical(const StateEstimate& a, const StateEstimate& b) {
   return a.state.size() == b.state.size() &&
+         std::memcmp(&a.error_bound, &b.error_bound, sizeof(double)) == 0 &&
          std::memcmp(a.state.data(), b.state.data(), a.state.size() * sizeof(double)) == 0;
 }
 

@@ -227,7 +227,8 @@ class Replay {
     if (elapsed < options_.from || elapsed > options_.to) return;
     const Timeline::Query query = runtime_.estimator().estimate_at(stamp, truth_estimate_);
     if (query != Timeline::Query::kOk && query != Timeline::Query::kHeld) return;
-    comparison_->add_truth(truth_values_, truth_estimate_.state.data());
+    comparison_->add_truth(truth_values_, truth_estimate_.state.data(),
+                           config_.law->error_bound(truth_estimate_.state.data()));
   }
 
   void plot_sample(std::size_t sensor, const Event& event) {
@@ -263,6 +264,11 @@ class Replay {
       summary_.compared.push_back(quantity.name);
     }
     summary_.compared_stamps = comparison_->size();
+    summary_.guarantee = config_.guarantee;
+    summary_.bounded = !std::isnan(config_.law->error_bound(truth_estimate_.state.data()));
+    summary_.bound_stamps = comparison_->bound_check().stamps;
+    summary_.bound_exceeded = comparison_->bound_check().exceeded;
+    summary_.bound_share = comparison_->bound_check().share;
     summary_.rmse = comparison_->rmse();
     summary_.hold_rmse = comparison_->hold_rmse();
     summary_.rmse_norm = Comparison::norm(summary_.rmse);

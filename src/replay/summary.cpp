@@ -36,6 +36,10 @@ void print_comparison(const ReplaySummary& summary, std::ostream& out) {
   }
   row("norm", shown(summary.rmse_norm), shown(summary.hold_rmse_norm),
       ratio(summary.rmse_norm, summary.hold_rmse_norm));
+  if (!summary.bounded) return;
+  out << "  error bound: finite at " << summary.bound_stamps << " stamps, exceeded at "
+      << summary.bound_exceeded << "; the error took at most " << shown(summary.bound_share)
+      << " of it\n";
 }
 
 nlohmann::json number(const std::optional<double>& value) {
@@ -71,6 +75,7 @@ void print_table(const ReplaySummary& summary, std::ostream& out) {
   out << "estimates   " << summary.estimates << ", the last";
   for (const auto& [name, value] : summary.final_state) out << " " << name << "=" << shown(value);
   out << "\n";
+  if (!summary.guarantee.empty()) out << "certified   by " << summary.guarantee << "\n";
   print_comparison(summary, out);
 }
 
@@ -95,6 +100,12 @@ void write_json(const ReplaySummary& summary, const std::string& path) {
   json["rmse_norm"] = number(summary.rmse_norm);
   json["hold_rmse"] = by_name(summary.compared, summary.hold_rmse);
   json["hold_rmse_norm"] = number(summary.hold_rmse_norm);
+  json["guarantee"] = summary.guarantee;
+  if (summary.bounded) {
+    json["error_bound"] = {{"finite", summary.bound_stamps},
+                           {"exceeded", summary.bound_exceeded},
+                           {"largest_share", number(summary.bound_share)}};
+  }
   json["final_stamp"] = summary.final_stamp;
   json["final_state"] = nlohmann::json::object();
   for (const auto& [name, value] : summary.final_state) json["final_state"][name] = value;

@@ -76,6 +76,8 @@ void ObserverNodelet::start(const ObserverConfig& config) {
   NODELET_INFO("%s: %zu states, estimates at %.6g Hz on %s", type_.c_str(),
                config.law->estimate_names().size(), 1.0 / to_seconds(config.period),
                estimate_publisher_.getTopic().c_str());
+  if (!config.guarantee.empty()) NODELET_INFO("certified by %s", config.guarantee.c_str());
+  if (!config.warning.empty()) NODELET_WARN("%s", config.warning.c_str());
 }
 
 std::function<void()> ObserverNodelet::subscription(const EventChannel& channel) {

@@ -165,6 +165,7 @@ void ObserverRuntime::write(const Estimate& estimate, StateEstimate& message) co
   message.state.assign(estimate.state.data(), estimate.state.data() + size);
   const double* covariance = estimator_.law().covariance(estimate.state.data());
   if (covariance != nullptr) message.covariance.assign(covariance, covariance + size * size);
+  message.error_bound = estimator_.law().error_bound(estimate.state.data());
   message.time_since_sample = estimate.counts.last_sample
                                   ? to_seconds(estimate.stamp - *estimate.counts.last_sample)
                                   : kNone;

@@ -23,7 +23,8 @@ const char kTimeName[] = "t";
 /// What only an observer reads from the same tree.
 const char* const kObserverKeys[] = {
     "observer",      "gains",    "sampling",         "history",     "rate",  "initial_estimate",
-    "publish_delay", "frame_id", "future_tolerance", "certificate", "design"};
+    "publish_delay", "frame_id", "future_tolerance", "certificate", "design",
+    "error_assumptions", "allow_uncertified"};
 
 class ScenarioReader {
  public:

@@ -103,6 +103,7 @@ class Theorem {
 
   /// The bound that it gives at run time; null where it gives none.
   /// @pre the conditions hold
+  /// @throws std::invalid_argument saying why, for assumptions that the theorem can't deal with.
   virtual std::unique_ptr<const ErrorBound> error_bound(
       const CertificateSubject& subject, const NamedMatrices& values,
       const ErrorAssumptions& assumptions) const = 0;

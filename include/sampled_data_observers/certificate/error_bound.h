@@ -9,6 +9,8 @@ struct ErrorAssumptions {
   double initial_error = 0.0;  ///< |x − x̂| <= this where the estimate begins, units of the state
   double noise = 0.0;          ///< |η| <= this at every measurement, units of the outputs
   double disturbance = 0.0;    ///< |w| <= this at all times, units of w
+  /// |θ| of what an observer with intersample injection adds before its first sample.
+  double initial_injection = 0.0;
 };
 
 /// How a certificate bounds the norm of the estimation error |x − x̂| along flow and events: a small
@@ -31,7 +33,9 @@ class ErrorBound {
   /// The state where the estimate begins (at any time before the first sample).
   virtual void initialize(double* state) const = 0;
 
-  /// Carries the state over `duration` >= 0 [s].
+  /// Carries the state over `duration` >= 0 [s], the time since the last sample or jump: the double
+  /// nearest to a whole number of nanoseconds, so that it compares with T1 and T2 as they are
+  /// written. It is not split: GuaranteedBound starts again from that sample or jump.
   virtual void flow(double duration, double* state) const = 0;
 
   /// At a sample of the sensor, and at a jump of the plant.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 
 namespace sampled_data_observers {
 
@@ -13,6 +14,14 @@ double max_eigenvalue(const Eigen::MatrixXd& a);
 
 /// The least c for which a <= c b, a symmetric and b symmetric positive definite.
 double largest_generalized_eigenvalue(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
+/// An eigenvector of norm 1 of the least eigenvalue of (a + aᵀ)/2.
+/// @pre a is finite
+Eigen::VectorXd least_eigenvector(const Eigen::MatrixXd& a);
+
+/// W with Wᵀ a W = I and Wᵀ b W diagonal, for symmetric matrices; nothing where a is not positive
+/// definite.
+std::optional<Eigen::MatrixXd> diagonalizing_congruence(const Eigen::MatrixXd& a,
+                                                        const Eigen::MatrixXd& b);
 
 /// Singular values, in decreasing order; the largest is the norm ‖a‖₂.
 Eigen::VectorXd singular_values(const Eigen::MatrixXd& a);
@@ -32,5 +41,8 @@ Eigen::VectorXcd eigenvalues_of(const Eigen::MatrixXd& a);
 
 /// An orthonormal basis of the null space of a, as columns.
 Eigen::MatrixXd null_space(const Eigen::MatrixXd& a);
+
+/// The right singular vectors of the `count` least singular values, as orthonormal columns.
+Eigen::MatrixXd weakest_directions(const Eigen::MatrixXd& a, Eigen::Index count);
 
 }  // namespace sampled_data_observers

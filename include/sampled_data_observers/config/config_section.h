@@ -37,6 +37,8 @@ class ConfigSection {
   std::string choice(const std::string& key, const std::vector<std::string>& choices);
   std::vector<std::string> texts(const std::string& key);
   std::vector<std::string> texts(const std::string& key, std::size_t size);
+  /// true or false.
+  bool flag(const std::string& key, bool fallback);
   std::vector<bool> flags(const std::string& key, std::size_t size);
 
   /// A matrix as nested lists, row by row. A negative size is free.

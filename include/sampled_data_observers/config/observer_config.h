@@ -32,9 +32,14 @@ struct ObserverConfig {
   std::optional<TopicSource> input;
   /// Set when the plant jumps; its size is the number of outputs measured at jumps.
   std::optional<TopicSource> jumps;
+  /// Name of the theorem that guarantees something for these gains, and what; empty without a
+  /// certificate that holds.
+  std::string guarantee;
+  /// Why there is no guarantee although there is a certificate; else empty.
+  std::string warning;
 };
 
-/// Reads and checks a whole configuration tree. The key `scenario`, which `simulate` reads, is left
+/// Reads and checks a whole configuration tree, and the certificate where it has one. The key `scenario`, which `simulate` reads, is left
 /// alone.
 /// @throws ConfigError for the first fault found.
 ObserverConfig read_observer_config(const ConfigNode& root, const PlantPluginLoader& load_plugin);

@@ -8,8 +8,7 @@ namespace sampled_data_observers {
 /// conditions are linear matrix inequalities, and checks the conditions themselves.
 ///
 /// With Objective::kMinGamma the least gamma is found first, and then a proof as far inside as
-/// possible for a gamma larger by 0.1 %. With others, `fixed` must have a gamma where the theorem
-/// names one.
+/// possible for a gamma larger by 0.1 %. With others, gamma is a multiplier where `fixed` has none.
 ///
 /// @param fixed  gains and parameters of the theorem
 /// To be called in a worker process.

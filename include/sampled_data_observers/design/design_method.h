@@ -2,6 +2,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -28,8 +29,9 @@ const char* to_string(Objective objective);
 struct DesignParameter {
   std::string name;
   std::string meaning;  ///< for the help, with its unit
-  /// Used where the user gives none and it is not searched for.
+  /// Used where the user gives none and does not ask for a search.
   std::optional<double> default_value;
+  /// Without default, the parameter is always searched for.
   std::optional<SearchRange> search;
 };
 
@@ -37,6 +39,8 @@ struct DesignParameter {
 struct DesignProblem {
   CertificateSubject subject;
   Parameters given;
+  /// Those to search for although they have defaults.
+  std::set<std::string> searched;
   Objective objective = Objective::kFeasible;
 };
 
@@ -100,10 +104,11 @@ class LmiDesignMethod : public DesignMethod {
   DesignCandidate attempt(const CertificateSubject& subject, const Parameters& parameters,
                           Objective objective) const override;
 
- protected:
+  /// @throws std::invalid_argument saying why, for parameters that it can't have.
   virtual LmiProgram program(const CertificateSubject& subject, const Parameters& parameters,
                              Objective objective) const = 0;
 
+ protected:
   /// The gains by name.
   virtual NamedMatrices gains(const CertificateSubject& subject, const Parameters& parameters,
                               const NamedMatrices& solution) const = 0;

@@ -18,7 +18,8 @@ struct SynthesisOptions {
 
 /// A verified design, and how it was found.
 struct Design {
-  const DesignMethod* method = nullptr;
+  std::string method;
+  std::string observer_type;
   Certificate certificate;
   Objective objective = Objective::kFeasible;
   /// All scalars with which it was made.
@@ -30,11 +31,17 @@ struct Design {
 };
 
 /// Finds gains by a method: chooses what the user left open, searches for the parameters with a
-/// range, and for max-T2 and max-decay by bisection for the largest value (to 0.1 %).
+/// range, and for max-T2 and max-decay by bisection for the largest value (to 0.1 %). Then, with
+/// the gains fixed, looks for a proof that reaches further than the one that led to them, as Remark
+/// 9 of ferrante2019 proposes.
 /// @throws DesignError when the method is not about the plant or the objective, a parameter means
 /// nothing to it or is not finite, or no attempt led to gains that the theorem's own conditions
 /// accept; the message says what was tried and what to change.
 Design synthesize(const DesignMethod& method, const DesignProblem& problem,
                   const SynthesisOptions& options);
+
+/// The same without the last step.
+Design search_design(const DesignMethod& method, const DesignProblem& problem,
+                     const SynthesisOptions& options);
 
 }  // namespace sampled_data_observers

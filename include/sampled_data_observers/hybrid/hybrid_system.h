@@ -48,6 +48,10 @@ class HybridSystem {
   /// as not finite.
   virtual Duration flow_horizon() const { return std::numeric_limits<Duration>::max(); }
 
+  /// Told where the state is held instead of flowed, since the flow is not finite: for systems that
+  /// keep what must not outlive such a gap.
+  virtual void hold(double* state) const { static_cast<void>(state); }
+
   /// Reset map of an event that event_size() accepts. Returns false, and leaves the state alone,
   /// where the event must not take effect: a jump that comes too soon after others.
   virtual bool reset(const Event& event, double* state, double* workspace) const = 0;

@@ -30,6 +30,8 @@ class LawDecorator : public ObserverLaw {
     law_->start_from(estimate, state);
   }
   const double* covariance(const double* state) const override { return law_->covariance(state); }
+  double error_bound(const double* state) const override { return law_->error_bound(state); }
+  void hold(double* state) const override { law_->hold(state); }
   bool delays_jumps() const override { return law_->delays_jumps(); }
 
  protected:
@@ -39,6 +41,7 @@ class LawDecorator : public ObserverLaw {
   const ObserverLaw& law() const { return *law_; }
   Eigen::Index inner_size() const { return law_->state_size(); }
   double* own(double* state) const { return state + inner_size(); }
+  const double* own(const double* state) const { return state + inner_size(); }
 
  private:
   std::shared_ptr<const ObserverLaw> law_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,13 @@ class ObserverLaw : public HybridSystem {
   virtual const double* covariance(const double* state) const {
     static_cast<void>(state);
     return nullptr;
+  }
+
+  /// A guaranteed bound on the norm |x − x̂| of the estimate's error in a state, units of the state:
+  /// infinite where what it rests on did not hold, NaN where the law gives none.
+  virtual double error_bound(const double* state) const {
+    static_cast<void>(state);
+    return std::numeric_limits<double>::quiet_NaN();
   }
 
   /// Whether a jump's reset waits for a release event (see DelayedJumps).

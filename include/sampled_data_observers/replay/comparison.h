@@ -42,11 +42,21 @@ class Comparison {
   void add_sample(std::size_t sensor, Stamp stamp, const double* values);
 
   /// Compares at one stamp. @param truth one value per quantity @param x the estimate, n entries
+  /// @param error_bound  on |truth − x| of the whole state; NaN: none
   /// Does nothing before each quantity that a sensor measures directly was sampled once.
-  void add_truth(const std::vector<double>& truth, const double* x);
+  void add_truth(const std::vector<double>& truth, const double* x, double error_bound);
 
   /// Number of stamps compared.
   std::size_t size() const { return size_; }
+
+  /// How many of these had a finite error bound, at how many of them the error of the quantities
+  /// was larger than the bound allows, and the largest share of it that the error took.
+  struct BoundCheck {
+    std::size_t stamps = 0;
+    std::size_t exceeded = 0;
+    std::optional<double> share;
+  };
+  const BoundCheck& bound_check() const { return bound_check_; }
 
   /// Root mean squares, one per quantity; nothing where no stamp was compared or, for the held
   /// sample, no sensor measures the quantity directly.
@@ -70,6 +80,9 @@ class Comparison {
   std::vector<double> squares_;
   std::vector<double> hold_squares_;
   std::size_t size_ = 0;
+  /// The largest norm of the quantities of a state of norm 1.
+  double weight_;
+  BoundCheck bound_check_;
 };
 
 }  // namespace sampled_data_observers

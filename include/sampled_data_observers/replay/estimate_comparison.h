@@ -12,7 +12,7 @@ struct EstimateComparison {
   std::size_t second = 0;       ///< in the second
   std::size_t common = 0;       ///< stamps in both
   std::size_t same_events = 0;  ///< of these: both rest on as many inputs, samples and jumps
-  std::size_t identical = 0;    ///< of these: states equal bit for bit
+  std::size_t identical = 0;    ///< of these: states and error bounds equal bit for bit
   bool repeated_stamps = false;
 };
 

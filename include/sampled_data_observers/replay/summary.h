@@ -59,6 +59,15 @@ struct ReplaySummary {
   std::optional<double> rmse_norm;
   std::optional<double> hold_rmse_norm;
 
+  /// Theorem and guarantee of a certificate that holds; empty without.
+  std::string guarantee;
+  /// Whether estimates have an error bound; of the stamps compared: at how many it was finite, at
+  /// how many of these the error was larger, and the largest share of it that the error took.
+  bool bounded = false;
+  std::size_t bound_stamps = 0;
+  std::size_t bound_exceeded = 0;
+  std::optional<double> bound_share;
+
   double bag_seconds = 0.0;
   double wall_seconds = 0.0;
 

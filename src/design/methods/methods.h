@@ -15,5 +15,9 @@ const DesignMethod& bernard2022_switched_jump_based_design();
 const DesignMethod& etienne2019_proposition1_design();
 const DesignMethod& etienne2019_proposition2_design();
 const DesignMethod& ferrante2019_proposition2();
+const DesignMethod& ferrante2019_proposition3();
+const DesignMethod& ferrante2019_proposition4();
+const DesignMethod& ferrante2019_proposition5();
+const DesignMethod& ferrante2019_alternating();
 
 }  // namespace sampled_data_observers

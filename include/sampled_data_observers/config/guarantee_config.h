@@ -1,0 +1,33 @@
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <string>
+
+#include "sampled_data_observers/certificate/error_bound.h"
+#include "sampled_data_observers/config/config_section.h"
+#include "sampled_data_observers/config/observer_config.h"
+
+namespace sampled_data_observers {
+
+/// What a configuration guarantees of its estimates. doc/certificates.md describes it.
+struct Guarantee {
+  /// Theorem and guarantee; empty where there is no certificate that holds.
+  std::string text;
+  /// Why a certificate that does not hold was accepted; else empty.
+  std::string warning;
+  /// Null where the configuration asks for none.
+  std::unique_ptr<const ErrorBound> bound;
+  /// As GuaranteedBound takes it.
+  double error_limit = std::numeric_limits<double>::infinity();
+};
+
+/// Reads the sections `certificate` and `error_assumptions` and the key `allow_uncertified`, and
+/// checks that the certificate is about this plant, observer and sampling, and that the theorem's
+/// conditions hold for these gains.
+/// @param tree    that `root` reads, for the plant's fingerprint
+/// @param config  with type, plant, law and options.sampling read
+/// @throws ConfigError where it does not hold and that is not allowed, and for the first fault.
+Guarantee read_guarantee(ConfigSection& root, const ConfigNode& tree, const ObserverConfig& config);
+
+}  // namespace sampled_data_observers

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sampled_data_observers/certificate/condition.h"
+
+namespace sampled_data_observers {
+
+enum class ProofStatus { kProved, kDisproved, kUndecided };
+const char* to_string(ProofStatus status);
+
+/// What ball arithmetic says of a condition.
+struct ConditionProof {
+  std::string name;
+  ProofStatus status = ProofStatus::kUndecided;
+  /// Of a condition over τ: where it is violated, or where it could not be decided [s].
+  std::optional<double> tau;
+  /// Where disproved: vᵀ F v is certainly not larger than this for a vector v of norm 1, F being
+  /// the matrix that should be positive definite. Where undecided: its least eigenvalue, about.
+  double value = 0.0;
+  /// Intervals of τ that were looked at.
+  std::size_t intervals = 0;
+  /// Why it is undecided.
+  std::string reason;
+};
+
+/// Proves or disproves conditions, over all τ of their intervals and not on a grid, in ball
+/// arithmetic: rounding is accounted for.
+///
+/// Every number that is not whole, of `values` and of the constants in the conditions, stands for
+/// all numbers of which it is the nearest double. Its decimal in a file is one of them, and the
+/// double that an observer computes with is another: a proof is about both.
+///
+/// An interval of τ is proved by the Cholesky decomposition of an enclosure, or bisected. A
+/// condition is disproved by a τ and a vector. Undecided is one whose matrix is singular, or too
+/// close to it, at some τ.
+/// @throws as evaluate()
+std::vector<ConditionProof> prove(const std::vector<Condition>& conditions,
+                                  const NamedMatrices& values);
+
+}  // namespace sampled_data_observers

@@ -1,0 +1,180 @@
+#include "sampled_data_observers/config/guarantee_config.h"
+
+#include <algorithm>
+#include <cmath>
+#include <locale>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+
+#include "sampled_data_observers/config/certificate_config.h"
+#include "sampled_data_observers/config/plant_fingerprint.h"
+
+namespace sampled_data_observers {
+namespace {
+
+constexpr double kLargestAssumption = 1e50;
+
+const char kRemedy[] =
+    "; make them again with 'design synthesize', or set allow_uncertified: true to run without "
+    "guarantee";
+
+/// Gains that innovations are multiplied by: a theorem that is not about one of these takes it for
+/// zero.
+const char* const kInjectionGains[] = {"L", "H", "K", "L_c", "L_d"};
+
+std::string interval(double low, double high) {
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text.precision(12);
+  text << '[' << low << ", " << high << "] s";
+  return text.str();
+}
+
+std::optional<ConfigError> objection_to_gains(ConfigSection& root, const Certificate& certificate) {
+  const ConfigSection gains = root.section("gains");
+  const std::vector<NamedShape> known = certificate.theorem->gains(certificate.subject);
+  for (const std::string& key : gains.keys()) {
+    const bool is_known = std::any_of(known.begin(), known.end(), [&](const NamedShape& shape) {
+      return shape.name.substr(0, shape.name.find('/')) == key;
+    });
+    const bool injects =
+        std::count(std::begin(kInjectionGains), std::end(kInjectionGains), key) > 0;
+    if (is_known || !injects) continue;
+    return gains.error(key,
+                       "only gains that " + certificate.theorem->name() + " is about" + kRemedy,
+                       "another gain");
+  }
+  return std::nullopt;
+}
+
+/// Why a certificate does not hold for a configuration, if so.
+std::optional<ConfigError> objection(ConfigSection& root, const ConfigNode& tree,
+                                     const CertificateConfig& claim, const ObserverConfig& config) {
+  ConfigSection section = root.section("certificate");
+  const Certificate& certificate = claim.certificate;
+  const std::vector<std::string> types = certificate.theorem->observer_types();
+  if (std::count(types.begin(), types.end(), config.type) == 0) {
+    return section.error("theorem", "a theorem about a " + config.type + kRemedy,
+                         certificate.theorem->name());
+  }
+  if (const auto error = objection_to_gains(root, certificate)) return error;
+  const std::string hash = plant_fingerprint(tree);
+  if (claim.plant_hash != hash) {
+    return section.error("plant/hash",
+                         hash +
+                             ", the fingerprint of the plant and sensors configured: the gains "
+                             "were made for others (" +
+                             claim.plant_file + ")" + kRemedy,
+                         claim.plant_hash);
+  }
+  const CertificateSubject& subject = certificate.subject;
+  const SamplingBounds& sampling = config.options.sampling;
+  if (root.has("sampling") &&
+      (sampling.T1 < from_seconds(subject.T1) || sampling.T2 > from_seconds(subject.T2))) {
+    return root.error("sampling",
+                      "T1 and T2 inside " + interval(subject.T1, subject.T2) +
+                          ", for which the gains were made" + kRemedy,
+                      interval(to_seconds(sampling.T1), to_seconds(sampling.T2)));
+  }
+  const std::vector<ConditionCheck> checks = check(certificate);
+  if (all_hold(checks)) return std::nullopt;
+  return root.error("certificate",
+                    "gains and matrices for which the conditions of " +
+                        certificate.theorem->name() + " hold" + kRemedy,
+                    "others: " + describe_violations(checks));
+}
+
+double assumption(ConfigSection& section, const std::string& key) {
+  return section.number_in(key, 0.0, kLargestAssumption, std::nullopt);
+}
+
+ErrorAssumptions read_assumptions(ConfigSection& root, const CertificateSubject& subject,
+                                  const Plant& plant) {
+  ErrorAssumptions assumptions;
+  ConfigSection section = root.section("error_assumptions");
+  assumptions.initial_error = assumption(section, "initial_error");
+  assumptions.noise = assumption(section, "noise");
+  if (subject.plant.N.cols() > 0) {
+    assumptions.disturbance = assumption(section, "disturbance");
+  } else if (section.has("disturbance") && assumption(section, "disturbance") > 0.0) {
+    throw section.error("disturbance",
+                        "0, or a certificate for disturbances (with certificate/N; design again "
+                        "with design/N)",
+                        "'" + section.text("disturbance") + "'");
+  }
+  section.finish();
+  ConfigSection theta = root.section("gains").section_or_empty("theta0");
+  for (const Sensor& sensor : plant.sensors()) {
+    if (!theta.has(sensor.name)) continue;
+    assumptions.initial_injection = theta.vector(sensor.name, sensor.outputs()).norm();
+  }
+  return assumptions;
+}
+
+/// See GuaranteedBound: |C_i ε| + |η| must stay below π for each angle.
+double error_limit(const Plant& plant, double noise) {
+  double limit = std::numeric_limits<double>::infinity();
+  for (const PlantMode& mode : plant.modes()) {
+    for (std::size_t i = 0; i < plant.sensors().size(); ++i) {
+      const Sensor& sensor = plant.sensors()[i];
+      for (Eigen::Index output = 0; output < sensor.outputs(); ++output) {
+        if (!sensor.angular[static_cast<std::size_t>(output)]) continue;
+        const double weight = mode.outputs[i]->affine()->M().row(output).norm();
+        limit = std::min(limit, (std::acos(-1.0) - noise) / weight);
+      }
+    }
+  }
+  return limit;
+}
+
+/// Theorems are about the law itself, and about outputs that are there all the time where they are
+/// continuous.
+void require_bounded(ConfigSection& root, const ObserverConfig& config) {
+  if (config.law->delays_jumps()) {
+    throw root.error("error_assumptions", "jumps/late: rewind beside it",
+                     "delayed, for which there is no bound");
+  }
+  if (config.plant->outputs(SensorTiming::kContinuous) > 0) {
+    throw root.error("error_assumptions", "no sensor with measured: continuous",
+                     "one: its values are held between messages, for which there is no bound");
+  }
+}
+
+}  // namespace
+
+Guarantee read_guarantee(ConfigSection& root, const ConfigNode& tree,
+                         const ObserverConfig& config) {
+  Guarantee guarantee;
+  const bool allow_uncertified = root.flag("allow_uncertified", false);
+  const auto claim = read_certificate(root, *config.plant);
+  if (!claim) {
+    if (!root.has("error_assumptions")) return guarantee;
+    throw root.error("error_assumptions",
+                     "a certificate beside it (gains made by 'design synthesize')", "none");
+  }
+  const auto error = objection(root, tree, *claim, config);
+  if (error && !allow_uncertified) throw ConfigError(*error);
+  const Certificate& certificate = claim->certificate;
+  const Theorem& theorem = *certificate.theorem;
+  if (!error) guarantee.text = theorem.name() + ": " + theorem.guarantee();
+  if (error) guarantee.warning = std::string("no guarantee and no error bound: ") + error->what();
+  if (!root.has("error_assumptions")) return guarantee;
+  require_bounded(root, config);
+  const ErrorAssumptions assumptions = read_assumptions(root, certificate.subject, *config.plant);
+  if (error) return guarantee;
+  try {
+    guarantee.bound = theorem.error_bound(certificate.subject, certificate.values, assumptions);
+  } catch (const std::invalid_argument& fault) {
+    throw root.error("error_assumptions",
+                     "assumptions for which " + theorem.name() + " gives a bound", fault.what());
+  }
+  if (!guarantee.bound) {
+    throw root.error("error_assumptions", "a certificate of a theorem that gives a bound",
+                     theorem.name());
+  }
+  guarantee.error_limit = error_limit(*config.plant, assumptions.noise);
+  return guarantee;
+}
+
+}  // namespace sampled_data_observers

@@ -1,0 +1,144 @@
+#include "sampled_data_observers/design/analysis.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "sampled_data_observers/design/certify.h"
+
+namespace sampled_data_observers {
+namespace {
+
+bool has_gamma(const Theorem& theorem, const CertificateSubject& subject) {
+  const auto parameters = theorem.parameters(subject);
+  return std::any_of(parameters.begin(), parameters.end(),
+                     [](const NamedShape& shape) { return shape.name == "gamma"; });
+}
+
+/// The design method whose gains are known.
+class GivenGains : public DesignMethod {
+ public:
+  GivenGains(const Theorem& theorem, NamedMatrices gains)
+      : theorem_(theorem), gains_(std::move(gains)) {}
+
+  std::string name() const override { return "analysis"; }
+  std::string summary() const override { return "proves given gains"; }
+  const Theorem& theorem() const override { return theorem_; }
+
+  std::vector<DesignParameter> parameters(const CertificateSubject& subject) const override {
+    const std::vector<NamedRange> ranges = theorem_.search_ranges(subject);
+    std::vector<DesignParameter> all;
+    for (const NamedShape& shape : theorem_.parameters(subject)) {
+      DesignParameter parameter;
+      parameter.name = shape.name;
+      for (const NamedRange& named : ranges) {
+        if (named.name == shape.name) parameter.search = named.range;
+      }
+      all.push_back(std::move(parameter));
+    }
+    return all;
+  }
+
+  std::vector<Objective> objectives(const CertificateSubject& subject) const override {
+    std::vector<Objective> all = {Objective::kFeasible, Objective::kMaxT2};
+    if (has_gamma(theorem_, subject)) all.insert(all.begin(), Objective::kMinGamma);
+    if (!theorem_.decay_parameter().empty()) all.push_back(Objective::kMaxDecay);
+    return all;
+  }
+
+  DesignCandidate attempt(const CertificateSubject& subject, const Parameters& parameters,
+                          Objective objective) const override {
+    NamedMatrices fixed = gains_;
+    for (const auto& [name, value] : parameters) fixed[name] = scalar_matrix(value);
+    return certify_here(theorem_, subject, fixed, objective);
+  }
+
+ private:
+  const Theorem& theorem_;
+  NamedMatrices gains_;
+};
+
+/// Whether the analysis found more than the design had.
+bool is_better(const Design& analysis, const Design& design, const std::string& decay) {
+  const auto value = [](const Design& of, const std::string& name) {
+    return scalar_value(of.certificate.values, name);
+  };
+  switch (design.objective) {
+    case Objective::kMinGamma:
+      return value(analysis, "gamma") < value(design, "gamma");
+    case Objective::kMaxT2:
+      return analysis.certificate.subject.T2 > design.certificate.subject.T2;
+    case Objective::kMaxDecay:
+      return value(analysis, decay) > value(design, decay);
+    case Objective::kFeasible:
+      break;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::vector<Objective> analysis_objectives(const Theorem& theorem,
+                                           const CertificateSubject& subject) {
+  return GivenGains(theorem, {}).objectives(subject);
+}
+
+Design analyze(const AnalysisProblem& problem, const SynthesisOptions& options) {
+  const Theorem& theorem = *problem.theorem;
+  const GivenGains method(theorem, problem.gains);
+  try {
+    theorem.require_applicable(problem.subject);
+  } catch (const std::invalid_argument& fault) {
+    throw DesignError(theorem.name() + " is not for this plant: " + fault.what());
+  }
+  for (const DesignParameter& parameter : method.parameters(problem.subject)) {
+    const bool is_found =
+        parameter.search || parameter.name == "gamma" ||
+        (problem.objective == Objective::kMaxDecay && parameter.name == theorem.decay_parameter());
+    if (is_found || problem.given.count(parameter.name) > 0) continue;
+    throw DesignError(theorem.name() + " needs a value of " + parameter.name + ": give --set " +
+                      parameter.name + "=NUMBER");
+  }
+  DesignProblem search;
+  search.subject = problem.subject;
+  search.given = problem.given;
+  search.objective = problem.objective;
+  return search_design(method, search, options);
+}
+
+Design prove_further(const Design& design, const SynthesisOptions& options) {
+  const Certificate& certificate = design.certificate;
+  AnalysisProblem problem;
+  problem.theorem = certificate.theorem;
+  problem.subject = certificate.subject;
+  problem.objective = design.objective;
+  const std::vector<Objective> known = analysis_objectives(*problem.theorem, problem.subject);
+  const bool has_meaning = design.objective != Objective::kFeasible &&
+                           std::find(known.begin(), known.end(), design.objective) != known.end();
+  if (!has_meaning) return design;
+  for (const NamedShape& shape : problem.theorem->gains(problem.subject)) {
+    problem.gains[shape.name] = certificate.values.at(shape.name);
+  }
+  const std::vector<NamedRange> ranges = problem.theorem->search_ranges(problem.subject);
+  for (const NamedShape& shape : problem.theorem->parameters(problem.subject)) {
+    const bool is_searched =
+        std::any_of(ranges.begin(), ranges.end(),
+                    [&](const NamedRange& range) { return range.name == shape.name; });
+    if (is_searched || (shape.name == "gamma" && design.parameters.count("gamma") == 0)) continue;
+    problem.given[shape.name] = scalar_value(certificate.values, shape.name);
+  }
+  Design best = design;
+  try {
+    const Design analysis = analyze(problem, options);
+    best.attempts += analysis.attempts;
+    best.seconds += analysis.seconds;
+    if (is_better(analysis, design, problem.theorem->decay_parameter())) {
+      best.certificate = analysis.certificate;
+      best.margin = analysis.margin;
+    }
+  } catch (const DesignError&) {
+    // The proof at hand is the best.
+  }
+  return best;
+}
+
+}  // namespace sampled_data_observers

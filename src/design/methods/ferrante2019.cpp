@@ -1,0 +1,52 @@
+#include "ferrante2019.h"
+
+namespace sampled_data_observers {
+
+std::vector<DesignParameter> ferrante2019_parameters(const CertificateSubject& subject) {
+  std::vector<DesignParameter> all = {
+      {"lambda_t", "rate of convergence [1/s]", 0.01, std::nullopt},
+      {"delta", "how fast the weight of the held innovation falls [1/s]", std::nullopt,
+       SearchRange{0.1 / subject.T2, 30.0 / subject.T2, true}},
+      {"gain_bound", "bound on the norm of L", 1000.0, std::nullopt},
+  };
+  if (subject.plant.N.cols() > 0) {
+    all.push_back({"gamma", "L2 gain from the disturbance, where it is not minimized", std::nullopt,
+                   std::nullopt});
+  }
+  return all;
+}
+
+std::vector<Objective> ferrante2019_objectives(const CertificateSubject& subject) {
+  std::vector<Objective> all = {Objective::kFeasible, Objective::kMaxT2, Objective::kMaxDecay};
+  if (subject.plant.N.cols() > 0) all.push_back(Objective::kMinGamma);
+  return all;
+}
+
+void add_gamma(LmiProgram& program, const CertificateSubject& subject, const Parameters& parameters,
+               Objective objective) {
+  if (subject.plant.N.cols() == 0) return;
+  const auto given = parameters.find("gamma");
+  if (objective == Objective::kMinGamma) {
+    program.minimize(program.squared("gamma"));
+  } else if (given != parameters.end()) {
+    program.fix("gamma", scalar_matrix(given->second));
+  } else {
+    program.squared("gamma");
+  }
+}
+
+LmiProgram ferrante2019_program(const CertificateSubject& subject, const Parameters& parameters,
+                                Objective objective) {
+  LmiProgram program;
+  const Eigen::Index n = subject.plant.states();
+  const Eigen::Index m = subject.plant.C().rows();
+  program.require_positive("P1 > 0", program.symmetric("P1", n));
+  program.require_positive("P2 > 0", program.symmetric("P2", m));
+  if (!subject.plant.is_linear()) program.require_positive("chi > 0", program.scalar("chi"));
+  add_gamma(program, subject, parameters, objective);
+  program.fix("delta", scalar_matrix(parameters.at("delta")));
+  program.fix("lambda_t", scalar_matrix(parameters.at("lambda_t")));
+  return program;
+}
+
+}  // namespace sampled_data_observers

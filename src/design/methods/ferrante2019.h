@@ -1,0 +1,35 @@
+#pragma once
+
+#include <vector>
+
+#include "sampled_data_observers/design/design_method.h"
+
+namespace sampled_data_observers {
+
+// What the designs of ferrante2019 share: all find gains for Theorem 2.
+
+/// lambda_t, delta, gain_bound, and gamma where there is a disturbance.
+std::vector<DesignParameter> ferrante2019_parameters(const CertificateSubject& subject);
+std::vector<Objective> ferrante2019_objectives(const CertificateSubject& subject);
+
+/// A program with P1, P2, chi and gamma² as variables, and with delta and lambda_t fixed. gamma is
+/// fixed where it is given and not minimized.
+LmiProgram ferrante2019_program(const CertificateSubject& subject, const Parameters& parameters,
+                                Objective objective);
+
+/// Adds gamma² as variable where there is a disturbance, or fixes gamma as above.
+void add_gamma(LmiProgram& program, const CertificateSubject& subject, const Parameters& parameters,
+               Objective objective);
+
+class Ferrante2019Proposition : public LmiDesignMethod {
+ public:
+  const Theorem& theorem() const override { return *find_theorem("ferrante2019_theorem2"); }
+  std::vector<DesignParameter> parameters(const CertificateSubject& subject) const override {
+    return ferrante2019_parameters(subject);
+  }
+  std::vector<Objective> objectives(const CertificateSubject& subject) const override {
+    return ferrante2019_objectives(subject);
+  }
+};
+
+}  // namespace sampled_data_observers

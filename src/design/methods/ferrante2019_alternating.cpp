@@ -1,0 +1,138 @@
+#include <cmath>
+#include <utility>
+
+#include "ferrante2019.h"
+#include "methods.h"
+#include "sampled_data_observers/certificate/ferrante2019_matrix.h"
+#include "sampled_data_observers/design/certify.h"
+
+namespace sampled_data_observers {
+namespace {
+
+constexpr int kMaxSteps = 30;
+/// A step that gains less ends the alternation.
+constexpr double kLeastProgress = 1e-3;
+/// Gains are sought for a gamma larger than the least one, so that they are not at the edge, where
+/// the next Lyapunov matrices could not move.
+constexpr double kRoom = 1.01;
+
+/// Beyond the paper: from the best design of Propositions 2 to 5, gains and Lyapunov matrices are
+/// improved in turn, each with the other fixed, since Theorem 2 is linear in either.
+class Alternating : public DesignMethod {
+ public:
+  std::string name() const override { return "ferrante2019_alternating"; }
+
+  std::string summary() const override {
+    return "the best of Propositions 2 to 5, improved by alternating between gains and Lyapunov "
+           "matrices";
+  }
+
+  const Theorem& theorem() const override { return *find_theorem("ferrante2019_theorem2"); }
+
+  std::vector<DesignParameter> parameters(const CertificateSubject& subject) const override {
+    return ferrante2019_parameters(subject);
+  }
+  std::vector<Objective> objectives(const CertificateSubject& subject) const override {
+    return ferrante2019_objectives(subject);
+  }
+
+  DesignCandidate attempt(const CertificateSubject& subject, const Parameters& parameters,
+                          Objective objective) const override {
+    DesignCandidate best = best_proposition(subject, parameters, objective);
+    if (best.values.empty()) return best;
+    for (int step = 0; step < kMaxSteps; ++step) {
+      const NamedMatrices gains = better_gains(subject, parameters, objective, best.values);
+      if (gains.empty()) break;
+      NamedMatrices fixed = known(parameters);
+      for (const auto& [name, value] : gains) fixed[name] = value;
+      DesignCandidate next = certify_here(theorem(), subject, fixed, objective);
+      if (!is_better(next, best)) break;
+      const double progress = best.cost - next.cost;
+      const bool was_verified = best.is_verified();
+      best = std::move(next);
+      if (was_verified && progress < kLeastProgress * std::abs(best.cost)) break;
+    }
+    return best;
+  }
+
+ private:
+  static bool is_better(const DesignCandidate& a, const DesignCandidate& b) {
+    if (a.values.empty()) return false;
+    if (a.is_verified() != b.is_verified()) return a.is_verified();
+    return a.is_verified() ? a.cost < b.cost : a.margin > b.margin;
+  }
+
+  static DesignCandidate best_proposition(const CertificateSubject& subject,
+                                          const Parameters& parameters, Objective objective) {
+    DesignCandidate best;
+    for (const DesignMethod* method :
+         {&ferrante2019_proposition2(), &ferrante2019_proposition3(), &ferrante2019_proposition4(),
+          &ferrante2019_proposition5()}) {
+      Parameters own = parameters;
+      own["a"] = 1.0;
+      const bool needs_large_delta =
+          method != &ferrante2019_proposition2() && method != &ferrante2019_proposition4();
+      if (needs_large_delta && own.at("delta") <= 2.0 * own.at("lambda_t")) continue;
+      DesignCandidate candidate = method->attempt(subject, own, objective);
+      if (best.values.empty() || is_better(candidate, best)) best = std::move(candidate);
+    }
+    return best;
+  }
+
+  /// The parameters of the theorem that are fixed.
+  static NamedMatrices known(const Parameters& parameters) {
+    NamedMatrices fixed;
+    for (const char* name : {"delta", "lambda_t", "gamma"}) {
+      const auto given = parameters.find(name);
+      if (given != parameters.end()) fixed[name] = scalar_matrix(given->second);
+    }
+    return fixed;
+  }
+
+  /// L and H for the Lyapunov matrices of a design; none where the solver finds none.
+  static NamedMatrices better_gains(const CertificateSubject& subject, const Parameters& parameters,
+                                    Objective objective, const NamedMatrices& values) {
+    LmiSolution solution =
+        solve_with_csdp(gain_program(subject, parameters, objective, values), SolverOptions());
+    if (objective == Objective::kMinGamma && !solution.values.empty()) {
+      Parameters with_room = parameters;
+      with_room["gamma"] = kRoom * scalar_value(solution.values, "gamma");
+      solution = solve_with_csdp(gain_program(subject, with_room, Objective::kFeasible, values),
+                                 SolverOptions());
+    }
+    if (solution.values.empty()) return {};
+    return {{"L", solution.values.at("L")}, {"H", solution.values.at("H")}};
+  }
+
+  static LmiProgram gain_program(const CertificateSubject& subject, const Parameters& parameters,
+                                 Objective objective, const NamedMatrices& values) {
+    const PlantMatrices& plant = subject.plant;
+    const Eigen::Index n = plant.states();
+    const Eigen::Index m = plant.C().rows();
+    LmiProgram program;
+    for (const char* name : {"P1", "P2", "delta", "lambda_t"}) program.fix(name, values.at(name));
+    const MatrixExpression L = program.matrix("L", n, m);
+    const MatrixExpression H = program.matrix("H", m, m);
+    if (!plant.is_linear()) program.require_positive("chi > 0", program.scalar("chi"));
+    add_gamma(program, subject, parameters, objective);
+    const MatrixExpression P1_L = symbol("P1", n, n) * L;
+    const MatrixExpression P2_CL_H = symbol("P2", m, m) * (MatrixExpression(plant.C()) * L + H);
+    const MatrixExpression lambda_t = symbol("lambda_t");
+    const double e = std::exp(parameters.at("delta") * subject.T2);
+    program.require_negative("M(0)", ferrante2019_M(plant, 1.0, lambda_t, P1_L, P2_CL_H));
+    program.require_negative("M(T2)", ferrante2019_M(plant, e, lambda_t, P1_L, P2_CL_H));
+    const MatrixExpression k = parameters.at("gain_bound");
+    program.bound_above("norm of L", zeros(n + m, n + m),
+                        symmetric_blocks({{k * identity(n), L}, {k * identity(m)}}));
+    return program;
+  }
+};
+
+}  // namespace
+
+const DesignMethod& ferrante2019_alternating() {
+  static const Alternating method;
+  return method;
+}
+
+}  // namespace sampled_data_observers

@@ -1,0 +1,189 @@
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "commands.h"
+#include "gain_files.h"
+#include "sampled_data_observers/config/certificate_config.h"
+#include "sampled_data_observers/config/design_config.h"
+#include "sampled_data_observers/config/named_values.h"
+#include "sampled_data_observers/config/yaml_file.h"
+#include "sampled_data_observers/design/analysis.h"
+#include "sampled_data_observers/design/workers.h"
+#include "sampled_data_observers/ros/plant_plugins.h"
+
+namespace sampled_data_observers {
+namespace {
+
+struct Arguments {
+  std::string gains;
+  std::vector<std::string> plant;
+  std::string theorem;
+  std::string objective;
+  std::string output;
+  double T1 = 0.0;
+  double T2 = 0.0;
+  std::vector<std::string> assignments;
+  unsigned jobs = default_jobs();
+  double time_limit = 20.0;
+};
+
+const Theorem& theorem_for(ConfigSection& root, const std::string& name,
+                           const CertificateSubject& subject) {
+  if (!name.empty()) return *find_theorem(name);
+  const std::string type = root.text("observer");
+  std::string reasons;
+  for (const Theorem* theorem : theorems()) {
+    const auto types = theorem->observer_types();
+    if (std::find(types.begin(), types.end(), type) == types.end()) continue;
+    try {
+      theorem->require_applicable(subject);
+      return *theorem;
+    } catch (const std::invalid_argument& fault) {
+      reasons += (reasons.empty() ? "" : "; ") + theorem->name() + ": " + fault.what();
+    }
+  }
+  throw root.error("observer", "an observer that a theorem is about, for this plant",
+                   type + (reasons.empty() ? "" : " (" + reasons + ")"));
+}
+
+/// Keeps what the theorem knows of the parameters.
+void take(const Parameters& parameters, const Theorem& theorem, AnalysisProblem& problem) {
+  for (const NamedShape& shape : theorem.parameters(problem.subject)) {
+    const auto found = parameters.find(shape.name);
+    if (found != parameters.end()) problem.given[shape.name] = found->second;
+  }
+}
+
+/// What a certificate claims in numbers: all parameters but those that only help to prove it. The
+/// gain is what is asked for.
+Parameters claimed(const Certificate& certificate) {
+  Parameters parameters;
+  for (const NamedShape& shape : certificate.theorem->parameters(certificate.subject)) {
+    parameters[shape.name] = scalar_value(certificate.values, shape.name);
+  }
+  for (const NamedRange& range : certificate.theorem->search_ranges(certificate.subject)) {
+    parameters.erase(range.name);
+  }
+  parameters.erase("gamma");
+  return parameters;
+}
+
+AnalysisProblem read_problem(const Arguments& arguments, const DesignConfig& config) {
+  const ConfigNode tree = read_yaml_file(arguments.gains);
+  ConfigSection root(tree, "");
+  AnalysisProblem problem;
+  problem.subject = config.subject;
+  const auto claim = read_certificate(root, *config.plant);
+  if (claim) {
+    problem.subject = claim->certificate.subject;
+  } else if (root.has("sampling")) {
+    ConfigSection sampling = root.section("sampling");
+    problem.subject.T1 = sampling.number("T1");
+    problem.subject.T2 = sampling.number("T2");
+  }
+  if (arguments.T1 > 0.0) problem.subject.T1 = arguments.T1;
+  if (arguments.T2 > 0.0) problem.subject.T2 = arguments.T2;
+  if (!(problem.subject.T2 > 0.0 && problem.subject.T1 <= problem.subject.T2)) {
+    throw root.error("sampling", "0 <= T1 <= T2, or --T1 and --T2", "other times");
+  }
+  problem.theorem = claim && arguments.theorem.empty()
+                        ? claim->certificate.theorem
+                        : &theorem_for(root, arguments.theorem, problem.subject);
+  take(config.parameters, *problem.theorem, problem);
+  if (claim) take(claimed(claim->certificate), *problem.theorem, problem);
+  for (const std::string& assignment : arguments.assignments) assign(assignment, problem.given);
+  ConfigSection gains = root.section("gains");
+  problem.gains = read_gain_values(gains, problem.theorem->gains(problem.subject), problem.subject);
+  return problem;
+}
+
+void print_result(Objective objective, const Design& design) {
+  const Certificate& certificate = design.certificate;
+  const Theorem& theorem = *certificate.theorem;
+  std::printf("  %-9s", to_string(objective));
+  const char* separator = "  ";
+  for (const NamedShape& shape : theorem.parameters(certificate.subject)) {
+    std::printf("%s%s = %.6g", separator, shape.name.c_str(),
+                scalar_value(certificate.values, shape.name));
+    separator = ", ";
+  }
+  std::printf("%sT2 = %.6g s\n", separator, certificate.subject.T2);
+}
+
+void analyze_command(const Arguments& arguments, const std::string& command_line) {
+  const std::vector<std::string> files = plant_files_of(arguments.gains, arguments.plant);
+  const DesignConfig config = read_design_config(files, load_plant_plugin);
+  AnalysisProblem problem = read_problem(arguments, config);
+  std::vector<Objective> objectives = {objective_of(arguments.objective)};
+  if (arguments.objective.empty()) {
+    objectives = analysis_objectives(*problem.theorem, problem.subject);
+  }
+  SynthesisOptions options;
+  options.jobs = arguments.jobs;
+  options.time_limit = arguments.time_limit;
+
+  std::printf("%s: %s\n", problem.theorem->name().c_str(), problem.theorem->guarantee().c_str());
+  std::optional<Design> main;
+  for (const Objective objective : objectives) {
+    problem.objective = objective;
+    try {
+      const Design found = analyze(problem, options);
+      print_result(objective, found);
+      if (!main) main = found;
+    } catch (const DesignError& error) {
+      std::printf("  %-9s  no proof: %s\n", to_string(objective), error.what());
+    }
+  }
+  if (!main) throw ExitStatus{kNoDesign};
+  std::printf("By the proof for %s:\n", to_string(main->objective));
+  for (const GuaranteedFigure& figure :
+       problem.theorem->guaranteed_figures(main->certificate.subject, main->certificate.values)) {
+    std::printf("  %s: %.6g\n", figure.meaning.c_str(), figure.value);
+  }
+  if (arguments.output.empty()) return;
+  save_gain_file(*main, files.front(), config.plant_hash, command_line, arguments.output);
+  std::printf("written to %s\n", arguments.output.c_str());
+}
+
+}  // namespace
+
+void add_analyze(CLI::App& app, const std::string& command_line) {
+  CLI::App* command = app.add_subcommand(
+      "analyze", "Find what can be proved of given gains: least gain, fastest rate, largest T2");
+  auto arguments = std::make_shared<Arguments>();
+  std::vector<std::string> names;
+  for (const Theorem* theorem : theorems()) names.push_back(theorem->name());
+  command->add_option("gains", arguments->gains, "Gain file, with or without certificate")
+      ->required()
+      ->type_name("GAINS");
+  command
+      ->add_option("--plant", arguments->plant,
+                   "Files with the plant, instead of the one that the gain file names")
+      ->type_name("PLANT");
+  command
+      ->add_option("--theorem", arguments->theorem,
+                   "Instead of the one of the certificate, or of the first one that is about the "
+                   "observer type and the plant")
+      ->check(CLI::IsMember(names));
+  command
+      ->add_option("--objective", arguments->objective,
+                   "What to look for (default: all that have a meaning)")
+      ->check(CLI::IsMember({"feasible", "min-gamma", "max-T2", "max-decay"}));
+  command->add_option("-o,--output", arguments->output,
+                      "Gain file to write, with the first of the proofs found");
+  command->add_option("--T1", arguments->T1, "Instead of that of the gain file [s]");
+  command->add_option("--T2", arguments->T2, "Instead of that of the gain file [s]");
+  command->add_option("--set", arguments->assignments,
+                      "Fix a parameter of the theorem, NAME=NUMBER; may be given several times");
+  command->add_option("--jobs", arguments->jobs, "Solvers at a time (default: all processors)");
+  command->add_option("--time-limit", arguments->time_limit, "For one attempt [s]");
+  command->callback([arguments, command_line] { analyze_command(*arguments, command_line); });
+}
+
+}  // namespace sampled_data_observers
