@@ -2,8 +2,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "jump_based_bound.h"
 #include "bernard2022.h"
+#include "jump_based_bound.h"
 #include "theorems.h"
 
 namespace sampled_data_observers {

@@ -1,7 +1,7 @@
 #include <stdexcept>
 
-#include "jump_based_bound.h"
 #include "bernard2022.h"
+#include "jump_based_bound.h"
 #include "theorems.h"
 
 namespace sampled_data_observers {

@@ -1,8 +1,8 @@
 #include <map>
 #include <stdexcept>
 
-#include "sampled_data_observers/observer/observable_form.h"
 #include "bernard2022.h"
+#include "sampled_data_observers/observer/observable_form.h"
 #include "theorems.h"
 
 namespace sampled_data_observers {

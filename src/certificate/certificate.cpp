@@ -21,9 +21,8 @@ const std::vector<const Theorem*>& theorems() {
       &bernard2022_corollary5_2(), &bernard2022_equation14(),   &bernard2022_equation22(),
       &bernard2022_equation26(),   &bernard2022_example4_2(),   &bernard2022_example7_1(),
       &bernard2022_section7_3_2(), &etienne2019_proposition1(), &etienne2019_proposition2(),
-      &ferrante2019_theorem2(),
-      &ferrante2019_corollary1(),
-      &ferrante2019_corollary2(),
+      &ferrante2016_theorem1(),    &ferrante2019_theorem2(),    &ferrante2019_corollary1(),
+      &ferrante2019_corollary2(),  &sferlazza2019_theorem2(),
   };
   return all;
 }

@@ -58,6 +58,14 @@ Eigen::MatrixXd solve_linear(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b)
   return a.partialPivLu().solve(b);
 }
 
+Eigen::MatrixXd cholesky_root(const Eigen::MatrixXd& a) {
+  const Eigen::LLT<Eigen::MatrixXd> decomposition(a);
+  if (decomposition.info() != Eigen::Success) {
+    return Eigen::MatrixXd::Constant(a.rows(), a.cols(), std::numeric_limits<double>::quiet_NaN());
+  }
+  return decomposition.matrixU();
+}
+
 Eigen::VectorXcd eigenvalues_of(const Eigen::MatrixXd& a) {
   return Eigen::EigenSolver<Eigen::MatrixXd>(a, false).eigenvalues();
 }

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "sampled_data_observers/certificate/certificate.h"
 
 namespace sampled_data_observers {
@@ -17,8 +14,10 @@ const Theorem& bernard2022_example7_1();
 const Theorem& bernard2022_section7_3_2();
 const Theorem& etienne2019_proposition1();
 const Theorem& etienne2019_proposition2();
+const Theorem& ferrante2016_theorem1();
 const Theorem& ferrante2019_theorem2();
 const Theorem& ferrante2019_corollary1();
 const Theorem& ferrante2019_corollary2();
+const Theorem& sferlazza2019_theorem2();
 
 }  // namespace sampled_data_observers

@@ -114,7 +114,7 @@ Design prove_further(const Design& design, const SynthesisOptions& options) {
   const std::vector<Objective> known = analysis_objectives(*problem.theorem, problem.subject);
   const bool has_meaning = design.objective != Objective::kFeasible &&
                            std::find(known.begin(), known.end(), design.objective) != known.end();
-  if (!has_meaning) return design;
+  if (!has_meaning || design.has_no_maximum) return design;
   for (const NamedShape& shape : problem.theorem->gains(problem.subject)) {
     problem.gains[shape.name] = certificate.values.at(shape.name);
   }

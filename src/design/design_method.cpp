@@ -37,7 +37,9 @@ DesignCandidate LmiDesignMethod::attempt(const CertificateSubject& subject,
     const auto given = parameters.find(shape.name);
     if (given != parameters.end()) fixed[shape.name] = scalar_matrix(given->second);
   }
-  return certify_here(theorem(), subject, fixed, objective);
+  DesignCandidate candidate = certify_here(theorem(), subject, fixed, objective);
+  candidate.solver = solution.solver;
+  return candidate;
 }
 
 const std::vector<const DesignMethod*>& design_methods() {
@@ -51,9 +53,13 @@ const std::vector<const DesignMethod*>& design_methods() {
       &bernard2022_switched_jump_based_design(),
       &etienne2019_proposition1_design(),
       &etienne2019_proposition2_design(),
+      &ferrante2016_corollary1(),
       &ferrante2019_proposition2(),
-      &ferrante2019_proposition2(), &ferrante2019_proposition3(), &ferrante2019_proposition4(),
-      &ferrante2019_proposition5(), &ferrante2019_alternating(),
+      &ferrante2019_proposition3(),
+      &ferrante2019_proposition4(),
+      &ferrante2019_proposition5(),
+      &ferrante2019_alternating(),
+      &sferlazza2019_algorithm1(),
   };
   return all;
 }

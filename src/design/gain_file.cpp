@@ -79,7 +79,9 @@ void write_gain_file(const Design& design, const GainFileOrigin& origin, std::os
   write_values(theorem.multipliers(subject), certificate.values, out);
   out << "  margin: " << digits(design.margin) << "  # least eigenvalue of the conditions\n"
       << "  method: " << design.method << '\n'
-      << "  objective: " << to_string(design.objective) << '\n'
+      << "  objective: " << to_string(design.objective)
+      << (design.has_no_maximum ? "  # the search ended here: no largest value was found" : "")
+      << '\n'
       << "  parameters: {";
   const char* separator = "";
   for (const auto& [name, value] : design.parameters) {

@@ -16,7 +16,9 @@ namespace sampled_data_observers {
 namespace {
 
 constexpr double kBisectionRatio = 1.001;
-constexpr int kMaxDoublings = 30;
+constexpr int kMaxHalvings = 30;
+/// What is still feasible for so much more than was asked for has no largest value worth finding.
+constexpr int kMaxDoublings = 10;
 
 std::string packed(const DesignCandidate& candidate) {
   Packer packer;
@@ -214,17 +216,16 @@ class Synthesis {
     double low = start;
     int halvings = 0;
     while (!feasible(low)) {
-      if (++halvings > kMaxDoublings) return;
+      if (++halvings > kMaxHalvings) return;
       low /= 2.0;
     }
     double high = 2.0 * low;
-    if (halvings > 0) {
-      high = 2.0 * low;
-    } else {
-      for (int i = 0; i < kMaxDoublings && feasible(high); ++i) {
-        low = high;
-        high *= 2.0;
-      }
+    for (int doublings = 0; halvings == 0 && feasible(high);) {
+      low = high;
+      high *= 2.0;
+      if (++doublings < kMaxDoublings) continue;
+      best_->has_no_maximum = true;
+      return;
     }
     while (high / low > kBisectionRatio) {
       const double middle = std::sqrt(low * high);

@@ -36,6 +36,9 @@ Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& a);
 /// a⁻¹ b
 Eigen::MatrixXd solve_linear(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 
+/// The upper triangular R with a = Rᵀ R; not finite where a is not positive definite.
+Eigen::MatrixXd cholesky_root(const Eigen::MatrixXd& a);
+
 /// The eigenvalues of a square matrix, in no order.
 Eigen::VectorXcd eigenvalues_of(const Eigen::MatrixXd& a);
 
