@@ -14,6 +14,25 @@ namespace {
 
 constexpr int kRefinementBits = 20;
 
+/// Above this ratio of the ends an equidistant grid says little of the short times.
+constexpr double kWide = 8.0;
+
+/// Equidistant values; in a wide interval as many more of equal ratio.
+std::vector<double> tau_grid(double low, double high, std::size_t points) {
+  if (!(low < high)) return {low};
+  std::vector<double> grid;
+  for (std::size_t i = 0; i + 1 < points; ++i) {
+    const double fraction = static_cast<double>(i) / static_cast<double>(points - 1);
+    grid.push_back(low + fraction * (high - low));
+    if (i > 0 && low > 0.0 && high > kWide * low) {
+      grid.push_back(low * std::pow(high / low, fraction));
+    }
+  }
+  grid.push_back(high);
+  std::sort(grid.begin(), grid.end());
+  return grid;
+}
+
 ConditionCheck check_over_tau(const Condition& condition, const NamedMatrices& values,
                               std::size_t points) {
   const auto least_at = [&](double tau) {
@@ -22,25 +41,20 @@ ConditionCheck check_over_tau(const Condition& condition, const NamedMatrices& v
   };
   const double low = condition.tau->low;
   const double high = condition.tau->high;
-  const std::size_t steps = low < high ? points - 1 : 0;
-  const auto tau_of = [&](std::size_t i) {
-    if (i == 0) return low;
-    return i == steps ? high
-                      : low + (high - low) * static_cast<double>(i) / static_cast<double>(steps);
-  };
+  const std::vector<double> grid = tau_grid(low, high, points);
   std::size_t lowest = 0;
   double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i <= steps; ++i) {
-    const double value = least_at(tau_of(i));
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    const double value = least_at(grid[i]);
     if (value < least) {
       least = value;
       lowest = i;
     }
   }
-  ConditionCheck result{condition.name, least, tau_of(lowest)};
-  if (steps == 0 || !std::isfinite(least)) return result;
-  const double from = tau_of(lowest == 0 ? 0 : lowest - 1);
-  const double to = tau_of(std::min(lowest + 1, steps));
+  ConditionCheck result{condition.name, least, grid[lowest]};
+  if (grid.size() == 1 || !std::isfinite(least)) return result;
+  const double from = grid[lowest == 0 ? 0 : lowest - 1];
+  const double to = grid[std::min(lowest + 1, grid.size() - 1)];
   const auto [tau, value] =
       boost::math::tools::brent_find_minima(least_at, from, to, kRefinementBits);
   if (value < least) {

@@ -2,26 +2,34 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace sampled_data_observers {
 namespace {
 
 constexpr std::size_t kTauPoints = 25;
-/// By how much gamma is enlarged, so that the proof does not lie on the edge.
-constexpr double kInflation = 1.001;
+constexpr int kMaxRounds = 10;
 
 bool names(const std::vector<NamedShape>& shapes, const std::string& name) {
   return std::any_of(shapes.begin(), shapes.end(),
                      [&](const NamedShape& shape) { return shape.name == name; });
 }
 
+/// A value of τ at which the condition of this number is demanded, too.
+struct FurtherTime {
+  std::size_t condition = 0;
+  double tau = 0.0;
+};
+
 LmiProgram analysis_program(const Theorem& theorem, const CertificateSubject& subject,
-                            const NamedMatrices& fixed, bool minimizes_gamma) {
+                            const NamedMatrices& fixed, bool minimizes_gamma,
+                            const std::vector<FurtherTime>& further = {}) {
   LmiProgram program;
   for (const auto& [name, value] : fixed) {
     if (!(minimizes_gamma && name == "gamma")) program.fix(name, value);
   }
   for (const NamedShape& shape : theorem.multipliers(subject)) {
+    if (fixed.count(shape.name) > 0) continue;
     if (shape.form == NamedShape::Form::kSymmetric) {
       const MatrixExpression P = program.symmetric(shape.name, shape.rows);
       if (theorem.is_homogeneous(subject)) {
@@ -36,13 +44,40 @@ LmiProgram analysis_program(const Theorem& theorem, const CertificateSubject& su
   } else if (names(theorem.parameters(subject), "gamma") && fixed.count("gamma") == 0) {
     program.squared("gamma");
   }
-  for (const Condition& condition : theorem.conditions(subject)) {
-    program.require(condition, kTauPoints);
+  const std::vector<Condition> conditions = theorem.conditions(subject);
+  for (const Condition& condition : conditions) program.require(condition, kTauPoints);
+  for (const FurtherTime& time : further) {
+    program.require_at(conditions[time.condition], time.tau);
   }
   return program;
 }
 
 }  // namespace
+
+DesignCandidate judged(const Theorem& theorem, const CertificateSubject& subject,
+                       NamedMatrices values, Objective objective, DesignCandidate candidate) {
+  candidate.values = std::move(values);
+  for (const auto& shapes :
+       {theorem.gains(subject), theorem.multipliers(subject), theorem.parameters(subject)}) {
+    for (const NamedShape& shape : shapes) {
+      if (candidate.values.count(shape.name) > 0) continue;
+      candidate.message = "no value for " + shape.name;
+      return candidate;
+    }
+  }
+  const std::vector<ConditionCheck> checks = check(theorem.conditions(subject), candidate.values);
+  candidate.margin = std::numeric_limits<double>::infinity();
+  candidate.message.clear();
+  for (const ConditionCheck& check : checks) {
+    candidate.margin = std::min(candidate.margin, check.min_eigenvalue);
+    if (check.holds()) continue;
+    candidate.message += (candidate.message.empty() ? "violated: " : "; ") + check.name;
+  }
+  candidate.cost = objective == Objective::kMinGamma && candidate.values.count("gamma") > 0
+                       ? scalar_value(candidate.values, "gamma")
+                       : -candidate.margin;
+  return candidate;
+}
 
 DesignCandidate certify_here(const Theorem& theorem, const CertificateSubject& subject,
                              const NamedMatrices& fixed, Objective objective) {
@@ -56,27 +91,32 @@ DesignCandidate certify_here(const Theorem& theorem, const CertificateSubject& s
       candidate.message = best.message;
       return candidate;
     }
-    all["gamma"] = kInflation * best.values.at("gamma");
+    all["gamma"] = kGammaInflation * best.values.at("gamma");
   }
-  const LmiSolution inside =
-      solve_with_csdp(analysis_program(theorem, subject, all, false), SolverOptions());
-  candidate.solver = inside.solver;
-  if (inside.values.empty()) {
-    candidate.message = inside.message;
-    return candidate;
+  const NamedMatrices given = all;
+  std::vector<FurtherTime> further;
+  for (int round = 0; round < kMaxRounds; ++round) {
+    const LmiProgram program = analysis_program(theorem, subject, given, false, further);
+    bool can_improve = program.scalar_variables() > 0;
+    if (can_improve) {
+      const LmiSolution inside = solve_with_csdp(program, SolverOptions());
+      candidate.solver = inside.solver;
+      if (inside.values.empty()) {
+        candidate.message = inside.message;
+        return candidate;
+      }
+      for (const auto& [name, value] : inside.values) all[name] = value;
+      can_improve = inside.satisfies_all();
+    }
+    const std::vector<ConditionCheck> checks = check(theorem.conditions(subject), all);
+    // What holds at the values of τ solved for may be violated between them.
+    const std::size_t before = further.size();
+    for (std::size_t i = 0; i < checks.size(); ++i) {
+      if (!checks[i].holds() && checks[i].tau) further.push_back({i, *checks[i].tau});
+    }
+    if (!can_improve || further.size() == before) break;
   }
-  for (const auto& [name, value] : inside.values) all[name] = value;
-  const std::vector<ConditionCheck> checks = check(theorem.conditions(subject), all);
-  candidate.margin = std::numeric_limits<double>::infinity();
-  for (const ConditionCheck& check : checks) {
-    candidate.margin = std::min(candidate.margin, check.min_eigenvalue);
-  }
-  if (!all_hold(checks)) candidate.message = describe_violations(checks);
-  candidate.cost = objective == Objective::kMinGamma && all.count("gamma") > 0
-                       ? scalar_value(all, "gamma")
-                       : -inside.margin;
-  candidate.values = std::move(all);
-  return candidate;
+  return judged(theorem, subject, std::move(all), objective, std::move(candidate));
 }
 
 }  // namespace sampled_data_observers

@@ -145,8 +145,13 @@ void LmiProgram::require(const Condition& condition, std::size_t points) {
     const double tau =
         points > 1 ? low + (high - low) * static_cast<double>(i) / static_cast<double>(points - 1)
                    : low;
-    blocks_.push_back({condition.name, condition.positive_definite, true, tau});
+    require_at(condition, tau);
   }
+}
+
+void LmiProgram::require_at(const Condition& condition, double tau) {
+  if (condition.positive_definite.rows() == 0) return;
+  blocks_.push_back({condition.name, condition.positive_definite, true, tau});
 }
 
 void LmiProgram::require_negative(const std::string& name, const MatrixExpression& block) {

@@ -10,13 +10,16 @@
 #include "sampled_data_observers/design/analysis.h"
 #include "sampled_data_observers/design/packing.h"
 #include "sampled_data_observers/design/parameter_search.h"
+#include "sampled_data_observers/design/require_detectable.h"
 #include "sampled_data_observers/design/workers.h"
 
 namespace sampled_data_observers {
 namespace {
 
 constexpr double kBisectionRatio = 1.001;
-constexpr int kMaxDoublings = 30;
+constexpr int kMaxHalvings = 30;
+/// What is still feasible for so much more than was asked for has no largest value worth finding.
+constexpr int kMaxDoublings = 10;
 
 std::string packed(const DesignCandidate& candidate) {
   Packer packer;
@@ -99,6 +102,7 @@ class Synthesis {
     } catch (const std::invalid_argument& fault) {
       throw DesignError(method_.name() + " is not for this plant: " + fault.what());
     }
+    require_detectable(problem_.subject.plant);
     const std::vector<DesignParameter> known = method_.parameters(problem_.subject);
     for (const auto& [name, value] : problem_.given) {
       parameter_named(known, name);
@@ -214,17 +218,16 @@ class Synthesis {
     double low = start;
     int halvings = 0;
     while (!feasible(low)) {
-      if (++halvings > kMaxDoublings) return;
+      if (++halvings > kMaxHalvings) return;
       low /= 2.0;
     }
     double high = 2.0 * low;
-    if (halvings > 0) {
-      high = 2.0 * low;
-    } else {
-      for (int i = 0; i < kMaxDoublings && feasible(high); ++i) {
-        low = high;
-        high *= 2.0;
-      }
+    for (int doublings = 0; halvings == 0 && feasible(high);) {
+      low = high;
+      high *= 2.0;
+      if (++doublings < kMaxDoublings) continue;
+      best_->has_no_maximum = true;
+      return;
     }
     while (high / low > kBisectionRatio) {
       const double middle = std::sqrt(low * high);

@@ -36,7 +36,8 @@ struct ConditionCheck {
 };
 
 /// Least eigenvalue of each condition, in floating point; over τ on `points` equidistant values of
-/// the interval, and refined between them.
+/// the interval (where its ends are far apart, also on as many of equal ratio), and refined between
+/// them.
 /// @throws as evaluate()
 std::vector<ConditionCheck> check(const std::vector<Condition>& conditions,
                                   const NamedMatrices& values, std::size_t points = 65);

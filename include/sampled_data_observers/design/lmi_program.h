@@ -38,6 +38,8 @@ class LmiProgram {
   void require_negative(const std::string& name, const MatrixExpression& block);
   /// A condition of a theorem; where it depends on τ, one block at each of `points` values of it.
   void require(const Condition& condition, std::size_t points);
+  /// A condition of a theorem, at one value of τ [s].
+  void require_at(const Condition& condition, double tau);
   /// Inequalities that only bound the solution: small <= large, met up to their edge.
   void bound_above(const std::string& name, const MatrixExpression& small,
                    const MatrixExpression& large);

@@ -1,0 +1,136 @@
+#include <algorithm>
+#include <cmath>
+
+#include "linear_sampling.h"
+#include "sampled_data_observers/certificate/exponential_norm.h"
+#include "sampled_data_observers/certificate/ferrante2016_bounds.h"
+#include "sampled_data_observers/certificate/matrix_functions.h"
+#include "sampled_data_observers/certificate/sampled_error_bound.h"
+#include "theorems.h"
+
+namespace sampled_data_observers {
+namespace {
+
+Eigen::MatrixXd unit(const CertificateSubject& subject) {
+  return Eigen::MatrixXd::Identity(subject.plant.states(), subject.plant.states());
+}
+
+/// With R of P = Rᵀ R, the level is |R ε| just before a sample: √V there, V of ferrante2016 (13). A
+/// sample with noise η and a flow over τ, ε ← e^{Aτ} ((I − LC) ε − L η), make it
+///   ‖R e^{Aτ} (I − LC) R⁻¹‖ level + ‖R e^{Aτ} L‖ |η|,
+/// where by (12) the first factor is less than 1 for τ in [T1, T2]. This is how V changes in (19)
+/// and (29), with the τ that came rather than the worst one.
+class Theorem1Bound : public SampledErrorBound {
+ public:
+  /// @param kept  (I − LC) R⁻¹
+  Theorem1Bound(const CertificateSubject& subject, const ErrorAssumptions& assumptions,
+                const Eigen::MatrixXd& R, const Eigen::MatrixXd& kept, const Eigen::MatrixXd& L)
+      : SampledErrorBound(subject, assumptions.initial_error),
+        noise_(assumptions.noise),
+        first_growth_(unit(subject), subject.plant.A(), unit(subject), subject.T2),
+        first_weight_(R, subject.plant.A(), unit(subject), subject.T2),
+        growth_(unit(subject), subject.plant.A(), kept, subject.T2),
+        weight_(R, subject.plant.A(), kept, subject.T2),
+        noise_growth_(unit(subject), subject.plant.A(), L, subject.T2),
+        noise_weight_(R, subject.plant.A(), L, subject.T2) {}
+
+ protected:
+  double next_level(double level, double tau) const override {
+    return std::min(1.0, weight_.at(tau)) * level + noise_weight_.at(tau) * noise_;
+  }
+  double first_level(double level, double tau) const override {
+    return first_weight_.at(tau) * level;
+  }
+  double error(double level, double tau) const override {
+    return growth_.at(tau) * level + noise_growth_.at(tau) * noise_;
+  }
+  double first_error(double level, double tau) const override {
+    return first_growth_.at(tau) * level;
+  }
+
+ private:
+  double noise_;
+  ExponentialNorm first_growth_;
+  ExponentialNorm first_weight_;
+  ExponentialNorm growth_;
+  ExponentialNorm weight_;
+  ExponentialNorm noise_growth_;
+  ExponentialNorm noise_weight_;
+};
+
+class Theorem1 : public Theorem {
+ public:
+  std::string name() const override { return "ferrante2016_theorem1"; }
+
+  std::string guarantee() const override {
+    return "the error converges exponentially, at the rate decay from sample to sample, for all "
+           "times between samples from T1 to T2, and stays bounded under bounded noise";
+  }
+
+  std::vector<std::string> observer_types() const override { return {"ConstantGainObserver"}; }
+
+  void require_applicable(const CertificateSubject& subject) const override {
+    require_linear_sampling("ferrante2016", subject);
+  }
+
+  std::vector<NamedShape> gains(const CertificateSubject& subject) const override {
+    return {matrix_shape("L", subject.plant.states(), subject.plant.C().rows())};
+  }
+
+  std::vector<NamedShape> multipliers(const CertificateSubject& subject) const override {
+    return {symmetric_shape("P", subject.plant.states())};
+  }
+
+  std::vector<NamedShape> parameters(const CertificateSubject&) const override {
+    return {scalar_shape("decay")};
+  }
+
+  std::string decay_parameter() const override { return "decay"; }
+
+  bool is_homogeneous(const CertificateSubject&) const override { return true; }
+
+  /// (12) for the error times e^{decay t}, which flows by A + decay I. With decay = 0 it is (12) as
+  /// printed.
+  std::vector<Condition> conditions(const CertificateSubject& subject) const override {
+    const Eigen::Index n = subject.plant.states();
+    const MatrixExpression A = subject.plant.A();
+    const MatrixExpression C = subject.plant.C();
+    const MatrixExpression P = symbol("P", n, n);
+    const MatrixExpression L = symbol("L", n, subject.plant.C().rows());
+    const MatrixExpression flow = exponential(time_tau() * (A + symbol("decay") * identity(n)));
+    const MatrixExpression step = flow * (identity(n) - L * C);
+    return {
+        {"P > 0", P, std::nullopt},
+        {"(I - L C)' e^(A' tau) P e^(A tau) (I - L C) - P < 0, ferrante2016 (12)",
+         P - transpose(step) * P * step, Condition::Range{subject.T1, subject.T2}},
+    };
+  }
+
+  std::vector<GuaranteedFigure> guaranteed_figures(const CertificateSubject& subject,
+                                                   const NamedMatrices& values) const override {
+    const Ferrante2016Bounds bounds = ferrante2016_bounds(subject, values);
+    return {{"gamma/2 of (21), the rate in t + j [1/s]", bounds.gamma / 2.0},
+            {"sqrt(alpha_2/alpha_1) e^(R/2) of (21), the factor on the initial error",
+             std::sqrt(bounds.alpha_2 / bounds.alpha_1) * std::exp(bounds.R / 2.0)},
+            {"gain of (35) from the noise to the error", bounds.noise_gain}};
+  }
+
+  std::unique_ptr<const ErrorBound> error_bound(
+      const CertificateSubject& subject, const NamedMatrices& values,
+      const ErrorAssumptions& assumptions) const override {
+    require_no_disturbance("ferrante2016", assumptions);
+    const Eigen::MatrixXd& L = values.at("L");
+    const Eigen::MatrixXd R = cholesky_root(values.at("P"));
+    const Eigen::MatrixXd kept = (unit(subject) - L * subject.plant.C()) * inverse_of(R);
+    return std::make_unique<const Theorem1Bound>(subject, assumptions, R, kept, L);
+  }
+};
+
+}  // namespace
+
+const Theorem& ferrante2016_theorem1() {
+  static const Theorem1 theorem;
+  return theorem;
+}
+
+}  // namespace sampled_data_observers

@@ -1,0 +1,47 @@
+#include "sampled_data_observers/certificate/sampled_error_bound.h"
+
+#include <limits>
+
+namespace sampled_data_observers {
+namespace {
+
+// The state.
+constexpr int kLevel = 0;
+constexpr int kTau = 1;         // s
+constexpr int kHasSampled = 2;  // 0 or 1
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+void SampledErrorBound::initialize(double* state) const {
+  state[kLevel] = initial_level_;
+  state[kTau] = 0.0;
+  state[kHasSampled] = 0.0;
+}
+
+void SampledErrorBound::flow(double duration, double* state) const {
+  state[kTau] += duration;
+  if (state[kTau] > T2_) state[kLevel] = kInfinity;
+}
+
+void SampledErrorBound::sample(double* state) const {
+  const double tau = state[kTau];
+  const bool is_first = state[kHasSampled] == 0.0;
+  if (!is_first && tau < T1_) state[kLevel] = kInfinity;
+  if (state[kLevel] != kInfinity) {
+    state[kLevel] = is_first ? first_level(state[kLevel], tau) : next_level(state[kLevel], tau);
+  }
+  state[kTau] = 0.0;
+  state[kHasSampled] = 1.0;
+}
+
+void SampledErrorBound::jump(double* state) const { state[kLevel] = kInfinity; }
+
+double SampledErrorBound::bound(const double* state) const {
+  if (state[kLevel] == kInfinity) return kInfinity;
+  return state[kHasSampled] == 0.0 ? first_error(state[kLevel], state[kTau])
+                                   : error(state[kLevel], state[kTau]);
+}
+
+}  // namespace sampled_data_observers

@@ -1,0 +1,24 @@
+#include "sampled_plant.h"
+
+#include <locale>
+#include <sstream>
+
+#include "sampled_data_observers/design/observability.h"
+
+namespace sampled_data_observers {
+
+std::string undetectable_sampling(const CertificateSubject& subject) {
+  for (const PathologicalInterval& interval :
+       pathological_intervals(subject.plant.A(), subject.plant.C(), subject.T2)) {
+    if (interval.tau < subject.T1 || interval.decays) continue;
+    std::ostringstream text;
+    text.imbue(std::locale::classic());
+    text << "samples " << interval.tau
+         << " s apart do not show a mode that does not decay by itself: [T1, T2] must leave out "
+            "this time";
+    return text.str();
+  }
+  return "";
+}
+
+}  // namespace sampled_data_observers

@@ -1,0 +1,117 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "methods.h"
+#include "sampled_data_observers/certificate/matrix_functions.h"
+#include "sampled_data_observers/design/certify.h"
+#include "sampled_data_observers/design/sferlazza2019_verification.h"
+#include "sampled_plant.h"
+
+namespace sampled_data_observers {
+namespace {
+
+constexpr int kMaxIterations = 40;
+
+/// sferlazza2019, Algorithm 1: (21) at a few times τ, to which the worst one is added until it
+/// holds at all. In place of the least p_M of (50), which breaks solvers, the largest t with Ξ_P(τ)
+/// >= t I and P <= I.
+class Algorithm1 : public DesignMethod {
+ public:
+  std::string name() const override { return "sferlazza2019_algorithm1"; }
+
+  std::string summary() const override {
+    return "matrix P of the time-varying gain, from inequalities at a growing set of times";
+  }
+
+  const Theorem& theorem() const override { return *find_theorem("sferlazza2019_theorem2"); }
+
+  std::vector<DesignParameter> parameters(const CertificateSubject&) const override {
+    return {{"lambda", "how much of the error a sample keeps, in [0, 1)", 0.0, std::nullopt}};
+  }
+
+  std::vector<Objective> objectives(const CertificateSubject&) const override {
+    return {Objective::kFeasible, Objective::kMaxT2};
+  }
+
+  DesignCandidate attempt(const CertificateSubject& subject, const Parameters& parameters,
+                          Objective objective) const override {
+    DesignCandidate none;
+    const double lambda = parameters.at("lambda");
+    none.message =
+        lambda >= 0.0 && lambda < 1.0 ? undetectable_sampling(subject) : "lambda must be in [0, 1)";
+    if (!none.message.empty()) return none;
+
+    const std::vector<Condition> conditions = theorem().conditions(subject);
+    const Eigen::MatrixXd complement = null_space(subject.plant.C());
+    std::vector<double> times = {subject.T1};
+    if (subject.T2 > subject.T1) times.push_back(subject.T2);
+    for (int iteration = 1; iteration <= kMaxIterations; ++iteration) {
+      const LmiSolution solution =
+          solve_with_csdp(program(conditions, subject, lambda, times), SolverOptions());
+      none.solver = solution.solver;
+      if (!solution.satisfies_all()) {
+        none.message = "(21) has no solution for " + std::to_string(times.size()) +
+                       " times between T1 and T2 (" + solution.message + ")";
+        return none;
+      }
+      const Eigen::MatrixXd& P = solution.values.at("P");
+      const NamedMatrices values = {{"P", P}, {"lambda", scalar_matrix(lambda)}};
+      const std::optional<double> worst = worst_time(conditions, values, solution.margin);
+      const IntervalVerification proof =
+          worst ? IntervalVerification{false, worst, 0}
+                : verify_between(subject.plant.A(), complement, P, subject.T1, subject.T2);
+      if (proof.holds) {
+        DesignCandidate found = certify_here(theorem(), subject, values, objective);
+        found.solver = solution.solver + ", in " + std::to_string(iteration) +
+                       (iteration == 1 ? " iteration" : " iterations");
+        return found;
+      }
+      times.push_back(*proof.stopped_at);
+    }
+    none.message = "(21) was not proved for all times between T1 and T2 in " +
+                   std::to_string(kMaxIterations) + " iterations";
+    return none;
+  }
+
+ private:
+  static LmiProgram program(const std::vector<Condition>& conditions,
+                            const CertificateSubject& subject, double lambda,
+                            const std::vector<double>& times) {
+    LmiProgram program;
+    const MatrixExpression P = program.symmetric("P", subject.plant.states());
+    program.fix("lambda", scalar_matrix(lambda));
+    program.bound_above("P <= I", P, identity(subject.plant.states()));
+    for (const Condition& condition : conditions) {
+      if (!condition.tau) {
+        program.require_at(condition, 0.0);
+        continue;
+      }
+      for (const double tau : times) program.require_at(condition, tau);
+    }
+    return program;
+  }
+
+  /// The time at which (21) is less than half as far inside as at those solved for (51); none where
+  /// there is none.
+  static std::optional<double> worst_time(const std::vector<Condition>& conditions,
+                                          const NamedMatrices& values, double margin) {
+    std::optional<double> worst;
+    double least = margin / 2.0;
+    for (const ConditionCheck& check : check(conditions, values)) {
+      if (!check.tau || check.min_eigenvalue >= least) continue;
+      least = check.min_eigenvalue;
+      worst = check.tau;
+    }
+    return worst;
+  }
+};
+
+}  // namespace
+
+const DesignMethod& sferlazza2019_algorithm1() {
+  static const Algorithm1 method;
+  return method;
+}
+
+}  // namespace sampled_data_observers

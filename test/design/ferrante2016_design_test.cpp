@@ -1,0 +1,165 @@
+// ferrante2016: its two examples, the design by Corollary 1, and the bounds of Theorems 1 and 2.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "paper_plants.h"
+#include "sampled_data_observers/certificate/ferrante2016_bounds.h"
+#include "sampled_data_observers/certificate/matrix_functions.h"
+#include "sampled_data_observers/design/polytopic_embedding.h"
+
+namespace sampled_data_observers::test {
+namespace {
+
+const char* const kMethod = "ferrante2016_corollary1";
+const Theorem& theorem() { return *find_theorem("ferrante2016_theorem1"); }
+
+Eigen::MatrixXd printed_gain() {
+  Eigen::MatrixXd L(5, 1);
+  L << 0.77524, 0.18123, -0.12123, -0.17406, 0.22469;
+  return L;
+}
+
+CertificateSubject scalar_plant() {
+  return linear_subject(scalar_matrix(1.0), scalar_matrix(1.0), 1.0, 1.0);
+}
+
+NamedMatrices scalar_values() {
+  return {{"P", scalar_matrix(1.0)},
+          {"L", scalar_matrix(1.1 - std::exp(-1.0))},
+          {"decay", scalar_matrix(0.0)}};
+}
+
+TEST(Ferrante2016Example1, HasTheBoundsOfThePaper) {
+  const Ferrante2016Bounds bounds = ferrante2016_bounds(scalar_plant(), scalar_values());
+  EXPECT_NEAR(scalar_value(scalar_values(), "L"), 0.7321, 5e-5);
+  EXPECT_NEAR(bounds.alpha_1, 1.0, 1e-12);
+  EXPECT_NEAR(bounds.alpha_2, std::exp(2.0), 1e-12);
+  EXPECT_NEAR(bounds.beta, 0.4698, 5e-5);
+  EXPECT_NEAR(bounds.theta, -0.0657, 5e-5);
+  EXPECT_NEAR(bounds.gamma, 0.0328, 5e-5);
+  EXPECT_NEAR(bounds.R, 0.0328, 5e-5);
+}
+
+TEST(Ferrante2016Example1, HasANoiseGainThatCoversTheSteadyError) {
+  // Between samples e <- e (1 - L) e - L eta, at most e^1 times what is left after a sample.
+  const double L = scalar_value(scalar_values(), "L");
+  const double kept = std::exp(1.0) * (1.0 - L);
+  const double steady = std::exp(1.0) * L / (1.0 - kept);
+  const double gain = ferrante2016_bounds(scalar_plant(), scalar_values()).noise_gain;
+  EXPECT_GT(gain, steady);
+  // rho = (1 + 2/beta) e^2, and e^{-theta}/(e^{-theta} - 1) = 2 alpha_2/beta.
+  const double beta = 1.0 - kept * kept;
+  const double rho = (1.0 + 2.0 / beta) * std::exp(2.0);
+  EXPECT_NEAR(gain, L * std::sqrt(2.0 * rho * 2.0 * std::exp(2.0) / beta), 1e-9 * gain);
+}
+
+TEST(Ferrante2016Example1, BoundsTheErrorTightlyAndNoLooserThanThePaper) {
+  ErrorAssumptions assumptions;
+  assumptions.initial_error = 2.0;
+  const auto bound = theorem().error_bound(scalar_plant(), scalar_values(), assumptions);
+  const Ferrante2016Bounds paper = ferrante2016_bounds(scalar_plant(), scalar_values());
+  std::vector<double> state(static_cast<std::size_t>(bound->state_size()));
+  bound->initialize(state.data());
+  double error = 2.0;
+  double t = 0.0;
+  const auto flow_and_compare = [&](double duration, int j) {
+    error *= std::exp(duration);
+    t += duration;
+    bound->flow(duration, state.data());
+    const double value = bound->bound(state.data());
+    EXPECT_GE(value, error * (1.0 - 1e-12)) << "t = " << t;
+    EXPECT_LE(value, 1.001 * error + 1e-12) << "t = " << t;
+    EXPECT_LE(value, 1.001 * std::exp(paper.R / 2.0) * std::sqrt(paper.alpha_2 / paper.alpha_1) *
+                         std::exp(-paper.gamma / 2.0 * (t + j)) * 2.0);
+  };
+  flow_and_compare(0.3, 0);
+  for (int j = 1; j < 6; ++j) {
+    error *= 1.0 - scalar_value(scalar_values(), "L");
+    bound->sample(state.data());
+    for (int i = 0; i < 10; ++i) flow_and_compare(0.1, j);
+  }
+}
+
+TEST(Ferrante2016Example2, FindsAGainThatTheTheoremAccepts) {
+  const Design design = design_by(kMethod, mass_spring(0.2, 3.0));
+  EXPECT_TRUE(all_hold(check(design.certificate)));
+  EXPECT_GT(design.margin, 1e-3);
+}
+
+/// (41) with L given: J = F L.
+LmiSolution analysis_by_polytope(const CertificateSubject& subject, const Eigen::MatrixXd& L) {
+  LmiProgram program;
+  const MatrixExpression P = program.symmetric("P", 5);
+  const MatrixExpression F = program.matrix("F", 5, 5);
+  const Eigen::MatrixXd I_LC = Eigen::MatrixXd::Identity(5, 5) - L * subject.plant.C();
+  for (const auto& X : polytopic_embedding(subject.plant.A(), subject.T1, subject.T2)) {
+    program.require_negative(
+        "(41)",
+        symmetric_blocks({{-He(F), F * MatrixExpression(I_LC), transpose(MatrixExpression(X)) * P},
+                          {-P, zeros(5, 5)},
+                          {-P}}));
+  }
+  program.bound_above("P <= I", P, identity(5));
+  return solve_lmi(program);
+}
+
+TEST(Ferrante2016Example2, AcceptsThePrintedGainByItsPolytope) {
+  const LmiSolution solution = analysis_by_polytope(mass_spring(0.2, 3.0), printed_gain());
+  EXPECT_TRUE(solution.satisfies_all()) << solution.message;
+  EXPECT_FALSE(analysis_by_polytope(mass_spring(0.2, 3.0), -printed_gain()).satisfies_all());
+}
+
+TEST(Ferrante2016Example2, AcceptsThePrintedGainByTheTheorem) {
+  const CertificateSubject subject = mass_spring(0.2, 3.0);
+  const NamedMatrices values = certified("ferrante2016_theorem1", subject,
+                                         {{"L", printed_gain()}, {"decay", scalar_matrix(0.0)}});
+  ASSERT_FALSE(values.empty());
+  EXPECT_LE(max_eigenvalue(values.at("P")), 1.0 + 1e-6);
+  // The largest eigenvalue of the left side of (12).
+  const auto checks = check(theorem().conditions(subject), values, 2001);
+  EXPECT_NEAR(-checks.back().min_eigenvalue, -0.032, 0.001);
+}
+
+TEST(Ferrante2016Example2, ComesToItsEdgeWhereSamplesMayFollowTooSoon) {
+  EXPECT_EQ(refusal(kMethod, mass_spring(0.1, 3.0)), "");
+  const std::string message = refusal(kMethod, mass_spring(0.02, 3.0));
+  EXPECT_NE(message.find("found no design"), std::string::npos) << message;
+}
+
+TEST(Ferrante2016Example2, FindsTheLargestDecay) {
+  const Design design = design_by(kMethod, mass_spring(0.2, 1.0), {}, Objective::kMaxDecay);
+  const double decay = scalar_value(design.certificate.values, "decay");
+  EXPECT_GT(decay, 0.01);
+  EXPECT_TRUE(all_hold(check(design.certificate)));
+  EXPECT_NE(refusal(kMethod, mass_spring(0.2, 1.0), {{"decay", 1.01 * decay}}), "");
+}
+
+TEST(Ferrante2016Corollary1, TellsWhatItCannotDesignFor) {
+  Eigen::MatrixXd A(2, 2);
+  A << 0, 1, 0, 0;
+  Eigen::MatrixXd velocity(1, 2);
+  velocity << 0, 1;
+  std::string message = refusal(kMethod, linear_subject(A, velocity, 0.1, 1.0));
+  EXPECT_NE(message.find("not detectable"), std::string::npos) << message;
+
+  Eigen::MatrixXd oscillator(2, 2);
+  oscillator << 0, 1, -1, 0;
+  message = refusal(kMethod, linear_subject(oscillator, velocity, 3.0, 3.3));
+  EXPECT_NE(message.find("samples 3.14159 s apart"), std::string::npos) << message;
+
+  CertificateSubject jumping = mass_spring(0.2, 3.0);
+  jumping.plant.modes.front().A_d = Eigen::MatrixXd::Identity(5, 5);
+  message = refusal(kMethod, jumping);
+  EXPECT_NE(message.find("do not jump"), std::string::npos) << message;
+
+  message = refusal(kMethod, mass_spring(0.0, 3.0));
+  EXPECT_NE(message.find("0 < T1"), std::string::npos) << message;
+
+  message = refusal(kMethod, mass_spring(0.2, 3.0), {{"decay", -1.0}});
+  EXPECT_NE(message.find("decay must not be negative"), std::string::npos) << message;
+}
+
+}  // namespace
+}  // namespace sampled_data_observers::test
