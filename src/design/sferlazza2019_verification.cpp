@@ -8,7 +8,7 @@
 namespace sampled_data_observers {
 namespace {
 
-constexpr std::size_t kMaxSteps = 200000;
+constexpr std::size_t kMaxSteps = 50000;
 /// Of each step, so that rounding does not make it too long.
 constexpr double kCaution = 0.9;
 

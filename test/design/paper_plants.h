@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "sampled_data_observers/certificate/certificate.h"
 #include "sampled_data_observers/design/certify.h"
 #include "sampled_data_observers/design/packing.h"

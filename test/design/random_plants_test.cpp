@@ -1,8 +1,11 @@
 // Designs for plants that nobody chose: no crash, no hang, and what is accepted converges.
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include <algorithm>
+#include <functional>
+#include <memory>
 #include <random>
+#include <string>
 
 #include "paper_plants.h"
 #include "sampled_data_observers/certificate/matrix_functions.h"

@@ -1,6 +1,6 @@
-#include <algorithm>
-#include <cmath>
-#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "methods.h"
 #include "sampled_data_observers/certificate/matrix_functions.h"
