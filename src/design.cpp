@@ -19,10 +19,13 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer(
       "Exit status: 0 done, 1 a fault in files or usage of the plant, 2 a claim that does not "
-      "hold, 3 no design found, 4 a claim that ball arithmetic can't decide, else wrong usage.");
+      "hold, 3 no design found, 4 a claim that ball arithmetic can't decide, 130 interrupted, else "
+      "wrong usage.");
   sdo::add_synthesize(app, command_line);
   sdo::add_analyze(app, command_line);
   sdo::add_verify(app);
+  sdo::add_sweep(app, command_line);
+  sdo::add_explain(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -25,16 +25,15 @@ LyapunovBounds bounds_of_V(const CertificateSubject& subject, const NamedMatrice
           max_eigenvalue(values.at("P2")) * std::exp(scalar_value(values, "delta") * subject.T2)};
 }
 
-/// V where the estimate begins, at most, for an error of norm 1 and no injection: θ̃ = C ε.
+/// V where the estimate begins, at most, for an error of norm 1 and without injection: θ̃ = C ε.
 double initial_V(const CertificateSubject& subject, const NamedMatrices& values) {
   const Eigen::MatrixXd& C = subject.plant.C();
   const double e = std::exp(scalar_value(values, "delta") * subject.T2);
   return max_eigenvalue(values.at("P1") + e * C.transpose() * values.at("P2") * C);
 }
 
-/// W >= V = εᵀ P1 ε + e^{δ(T2 − s)} θ̃ᵀ P2 θ̃ with s the time since the last sample: ferrante2019
-/// (27) with the timer τ set as if the next sample came T2 after the last, which decides nothing of
-/// the flow, and at an earlier sample V falls all the more. So
+/// W >= V with the timer τ set as if the next sample came T2 after the last: that decides nothing
+/// of the flow, and at an earlier sample V falls all the more. So
 ///   Ẇ = −2 λ W + γ² |w|² between samples (18), W⁺ = W + ω2 |η|² at them (19),
 /// and |ε|² <= W / λ_min(P1). T1 plays no part.
 class LyapunovErrorBound : public ErrorBound {
@@ -50,10 +49,10 @@ class LyapunovErrorBound : public ErrorBound {
     per_sample_ = V.omega_2 * assumptions.noise * assumptions.noise;
     least_ = V.alpha_1;
     of_estimate_ = V.alpha_2 * assumptions.initial_error * assumptions.initial_error;
-    // θ̃ = C ε − θ at first; √V is a norm of (ε, θ̃).
-    const double of_both = std::sqrt(initial_V(subject, values)) * assumptions.initial_error +
-                           std::sqrt(V.omega_2) * assumptions.initial_injection;
-    initial_ = of_both * of_both;
+    // θ̃ = C ε − θ at first, and √V is a norm of (ε, θ̃).
+    const double root = std::sqrt(initial_V(subject, values)) * assumptions.initial_error +
+                        std::sqrt(V.omega_2) * assumptions.initial_injection;
+    initial_ = root * root;
   }
 
   // W, the time since the last sample [s], and whether nothing has happened yet.
@@ -188,7 +187,9 @@ class Ferrante2019Theorem : public Theorem {
   std::unique_ptr<const ErrorBound> error_bound(
       const CertificateSubject& subject, const NamedMatrices& values,
       const ErrorAssumptions& assumptions) const override {
-    if (!variant_.has_gain && assumptions.disturbance > 0.0) return nullptr;
+    if (!variant_.has_gain && assumptions.disturbance > 0.0) {
+      throw std::invalid_argument("it is about plants without disturbance");
+    }
     return std::make_unique<const LyapunovErrorBound>(subject, values, rate(subject, values),
                                                       assumptions);
   }

@@ -132,16 +132,17 @@ class Theorem2 : public Theorem {
     const MatrixExpression P = symbol("P", n, n);
     std::vector<Condition> all = {
         {"lambda < 1, sferlazza2019 (38)", 1.0 - square("lambda"), std::nullopt}};
-    const Eigen::MatrixXd basis = null_space(subject.plant.C());
-    if (basis.cols() == 0) {
+    const Eigen::MatrixXd directions = null_space(subject.plant.C());
+    if (directions.cols() == 0) {
       // All of the state is measured: (21) is P > 0.
       all.push_back({"P > 0, sferlazza2019 (21)", P, std::nullopt});
       return all;
     }
-    // Without what rounding left of C in it.
+    // Projected, since directions that are rounded are not quite in the null space: any basis will
+    // do, but it must be exact for a proof.
     const MatrixExpression C = subject.plant.C();
     const MatrixExpression complement =
-        basis - transpose(C) * inverse(C * transpose(C)) * (C * MatrixExpression(basis));
+        (identity(n) - transpose(C) * inverse(C * transpose(C)) * C) * directions;
     const MatrixExpression flown_back =
         exponential(-(time_tau() * MatrixExpression(subject.plant.A()))) * complement;
     all.push_back({"Xi_P(tau) > 0, sferlazza2019 (21)",

@@ -48,16 +48,23 @@ std::optional<ConfigError> objection_to_gains(ConfigSection& root, const Certifi
   return std::nullopt;
 }
 
+/// Before the certificate is read: it could not be with the gains of another type.
+void require_theorem_for_type(ConfigSection& root, const std::string& type) {
+  if (!root.has("certificate")) return;
+  ConfigSection section = root.section("certificate");
+  const Theorem* theorem = find_theorem(section.text("theorem"));
+  if (theorem == nullptr) return;
+  const std::vector<std::string> types = theorem->observer_types();
+  if (std::count(types.begin(), types.end(), type) > 0) return;
+  throw section.error("theorem", "a theorem about a " + type + ", the type of this observer",
+                      theorem->name() + ", which is about " + types.front());
+}
+
 /// Why a certificate does not hold for a configuration, if so.
 std::optional<ConfigError> objection(ConfigSection& root, const ConfigNode& tree,
                                      const CertificateConfig& claim, const ObserverConfig& config) {
-  ConfigSection section = root.section("certificate");
+  const ConfigSection section = root.section("certificate");
   const Certificate& certificate = claim.certificate;
-  const std::vector<std::string> types = certificate.theorem->observer_types();
-  if (std::count(types.begin(), types.end(), config.type) == 0) {
-    return section.error("theorem", "a theorem about a " + config.type + kRemedy,
-                         certificate.theorem->name());
-  }
   if (const auto error = objection_to_gains(root, certificate)) return error;
   const std::string hash = plant_fingerprint(tree);
   if (claim.plant_hash != hash) {
@@ -147,6 +154,7 @@ Guarantee read_guarantee(ConfigSection& root, const ConfigNode& tree,
                          const ObserverConfig& config) {
   Guarantee guarantee;
   const bool allow_uncertified = root.flag("allow_uncertified", false);
+  require_theorem_for_type(root, config.type);
   const auto claim = read_certificate(root, *config.plant);
   if (!claim) {
     if (!root.has("error_assumptions")) return guarantee;

@@ -57,18 +57,18 @@ class GivenGains : public DesignMethod {
   NamedMatrices gains_;
 };
 
-/// Whether the analysis found more than the design had.
-bool is_better(const Design& analysis, const Design& design, const std::string& decay) {
+/// Whether the analysis found as much as the design had, or more.
+bool is_as_good(const Design& analysis, const Design& design, const std::string& decay) {
   const auto value = [](const Design& of, const std::string& name) {
     return scalar_value(of.certificate.values, name);
   };
   switch (design.objective) {
     case Objective::kMinGamma:
-      return value(analysis, "gamma") < value(design, "gamma");
+      return value(analysis, "gamma") <= value(design, "gamma");
     case Objective::kMaxT2:
-      return analysis.certificate.subject.T2 > design.certificate.subject.T2;
+      return analysis.certificate.subject.T2 >= design.certificate.subject.T2;
     case Objective::kMaxDecay:
-      return value(analysis, decay) > value(design, decay);
+      return value(analysis, decay) >= value(design, decay);
     case Objective::kFeasible:
       break;
   }
@@ -79,7 +79,12 @@ bool is_better(const Design& analysis, const Design& design, const std::string& 
 
 std::vector<Objective> analysis_objectives(const Theorem& theorem,
                                            const CertificateSubject& subject) {
-  return GivenGains(theorem, {}).objectives(subject);
+  std::vector<Objective> all = GivenGains(theorem, {}).objectives(subject);
+  // A proof of a gain is one.
+  if (all.front() == Objective::kMinGamma) {
+    all.erase(std::find(all.begin(), all.end(), Objective::kFeasible));
+  }
+  return all;
 }
 
 Design analyze(const AnalysisProblem& problem, const SynthesisOptions& options) {
@@ -102,7 +107,25 @@ Design analyze(const AnalysisProblem& problem, const SynthesisOptions& options) 
   search.subject = problem.subject;
   search.given = problem.given;
   search.objective = problem.objective;
-  return search_design(method, search, options);
+  Design found = search_design(method, search, options);
+  const bool has_any_gamma = problem.objective != Objective::kMinGamma &&
+                             has_gamma(theorem, problem.subject) &&
+                             problem.given.count("gamma") == 0;
+  if (!has_any_gamma) return found;
+  search.subject = found.certificate.subject;
+  search.objective = Objective::kMinGamma;
+  const std::string decay = theorem.decay_parameter();
+  if (!decay.empty()) search.given[decay] = scalar_value(found.certificate.values, decay);
+  try {
+    const Design least = search_design(method, search, options);
+    found.certificate = least.certificate;
+    found.margin = least.margin;
+    found.attempts += least.attempts;
+    found.seconds += least.seconds;
+  } catch (const DesignError&) {
+    // At the edge the proof at hand may be the only one.
+  }
+  return found;
 }
 
 Design prove_further(const Design& design, const SynthesisOptions& options) {
@@ -131,7 +154,7 @@ Design prove_further(const Design& design, const SynthesisOptions& options) {
     const Design analysis = analyze(problem, options);
     best.attempts += analysis.attempts;
     best.seconds += analysis.seconds;
-    if (is_better(analysis, design, problem.theorem->decay_parameter())) {
+    if (is_as_good(analysis, design, problem.theorem->decay_parameter())) {
       best.certificate = analysis.certificate;
       best.margin = analysis.margin;
     }

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace sampled_data_observers {
 namespace {
 
 constexpr std::size_t kTauPoints = 25;
 constexpr int kMaxRounds = 10;
-/// By how much gamma is enlarged, so that the proof does not lie on the edge.
-constexpr double kInflation = 1.001;
 
 bool names(const std::vector<NamedShape>& shapes, const std::string& name) {
   return std::any_of(shapes.begin(), shapes.end(),
@@ -55,6 +54,31 @@ LmiProgram analysis_program(const Theorem& theorem, const CertificateSubject& su
 
 }  // namespace
 
+DesignCandidate judged(const Theorem& theorem, const CertificateSubject& subject,
+                       NamedMatrices values, Objective objective, DesignCandidate candidate) {
+  candidate.values = std::move(values);
+  for (const auto& shapes :
+       {theorem.gains(subject), theorem.multipliers(subject), theorem.parameters(subject)}) {
+    for (const NamedShape& shape : shapes) {
+      if (candidate.values.count(shape.name) > 0) continue;
+      candidate.message = "no value for " + shape.name;
+      return candidate;
+    }
+  }
+  const std::vector<ConditionCheck> checks = check(theorem.conditions(subject), candidate.values);
+  candidate.margin = std::numeric_limits<double>::infinity();
+  candidate.message.clear();
+  for (const ConditionCheck& check : checks) {
+    candidate.margin = std::min(candidate.margin, check.min_eigenvalue);
+    if (check.holds()) continue;
+    candidate.message += (candidate.message.empty() ? "violated: " : "; ") + check.name;
+  }
+  candidate.cost = objective == Objective::kMinGamma && candidate.values.count("gamma") > 0
+                       ? scalar_value(candidate.values, "gamma")
+                       : -candidate.margin;
+  return candidate;
+}
+
 DesignCandidate certify_here(const Theorem& theorem, const CertificateSubject& subject,
                              const NamedMatrices& fixed, Objective objective) {
   DesignCandidate candidate;
@@ -67,10 +91,9 @@ DesignCandidate certify_here(const Theorem& theorem, const CertificateSubject& s
       candidate.message = best.message;
       return candidate;
     }
-    all["gamma"] = kInflation * best.values.at("gamma");
+    all["gamma"] = kGammaInflation * best.values.at("gamma");
   }
   const NamedMatrices given = all;
-  std::vector<ConditionCheck> checks;
   std::vector<FurtherTime> further;
   for (int round = 0; round < kMaxRounds; ++round) {
     const LmiProgram program = analysis_program(theorem, subject, given, false, further);
@@ -85,7 +108,7 @@ DesignCandidate certify_here(const Theorem& theorem, const CertificateSubject& s
       for (const auto& [name, value] : inside.values) all[name] = value;
       can_improve = inside.satisfies_all();
     }
-    checks = check(theorem.conditions(subject), all);
+    const std::vector<ConditionCheck> checks = check(theorem.conditions(subject), all);
     // What holds at the values of τ solved for may be violated between them.
     const std::size_t before = further.size();
     for (std::size_t i = 0; i < checks.size(); ++i) {
@@ -93,16 +116,7 @@ DesignCandidate certify_here(const Theorem& theorem, const CertificateSubject& s
     }
     if (!can_improve || further.size() == before) break;
   }
-  candidate.margin = std::numeric_limits<double>::infinity();
-  for (const ConditionCheck& check : checks) {
-    candidate.margin = std::min(candidate.margin, check.min_eigenvalue);
-  }
-  if (!all_hold(checks)) candidate.message = describe_violations(checks);
-  candidate.cost = objective == Objective::kMinGamma && all.count("gamma") > 0
-                       ? scalar_value(all, "gamma")
-                       : -candidate.margin;
-  candidate.values = std::move(all);
-  return candidate;
+  return judged(theorem, subject, std::move(all), objective, std::move(candidate));
 }
 
 }  // namespace sampled_data_observers

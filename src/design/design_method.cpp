@@ -1,6 +1,7 @@
 #include "sampled_data_observers/design/design_method.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "methods/methods.h"
 #include "sampled_data_observers/design/certify.h"
@@ -21,31 +22,71 @@ const char* to_string(Objective objective) {
   return "max-decay";
 }
 
-DesignCandidate LmiDesignMethod::attempt(const CertificateSubject& subject,
-                                         const Parameters& parameters, Objective objective) const {
+DesignCandidate LmiDesignMethod::solve(const CertificateSubject& subject,
+                                       const Parameters& parameters, Objective objective) const {
+  DesignCandidate candidate;
   const LmiSolution solution =
       solve_with_csdp(program(subject, parameters, objective), SolverOptions());
+  candidate.solver = solution.solver;
+  candidate.message = solution.message;
   if (solution.values.empty() || solution.status == SolverStatus::kInfeasible ||
       solution.status == SolverStatus::kUnbounded) {
-    DesignCandidate none;
-    none.solver = solution.solver;
-    none.message = solution.message;
-    return none;
+    return candidate;
   }
-  NamedMatrices fixed = gains(subject, parameters, solution.values);
+  NamedMatrices values = gains(subject, parameters, solution.values);
+  if (values.empty()) {
+    candidate.message = "the solver left a bound";
+    return candidate;
+  }
+  for (const NamedShape& shape : theorem().parameters(subject)) {
+    const auto given = parameters.find(shape.name);
+    if (given != parameters.end()) values[shape.name] = scalar_matrix(given->second);
+  }
+  for (const auto& shapes : {theorem().multipliers(subject), theorem().parameters(subject)}) {
+    for (const NamedShape& shape : shapes) {
+      const auto found = solution.values.find(shape.name);
+      if (found == solution.values.end()) continue;
+      const bool is_minimized = shape.name == "gamma" && objective == Objective::kMinGamma;
+      values[shape.name] = (is_minimized ? kGammaInflation : 1.0) * found->second;
+    }
+  }
+  return judged(theorem(), subject, std::move(values), objective, std::move(candidate));
+}
+
+DesignCandidate LmiDesignMethod::attempt(const CertificateSubject& subject,
+                                         const Parameters& parameters, Objective objective) const {
+  const DesignCandidate solved = solve(subject, parameters, objective);
+  if (solved.values.empty()) return solved;
+  NamedMatrices fixed;
+  for (const NamedShape& shape : theorem().gains(subject)) {
+    fixed[shape.name] = solved.values.at(shape.name);
+  }
   for (const NamedShape& shape : theorem().parameters(subject)) {
     const auto given = parameters.find(shape.name);
     if (given != parameters.end()) fixed[shape.name] = scalar_matrix(given->second);
   }
   DesignCandidate candidate = certify_here(theorem(), subject, fixed, objective);
-  candidate.solver = solution.solver;
+  candidate.solver = solved.solver;
   return candidate;
 }
 
 const std::vector<const DesignMethod*>& design_methods() {
   static const std::vector<const DesignMethod*> all = {
-      &ferrante2016_corollary1(),   &ferrante2019_proposition2(), &ferrante2019_proposition3(),
-      &ferrante2019_proposition4(), &ferrante2019_proposition5(), &ferrante2019_alternating(),
+      &bernard2022_coupled_design(),
+      &bernard2022_flow_based_design(),
+      &bernard2022_jump_based_design(),
+      &bernard2022_polytopic_design(),
+      &bernard2022_high_gain_design(),
+      &bernard2022_switched_flow_based_design(),
+      &bernard2022_switched_jump_based_design(),
+      &etienne2019_proposition1_design(),
+      &etienne2019_proposition2_design(),
+      &ferrante2016_corollary1(),
+      &ferrante2019_proposition2(),
+      &ferrante2019_proposition3(),
+      &ferrante2019_proposition4(),
+      &ferrante2019_proposition5(),
+      &ferrante2019_alternating(),
       &sferlazza2019_algorithm1(),
   };
   return all;

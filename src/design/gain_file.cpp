@@ -1,29 +1,19 @@
 #include "sampled_data_observers/design/gain_file.h"
 
-#include <cstdio>
-#include <cstdlib>
 #include <ostream>
 #include <set>
 
+#include "sampled_data_observers/design/csv.h"
+
 namespace sampled_data_observers {
 namespace {
-
-/// The shortest decimal, of at most 17 digits, that is read as the same number.
-std::string digits(double value) {
-  char text[40];
-  for (int precision = 15; precision <= 17; ++precision) {
-    std::snprintf(text, sizeof text, "%.*g", precision, value);
-    if (std::strtod(text, nullptr) == value) break;
-  }
-  return text;
-}
 
 std::string nested_lists(const Eigen::MatrixXd& matrix) {
   std::string text = "[";
   for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
     text += i == 0 ? "[" : ", [";
     for (Eigen::Index j = 0; j < matrix.cols(); ++j) {
-      text += (j == 0 ? "" : ", ") + digits(matrix(i, j));
+      text += (j == 0 ? "" : ", ") + shortest_decimal(matrix(i, j));
     }
     text += "]";
   }
@@ -45,7 +35,8 @@ void write_values(const std::vector<NamedShape>& shapes, const NamedMatrices& va
     }
     const Eigen::MatrixXd& value = values.at(shape.name);
     out << indent << key << ": "
-        << (shape.form == NamedShape::Form::kScalar ? digits(value(0, 0)) : nested_lists(value))
+        << (shape.form == NamedShape::Form::kScalar ? shortest_decimal(value(0, 0))
+                                                    : nested_lists(value))
         << '\n';
   }
 }
@@ -58,20 +49,28 @@ void write_gain_file(const Design& design, const GainFileOrigin& origin, std::os
   const Theorem& theorem = *certificate.theorem;
   out << "# Gains with a certificate, made by\n#   " << origin.command << "\n"
       << "observer: " << design.observer_type << "\n\n"
-      << "sampling: {T1: " << digits(subject.T1) << ", T2: " << digits(subject.T2) << "}  # s\n\n"
+      << "sampling: {T1: " << shortest_decimal(subject.T1)
+      << ", T2: " << shortest_decimal(subject.T2) << "}  # s\n\n"
       << "gains:\n";
+  for (const auto& [key, choice] : theorem.gain_choices()) {
+    out << "  " << key << ": " << choice << '\n';
+  }
   write_values(theorem.gains(subject), certificate.values, out);
   out << "\ncertificate:\n"
       << "  theorem: " << theorem.name() << '\n'
       << "  guarantee: \"" << theorem.guarantee() << "\"\n"
       << "  plant: {file: \"" << origin.plant_file << "\", hash: " << origin.plant_hash << "}\n"
-      << "  T1: " << digits(subject.T1) << "\n"
-      << "  T2: " << digits(subject.T2) << '\n';
+      << "  T1: " << shortest_decimal(subject.T1) << "\n"
+      << "  T2: " << shortest_decimal(subject.T2) << '\n';
   if (subject.plant.N.cols() > 0) out << "  N: " << nested_lists(subject.plant.N) << '\n';
   if (subject.plant.C_p.rows() > 0) out << "  C_p: " << nested_lists(subject.plant.C_p) << '\n';
+  const StatedErrorMaps& stated = subject.plant.stated;
+  if (stated.A) out << "  A: " << nested_lists(*stated.A) << '\n';
+  if (stated.A_d) out << "  A_d: " << nested_lists(*stated.A_d) << '\n';
   write_values(theorem.parameters(subject), certificate.values, out);
   write_values(theorem.multipliers(subject), certificate.values, out);
-  out << "  margin: " << digits(design.margin) << "  # least eigenvalue of the conditions\n"
+  out << "  margin: " << shortest_decimal(design.margin)
+      << "  # least eigenvalue of the conditions\n"
       << "  method: " << design.method << '\n'
       << "  objective: " << to_string(design.objective)
       << (design.has_no_maximum ? "  # the search ended here: no largest value was found" : "")
@@ -79,7 +78,7 @@ void write_gain_file(const Design& design, const GainFileOrigin& origin, std::os
       << "  parameters: {";
   const char* separator = "";
   for (const auto& [name, value] : design.parameters) {
-    out << separator << name << ": " << digits(value);
+    out << separator << name << ": " << shortest_decimal(value);
     separator = ", ";
   }
   out << "}\n  solver: " << design.solver << "\n  date: " << origin.date << '\n';

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -22,6 +23,9 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+
+/// How long a wait may take that can be cancelled [s].
+constexpr double kPatience = 0.2;
 
 /// What precedes a result in the pipe.
 struct Header {
@@ -53,8 +57,10 @@ bool read_all(int fd, void* data, std::size_t size) {
   return true;
 }
 
-[[noreturn]] void serve(int from_parent, int to_parent,
+[[noreturn]] void serve(pid_t parent, int from_parent, int to_parent,
                         const std::function<std::string(std::size_t)>& task) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != parent) ::_exit(1);  // it died before
   const int null = ::open("/dev/null", O_WRONLY);
   if (null >= 0) ::dup2(null, STDOUT_FILENO);
   if (::chdir("/") != 0) ::_exit(1);
@@ -85,12 +91,13 @@ class Worker {
     int up[2];
     if (::pipe2(down, O_CLOEXEC) != 0) fail("pipe");
     if (::pipe2(up, O_CLOEXEC) != 0) fail("pipe");
+    const pid_t parent = ::getpid();
     pid_ = ::fork();
     if (pid_ < 0) fail("fork");
     if (pid_ == 0) {
       ::close(down[1]);
       ::close(up[0]);
-      serve(down[0], up[1], task);
+      serve(parent, down[0], up[1], task);
     }
     ::close(down[0]);
     ::close(up[1]);
@@ -168,7 +175,10 @@ class Pool {
     const std::size_t jobs = std::min<std::size_t>(std::max(1U, options_.jobs), outcomes_.size());
     workers_.resize(jobs);
     for (auto& worker : workers_) give_next(worker);
-    while (done_ < outcomes_.size()) wait();
+    while (done_ < outcomes_.size()) {
+      if (options_.is_cancelled && options_.is_cancelled()) throw Cancelled();
+      wait();
+    }
     return std::move(outcomes_);
   }
 
@@ -186,7 +196,8 @@ class Pool {
   void wait() {
     std::vector<pollfd> waiting;
     std::vector<std::size_t> positions;
-    double remaining = options_.time_limit;
+    double remaining =
+        options_.is_cancelled ? std::min(kPatience, options_.time_limit) : options_.time_limit;
     for (std::size_t i = 0; i < workers_.size(); ++i) {
       if (!workers_[i]) continue;
       waiting.push_back({workers_[i]->from(), POLLIN, 0});

@@ -6,6 +6,8 @@
 namespace sampled_data_observers {
 
 // Each adds a subcommand, with what it does, to the tool `design`.
+void add_explain(CLI::App& app);
+void add_sweep(CLI::App& app, const std::string& command_line);
 void add_synthesize(CLI::App& app, const std::string& command_line);
 void add_analyze(CLI::App& app, const std::string& command_line);
 void add_verify(CLI::App& app);
@@ -17,5 +19,6 @@ struct ExitStatus {
 constexpr int kNotVerified = 2;
 constexpr int kNoDesign = 3;
 constexpr int kUndecided = 4;
+constexpr int kInterrupted = 130;
 
 }  // namespace sampled_data_observers

@@ -9,7 +9,6 @@
 
 #include "sampled_data_observers/config/config_section.h"
 #include "sampled_data_observers/config/yaml_file.h"
-#include "sampled_data_observers/design/gain_file.h"
 
 namespace sampled_data_observers {
 namespace {
@@ -62,13 +61,18 @@ Objective objective_of(const std::string& name) {
   return Objective::kFeasible;
 }
 
+GainFileOrigin origin_of(const std::string& output, const std::string& plant_file,
+                         const std::string& plant_hash, const std::string& command_line) {
+  const fs::path folder = fs::absolute(output).parent_path();
+  return {fs::relative(fs::absolute(plant_file), folder).string(), plant_hash, command_line,
+          today()};
+}
+
 std::string save_gain_file(const Design& design, const std::string& plant_file,
                            const std::string& plant_hash, const std::string& command_line,
                            const std::string& output) {
-  const std::string seen_from_output =
-      fs::relative(fs::absolute(plant_file), fs::absolute(output).parent_path()).string();
   std::ostringstream text;
-  write_gain_file(design, {seen_from_output, plant_hash, command_line, today()}, text);
+  write_gain_file(design, origin_of(output, plant_file, plant_hash, command_line), text);
   std::ofstream file(output);
   file << text.str();
   file.close();

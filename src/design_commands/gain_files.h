@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "sampled_data_observers/design/synthesis.h"
+#include "sampled_data_observers/design/gain_file.h"
 
 namespace sampled_data_observers {
 
@@ -17,6 +17,10 @@ void assign(const std::string& assignment, Parameters& parameters);
 
 /// The objective of a name of to_string(Objective).
 Objective objective_of(const std::string& name);
+
+/// What a gain file in the folder of `output` says of its plant and of how it was made, today.
+GainFileOrigin origin_of(const std::string& output, const std::string& plant_file,
+                         const std::string& plant_hash, const std::string& command_line);
 
 /// Writes a gain file that names the plant's file as seen from its own folder.
 /// @throws std::runtime_error where it can't be written

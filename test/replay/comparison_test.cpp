@@ -3,11 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "sampled_data_observers/plant/linear_plant.h"
 
 namespace sampled_data_observers {
 namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 std::shared_ptr<const Plant> plant() {
   LinearPlantDescription description;
@@ -32,16 +35,17 @@ TEST(ComparisonTest, TakesRootMeanSquaresOfEstimateAndHeldSample) {
   Comparison comparison({*state_quantity(*plant(), "p"), *state_quantity(*plant(), "yaw")},
                         plant());
   const double x[] = {1.0, 7.0, 3.0};
-  comparison.add_truth({9.0, 9.0}, x);  // nothing sampled yet: not compared
+  comparison.add_truth({9.0, 9.0}, x, kNone);  // nothing sampled yet: not compared
   EXPECT_EQ(0u, comparison.size());
   EXPECT_FALSE(comparison.rmse()[0]);
   const double y[] = {2.0, -3.0, 0.0};
   comparison.add_sample(0, 100, y);
   const double older[] = {50.0, 1.0, 0.0};
   comparison.add_sample(0, 90, older);
-  comparison.add_truth({4.0, -3.0}, x);
-  comparison.add_truth({5.0, -3.0}, x);
+  comparison.add_truth({4.0, -3.0}, x, kNone);
+  comparison.add_truth({5.0, -3.0}, x, kNone);
   EXPECT_EQ(2u, comparison.size());
+  EXPECT_EQ(0u, comparison.bound_check().stamps);
   EXPECT_DOUBLE_EQ(std::sqrt((9.0 + 16.0) / 2.0), *comparison.rmse()[0]);
   EXPECT_DOUBLE_EQ(std::sqrt((4.0 + 9.0) / 2.0), *comparison.hold_rmse()[0]);
   EXPECT_NEAR(2.0 * 3.14159265358979323846 - 6.0, *comparison.rmse()[1], 1e-14);
@@ -50,10 +54,28 @@ TEST(ComparisonTest, TakesRootMeanSquaresOfEstimateAndHeldSample) {
                    *Comparison::norm(comparison.rmse()));
 }
 
+TEST(ComparisonTest, CountsWhereTheErrorExceedsItsBound) {
+  Comparison comparison({*state_quantity(*plant(), "p"), *output_quantity(*plant(), 0, 2)},
+                        plant());
+  const double y[] = {2.0, -3.0, 0.0};
+  comparison.add_sample(0, 100, y);
+  const double x[] = {1.0, 7.0, 3.0};
+  // What is compared, p and p + v, is at most 1.618 times as large as the state.
+  const double weight = (1.0 + std::sqrt(5.0)) / 2.0;
+  comparison.add_truth({4.0, 12.0}, x, std::numeric_limits<double>::infinity());
+  comparison.add_truth({4.0, 12.0}, x, 5.01 / weight);
+  EXPECT_EQ(1u, comparison.bound_check().stamps);
+  EXPECT_EQ(0u, comparison.bound_check().exceeded);
+  EXPECT_NEAR(5.0 / 5.01, *comparison.bound_check().share, 1e-12);
+  comparison.add_truth({4.0, 12.0}, x, 4.99 / weight);
+  EXPECT_EQ(2u, comparison.bound_check().stamps);
+  EXPECT_EQ(1u, comparison.bound_check().exceeded);
+}
+
 TEST(ComparisonTest, WhatNoSensorMeasuresHasNoHeldSample) {
   Comparison comparison({*state_quantity(*plant(), "v")}, plant());
   const double x[] = {1.0, 7.0, 3.0};
-  comparison.add_truth({6.0}, x);
+  comparison.add_truth({6.0}, x, kNone);
   EXPECT_DOUBLE_EQ(1.0, *comparison.rmse()[0]);
   EXPECT_FALSE(comparison.hold_rmse()[0]);
   EXPECT_FALSE(Comparison::norm(comparison.hold_rmse()));

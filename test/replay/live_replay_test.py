@@ -54,6 +54,22 @@ class ExampleTest(ReplayTestCase):
         run_tool("compare_estimates", self.path("live.bag"), self.path("replayed.bag"),
                  "--at-least", "95")
 
+    def test_certified_example_keeps_its_bound(self):
+        plant = os.path.join(ROOT, "config", "examples", "ferrante2019_oscillator", "plant.yaml")
+        scenario = os.path.join(os.path.dirname(plant), "scenario.yaml")
+        gains = os.path.join(ROOT, "test", "certificate", "ferrante2019_oscillator_0.41.yaml")
+        with open(self.path("assumptions.yaml"), "w") as assumptions:
+            assumptions.write("error_assumptions: {initial_error: 1, noise: 0, disturbance: 1}\n")
+        run_tool("simulate", plant, scenario, "-o", self.path("example.bag"))
+        summary = self.replay(self.path("example.bag"),
+                              [plant, gains, self.path("assumptions.yaml")], "replayed.bag",
+                              "--truth", "truth")
+        self.assertIn("ferrante2019_theorem2", summary["guarantee"])
+        self.assertGreater(summary["error_bound"]["finite"], 3900)
+        self.assertEqual(0, summary["error_bound"]["exceeded"])
+        self.assertLess(summary["error_bound"]["largest_share"], 1)
+        self.assertGreater(summary["error_bound"]["largest_share"], 0.001)
+
     def test_a_gap_longer_than_the_history_leaves_no_estimate_out(self):
         run_tool("simulate", MASS_SPRING[0], "-o", self.path("example.bag"))
         with open(MASS_SPRING[1]) as observer:

@@ -156,6 +156,7 @@ TEST_F(ObserverRuntimeTest, WritesStatusAndEstimate) {
   EXPECT_EQ(2u, message.samples);
   EXPECT_EQ(0u, message.jumps);
   EXPECT_DOUBLE_EQ(0.05, message.time_since_sample);
+  EXPECT_TRUE(std::isnan(message.error_bound));  // nothing is guaranteed
   EXPECT_FALSE(message.held);
   // First sample: (2, 10). Then p = 2 + 10 * 0.1 = 3, no innovation.
   EXPECT_NEAR(3.5, message.state[0], 1e-15);

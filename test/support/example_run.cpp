@@ -119,6 +119,8 @@ class Runner {
     run_.truth.add(time, truth);
     run_.estimate.add(time, estimate);
     run_.error.add(time, estimate - truth);
+    run_.error_bound.add(
+        time, Eigen::VectorXd::Constant(1, config_.law->error_bound(estimate_.state.data())));
   }
 
   const ObserverConfig& config_;

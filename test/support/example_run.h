@@ -22,11 +22,13 @@ struct ExampleRun {
     Eigen::VectorXd estimate;    ///< after it
   };
 
-  explicit ExampleRun(double period) : truth(period), estimate(period), error(period) {}
+  explicit ExampleRun(double period)
+      : truth(period), estimate(period), error(period), error_bound(period) {}
 
   Trajectory truth;  ///< where there is an estimate
   Trajectory estimate;
-  Trajectory error;  ///< estimate minus truth
+  Trajectory error;        ///< estimate minus truth
+  Trajectory error_bound;  ///< the guaranteed one
   std::vector<double> sample_times;
   std::vector<Jump> jumps;
   Simulator::End end = Simulator::End::kNone;

@@ -21,7 +21,8 @@ std::vector<Objective> analysis_objectives(const Theorem& theorem,
                                            const CertificateSubject& subject);
 
 /// Proves given gains by a theorem, with its multipliers and parameters free: the least L2 gain, or
-/// the largest T2 or rate of convergence for which the theorem's own conditions hold.
+/// the largest T2 or rate of convergence for which the theorem's own conditions hold. Where the
+/// theorem has a gain that is neither given nor asked for, the least one that goes with these.
 /// @throws DesignError when the theorem is not about the plant, a parameter without range is not
 /// given, or no proof is found.
 Design analyze(const AnalysisProblem& problem, const SynthesisOptions& options);

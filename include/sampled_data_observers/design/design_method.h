@@ -97,10 +97,15 @@ class DesignMethod {
 };
 
 /// A method that is one semidefinite program: it states its variables and its inequalities as named
-/// blocks in the paper's notation, and how gains come out of a solution. The matrices that prove
-/// them are found by the theorem itself, with the gains fixed (see certify_here()).
+/// blocks in the paper's notation, and how gains come out of a solution.
 class LmiDesignMethod : public DesignMethod {
  public:
+  /// Solves the program, and takes the matrices that prove the gains from its solution where it has
+  /// all that the theorem names. The candidate is checked by the theorem's own conditions.
+  DesignCandidate solve(const CertificateSubject& subject, const Parameters& parameters,
+                        Objective objective) const;
+
+  /// The same, but lets the theorem find these matrices, with the gains fixed (certify_here()).
   DesignCandidate attempt(const CertificateSubject& subject, const Parameters& parameters,
                           Objective objective) const override;
 
@@ -109,7 +114,7 @@ class LmiDesignMethod : public DesignMethod {
                              Objective objective) const = 0;
 
  protected:
-  /// The gains by name.
+  /// The gains by name; none where the solution is so inaccurate that they are not what was asked.
   virtual NamedMatrices gains(const CertificateSubject& subject, const Parameters& parameters,
                               const NamedMatrices& solution) const = 0;
 };

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,14 @@ struct WorkerOptions {
   double time_limit = 10.0;
   /// Called in the calling process after each task, with its number.
   std::function<void(std::size_t task, const WorkerOutcome& outcome)> on_outcome;
+  /// Asked several times a second; once it says yes, all workers are ended.
+  std::function<bool()> is_cancelled;
+};
+
+/// Tasks were given up because the caller said so.
+class Cancelled : public std::runtime_error {
+ public:
+  Cancelled() : std::runtime_error("cancelled") {}
 };
 
 /// Number of processors.
@@ -29,9 +38,10 @@ unsigned default_jobs();
 
 /// Runs task(0), …, task(count - 1) in forked processes, `jobs` at a time, and gives their outcomes
 /// in this order. A task that hangs, crashes or throws costs its own outcome only. In a worker,
-/// standard output is closed and the working directory is /.
+/// standard output is closed and the working directory is /. A task may itself run others in
+/// workers. All end with the calling process, however that ends.
 /// @pre the calling process has one thread
-/// @throws std::system_error where no process can be started
+/// @throws std::system_error where no process can be started, Cancelled when told so
 std::vector<WorkerOutcome> run_in_workers(std::size_t count,
                                           const std::function<std::string(std::size_t)>& task,
                                           const WorkerOptions& options);

@@ -5,7 +5,8 @@
 
 namespace sampled_data_observers {
 
-/// A line on standard error that fills up; nothing where standard error is no terminal.
+/// A line on standard error that fills up, with the time left at the pace so far; nothing where
+/// standard error is no terminal.
 class ProgressBar {
  public:
   /// @param label  what is going on
@@ -22,6 +23,7 @@ class ProgressBar {
   std::size_t total_;
   std::size_t done_ = 0;
   bool shown_;
+  std::chrono::steady_clock::time_point start_;
   std::chrono::steady_clock::time_point next_draw_;
 };
 

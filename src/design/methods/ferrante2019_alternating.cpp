@@ -38,14 +38,9 @@ class Alternating : public DesignMethod {
 
   DesignCandidate attempt(const CertificateSubject& subject, const Parameters& parameters,
                           Objective objective) const override {
-    DesignCandidate best = best_proposition(subject, parameters, objective);
-    if (best.values.empty()) return best;
-    for (int step = 0; step < kMaxSteps; ++step) {
-      const NamedMatrices gains = better_gains(subject, parameters, objective, best.values);
-      if (gains.empty()) break;
-      NamedMatrices fixed = known(parameters);
-      for (const auto& [name, value] : gains) fixed[name] = value;
-      DesignCandidate next = certify_here(theorem(), subject, fixed, objective);
+    DesignCandidate best = best_start(subject, parameters, objective);
+    for (int step = 0; step < kMaxSteps && !best.values.empty(); ++step) {
+      DesignCandidate next = improved(subject, parameters, objective, best.values);
       if (!is_better(next, best)) break;
       const double progress = best.cost - next.cost;
       const bool was_verified = best.is_verified();
@@ -62,31 +57,43 @@ class Alternating : public DesignMethod {
     return a.is_verified() ? a.cost < b.cost : a.margin > b.margin;
   }
 
-  static DesignCandidate best_proposition(const CertificateSubject& subject,
-                                          const Parameters& parameters, Objective objective) {
+  /// The best of the propositions, and of Proposition 2 with gains that are too large at first: its
+  /// bound on them is far from tight.
+  DesignCandidate best_start(const CertificateSubject& subject, const Parameters& parameters,
+                             Objective objective) const {
     DesignCandidate best;
-    for (const DesignMethod* method :
-         {&ferrante2019_proposition2(), &ferrante2019_proposition3(), &ferrante2019_proposition4(),
-          &ferrante2019_proposition5()}) {
-      Parameters own = parameters;
-      own["a"] = 1.0;
-      const bool needs_large_delta =
-          method != &ferrante2019_proposition2() && method != &ferrante2019_proposition4();
-      if (needs_large_delta && own.at("delta") <= 2.0 * own.at("lambda_t")) continue;
-      DesignCandidate candidate = method->attempt(subject, own, objective);
+    const auto offer = [&best](DesignCandidate candidate) {
       if (best.values.empty() || is_better(candidate, best)) best = std::move(candidate);
+    };
+    Parameters own = parameters;
+    own["a"] = 1.0;
+    for (const DesignMethod* method :
+         {&ferrante2019_proposition2(), &ferrante2019_proposition4()}) {
+      offer(method->attempt(subject, own, objective));
+    }
+    if (own.at("delta") > 2.0 * own.at("lambda_t")) {
+      offer(ferrante2019_proposition3().attempt(subject, own, objective));
+      offer(ferrante2019_proposition5().attempt(subject, own, objective));
+    }
+    for (const double factor : {3.0, 10.0, 30.0}) {
+      own["gain_bound"] = factor * parameters.at("gain_bound");
+      const DesignCandidate large = ferrante2019_proposition2().attempt(subject, own, objective);
+      if (!large.values.empty()) offer(improved(subject, parameters, objective, large.values));
     }
     return best;
   }
 
-  /// The parameters of the theorem that are fixed.
-  static NamedMatrices known(const Parameters& parameters) {
-    NamedMatrices fixed;
+  /// The design with the best gains for the Lyapunov matrices of another one, and then the best
+  /// Lyapunov matrices for them.
+  DesignCandidate improved(const CertificateSubject& subject, const Parameters& parameters,
+                           Objective objective, const NamedMatrices& values) const {
+    NamedMatrices fixed = better_gains(subject, parameters, objective, values);
+    if (fixed.empty()) return {};
     for (const char* name : {"delta", "lambda_t", "gamma"}) {
       const auto given = parameters.find(name);
       if (given != parameters.end()) fixed[name] = scalar_matrix(given->second);
     }
-    return fixed;
+    return certify_here(theorem(), subject, fixed, objective);
   }
 
   /// L and H for the Lyapunov matrices of a design; none where the solver finds none.
@@ -100,7 +107,9 @@ class Alternating : public DesignMethod {
       solution = solve_with_csdp(gain_program(subject, with_room, Objective::kFeasible, values),
                                  SolverOptions());
     }
-    if (solution.values.empty()) return {};
+    const bool is_of_use =
+        !solution.values.empty() && keeps_gain_bound(solution.values.at("L"), parameters);
+    if (!is_of_use) return {};
     return {{"L", solution.values.at("L")}, {"H", solution.values.at("H")}};
   }
 

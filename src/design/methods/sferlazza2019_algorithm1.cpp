@@ -26,11 +26,6 @@ class Algorithm1 : public DesignMethod {
 
   const Theorem& theorem() const override { return *find_theorem("sferlazza2019_theorem2"); }
 
-  void require_applicable(const CertificateSubject& subject) const override {
-    theorem().require_applicable(subject);
-    require_detectable(subject);
-  }
-
   std::vector<DesignParameter> parameters(const CertificateSubject&) const override {
     return {{"lambda", "how much of the error a sample keeps, in [0, 1)", 0.0, std::nullopt}};
   }

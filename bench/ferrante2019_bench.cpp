@@ -1,0 +1,95 @@
+// Designs over the grid of Table II of ferrante2019, 100 values of delta times 20 of T2 on the
+// flexible link: time on the clock and of the processors, and how many gains Theorem 2 accepts,
+// beside the paper's times.
+#include <sys/resource.h>
+
+#include <chrono>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "sampled_data_observers/config/design_config.h"
+#include "sampled_data_observers/design/design_method.h"
+#include "sampled_data_observers/design/workers.h"
+
+namespace sdo = sampled_data_observers;
+
+namespace {
+
+struct Row {
+  const char* method;
+  /// Whether each design is analysed further by Theorem 2, as in the paper.
+  bool is_analysed;
+  const char* seconds_in_paper;
+};
+
+/// `steps` equidistant values.
+double value(double low, double high, std::size_t i, std::size_t steps) {
+  return low + (high - low) * static_cast<double>(i) / static_cast<double>(steps - 1);
+}
+
+/// Processor time of all workers that have ended [s].
+double worker_seconds() {
+  rusage usage{};
+  ::getrusage(RUSAGE_CHILDREN, &usage);
+  return static_cast<double>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
+         1e-6 * static_cast<double>(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
+}
+
+void run(const Row& row, const sdo::DesignConfig& config, unsigned jobs) {
+  constexpr std::size_t kDeltas = 100;
+  constexpr std::size_t kTimes = 20;
+  const auto& method =
+      dynamic_cast<const sdo::LmiDesignMethod&>(*sdo::find_design_method(row.method));
+  const auto task = [&](std::size_t i) -> std::string {
+    sdo::CertificateSubject subject = config.subject;
+    subject.T2 = value(0.01, 0.3, i / kDeltas, kTimes);
+    subject.T1 = 0.0;
+    const sdo::Parameters parameters = {{"lambda_t", 0.01},
+                                        {"gain_bound", 1000.0},
+                                        {"a", 1.0},
+                                        {"delta", value(1.0, 100.0, i % kDeltas, kDeltas)}};
+    const auto objective = sdo::Objective::kMinGamma;
+    const sdo::DesignCandidate candidate = row.is_analysed
+                                               ? method.attempt(subject, parameters, objective)
+                                               : method.solve(subject, parameters, objective);
+    return candidate.is_verified() ? "verified" : candidate.values.empty() ? "none" : "violated";
+  };
+  sdo::WorkerOptions options;
+  options.jobs = jobs;
+  std::size_t verified = 0;
+  std::size_t violated = 0;
+  std::size_t lost = 0;
+  options.on_outcome = [&](std::size_t, const sdo::WorkerOutcome& outcome) {
+    if (outcome.status != sdo::WorkerOutcome::Status::kDone) ++lost;
+    if (outcome.result == "verified") ++verified;
+    if (outcome.result == "violated") ++violated;
+  };
+  const double worked = worker_seconds();
+  const auto start = std::chrono::steady_clock::now();
+  sdo::run_in_workers(kDeltas * kTimes, task, options);
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  std::printf("%-26s %-10s %9.2f %9.2f %9s %9zu %9zu %9zu\n", row.method,
+              row.is_analysed ? "and proof" : "", seconds, worker_seconds() - worked,
+              row.seconds_in_paper, verified, violated, lost);
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+int main() {
+  const sdo::DesignConfig config = sdo::read_design_config(
+      {std::string(SDO_SOURCE_DIR) + "/config/examples/ferrante2019_flexible_link/plant.yaml"},
+      nullptr);
+  const unsigned jobs = sdo::default_jobs();
+  std::printf("2000 designs each, %u at a time\n%-37s %9s %9s %9s %9s %9s %9s\n", jobs, "",
+              "time [s]", "CPU [s]", "paper [s]", "verified", "violated", "lost");
+  const std::vector<Row> rows = {
+      {"ferrante2019_proposition2", false, "716.6"}, {"ferrante2019_proposition3", false, "866.4"},
+      {"ferrante2019_proposition4", false, "-"},     {"ferrante2019_proposition5", false, "1192.2"},
+      {"ferrante2019_proposition5", true, "1199.2"},
+  };
+  for (const Row& row : rows) run(row, config, jobs);
+  return 0;
+}

@@ -1,0 +1,237 @@
+#include "sampled_data_observers/design/sweep.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <limits>
+#include <set>
+
+#include "sampled_data_observers/design/packing.h"
+#include "sampled_data_observers/design/workers.h"
+
+namespace sampled_data_observers {
+namespace {
+
+struct Task {
+  const DesignMethod* method = nullptr;
+  double T2 = 0.0;
+};
+
+std::vector<Task> tasks_of(const SweepRequest& request, const SweepOptions& options) {
+  std::vector<Task> tasks;
+  for (const double T2 : request.T2) {
+    for (const DesignMethod* method : request.methods) {
+      if (options.is_done && options.is_done(method->name(), T2)) continue;
+      tasks.push_back({method, T2});
+    }
+  }
+  return tasks;
+}
+
+CertificateSubject subject_at(const SweepRequest& request, double T2) {
+  CertificateSubject subject = request.subject;
+  subject.T2 = T2;
+  return subject;
+}
+
+Parameters known_to(const DesignMethod& method, const CertificateSubject& subject,
+                    const Parameters& given) {
+  Parameters known;
+  for (const DesignParameter& parameter : method.parameters(subject)) {
+    const auto found = given.find(parameter.name);
+    if (found != given.end()) known.insert(*found);
+  }
+  return known;
+}
+
+double value_of(const Design& design) {
+  if (design.objective == Objective::kMinGamma) {
+    return scalar_value(design.certificate.values, "gamma");
+  }
+  return scalar_value(design.certificate.values, design.certificate.theorem->decay_parameter());
+}
+
+void pack(const Parameters& parameters, Packer& packer) {
+  NamedMatrices matrices;
+  for (const auto& [name, value] : parameters) matrices[name] = scalar_matrix(value);
+  packer.add(matrices);
+}
+
+Parameters unpack_parameters(Unpacker& unpacker) {
+  Parameters parameters;
+  for (const auto& [name, value] : unpacker.matrices()) parameters[name] = value(0, 0);
+  return parameters;
+}
+
+/// In a worker process: the design of a task, or why there is none.
+std::string solve(const Task& task, const SweepRequest& request, const SynthesisOptions& options) {
+  DesignProblem problem;
+  problem.subject = subject_at(request, task.T2);
+  problem.given = known_to(*task.method, problem.subject, request.given);
+  problem.objective = request.objective;
+  Packer packer;
+  try {
+    const Design design = synthesize(*task.method, problem, options);
+    packer.add(std::string());
+    packer.add(design.certificate.values);
+    pack(design.parameters, packer);
+    packer.add(design.margin);
+    packer.add(design.solver);
+    packer.add(static_cast<std::int64_t>(design.attempts));
+  } catch (const DesignError& error) {
+    packer.add(std::string(error.what()));
+  }
+  return packer.bytes();
+}
+
+void report(const Task& task, const SweepRequest& request, const WorkerOutcome& outcome,
+            const SweepOptions& options) {
+  SweepPoint point;
+  point.method = task.method->name();
+  point.T2 = task.T2;
+  point.seconds = outcome.seconds;
+  Unpacker unpacker(outcome.result);
+  point.message = unpacker.text();
+  if (!point.message.empty()) {
+    options.on_point(point, nullptr);
+    return;
+  }
+  Design design;
+  design.method = task.method->name();
+  design.observer_type = task.method->observer_type();
+  design.objective = request.objective;
+  design.certificate = {&task.method->theorem(), subject_at(request, task.T2), unpacker.matrices()};
+  design.parameters = unpack_parameters(unpacker);
+  design.margin = unpacker.number();
+  design.solver = unpacker.text();
+  design.attempts = static_cast<std::size_t>(unpacker.integer());
+  design.seconds = outcome.seconds;
+  point.value = value_of(design);
+  point.parameters = design.parameters;
+  options.on_point(point, &design);
+}
+
+bool serves(const DesignMethod& method, const CertificateSubject& subject, Objective objective) {
+  const std::vector<Objective> all = method.objectives(subject);
+  return std::find(all.begin(), all.end(), objective) != all.end();
+}
+
+}  // namespace
+
+bool is_better(Objective objective, double first, double second) {
+  return objective == Objective::kMinGamma ? first < second : first > second;
+}
+
+std::vector<double> sweep_times(double low, double high, std::size_t points) {
+  std::vector<double> times;
+  for (std::size_t i = 0; i < points; ++i) {
+    const double share =
+        points == 1 ? 1.0 : static_cast<double>(i) / static_cast<double>(points - 1);
+    char text[40];
+    std::snprintf(text, sizeof text, "%.6g", low + share * (high - low));
+    times.push_back(std::strtod(text, nullptr));
+  }
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    if (!(std::isfinite(times[i]) && times[i] > (i == 0 ? 0.0 : times[i - 1]))) {
+      throw DesignError("T2 from " + std::to_string(low) + " s to " + std::to_string(high) +
+                        " s: expected " + std::to_string(points) +
+                        " increasing positive numbers that differ in their first 6 digits");
+    }
+  }
+  return times;
+}
+
+std::vector<const DesignMethod*> methods_for(const CertificateSubject& subject,
+                                             Objective objective) {
+  std::vector<const DesignMethod*> methods;
+  for (const DesignMethod* method : design_methods()) {
+    try {
+      method->require_applicable(subject);
+    } catch (const std::invalid_argument&) {
+      continue;
+    }
+    if (serves(*method, subject, objective)) methods.push_back(method);
+  }
+  return methods;
+}
+
+void require_sense(const SweepRequest& request) {
+  const CertificateSubject subject = subject_at(request, request.T2.back());
+  for (const DesignMethod* method : request.methods) {
+    try {
+      method->require_applicable(subject);
+    } catch (const std::invalid_argument& fault) {
+      throw DesignError(method->name() + " is not for this plant: " + fault.what());
+    }
+    if (!serves(*method, subject, request.objective)) {
+      throw DesignError(method->name() + " can't serve the objective " +
+                        to_string(request.objective) + " for this plant");
+    }
+  }
+  for (const auto& [name, value] : request.given) {
+    if (!std::isfinite(value))
+      throw DesignError("parameter " + name + ": expected a finite number");
+    const auto knows = [&, &name = name, &value = value](const DesignMethod* method) {
+      return !known_to(*method, subject, {{name, value}}).empty();
+    };
+    if (std::none_of(request.methods.begin(), request.methods.end(), knows)) {
+      throw DesignError("none of the methods has a parameter '" + name + "'");
+    }
+  }
+}
+
+std::size_t remaining_points(const SweepRequest& request, const SweepOptions& options) {
+  return tasks_of(request, options).size();
+}
+
+std::size_t run_sweep(const SweepRequest& request, const SweepOptions& options) {
+  require_sense(request);
+  const std::vector<Task> tasks = tasks_of(request, options);
+  if (tasks.empty()) return 0;
+  // Points side by side; where there are more processors, attempts within a point as well.
+  SynthesisOptions within;
+  within.jobs = std::max(1U, options.jobs / static_cast<unsigned>(tasks.size()));
+  within.time_limit = options.time_limit;
+  WorkerOptions workers;
+  workers.jobs = options.jobs;
+  workers.time_limit = std::numeric_limits<double>::infinity();  // each attempt has its own
+  workers.is_cancelled = options.is_cancelled;
+  std::size_t lost = 0;
+  workers.on_outcome = [&](std::size_t i, const WorkerOutcome& outcome) {
+    if (outcome.status == WorkerOutcome::Status::kDone) {
+      report(tasks[i], request, outcome, options);
+    } else {
+      ++lost;
+    }
+  };
+  run_in_workers(
+      tasks.size(), [&](std::size_t i) { return solve(tasks[i], request, within); }, workers);
+  return lost;
+}
+
+std::vector<CurvePoint> best_curves(const std::vector<SweepPoint>& points, Objective objective) {
+  std::set<std::string> methods;
+  for (const SweepPoint& point : points) methods.insert(point.method);
+  std::vector<CurvePoint> curves;
+  for (const std::string& method : methods) {
+    std::vector<CurvePoint> curve;
+    for (const SweepPoint& point : points) {
+      if (point.method == method) curve.push_back({method, point.T2, point});
+    }
+    std::sort(curve.begin(), curve.end(), [](const CurvePoint& first, const CurvePoint& second) {
+      return first.T2 < second.T2;
+    });
+    for (std::size_t i = curve.size(); i-- > 1;) {
+      const SweepPoint& longer = curve[i].design;
+      SweepPoint& own = curve[i - 1].design;
+      if (longer.value && (!own.value || is_better(objective, *longer.value, *own.value))) {
+        own = longer;
+      }
+    }
+    curves.insert(curves.end(), curve.begin(), curve.end());
+  }
+  return curves;
+}
+
+}  // namespace sampled_data_observers

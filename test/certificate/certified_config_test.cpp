@@ -1,0 +1,251 @@
+// What a configuration with a certificate must be, to be accepted: the gains and the plant that the
+// proof is about, in the times that it is about.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <functional>
+#include <limits>
+
+#include "certificate/certified_gains.h"
+#include "sampled_data_observers/certificate/matrix_functions.h"
+#include "support/law_runner.h"
+
+namespace sampled_data_observers::test {
+namespace {
+
+const char kGains[] = "test/certificate/ferrante2019_oscillator_0.2.yaml";
+const char kAssumptions[] = "{initial_error: 1, noise: 0.1, disturbance: 0.5}";
+
+double initial_bound(const ObserverConfig& config) {
+  Eigen::VectorXd state(config.law->state_size());
+  config.law->initialize(state.data());
+  return config.law->error_bound(state.data());
+}
+
+/// The message with which a configuration is refused.
+std::string fault(const CertifiedGains& gains) {
+  try {
+    gains.config();
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return "no fault";
+}
+
+void expect_parts(const std::string& message, const std::vector<std::string>& parts) {
+  for (const std::string& part : parts) {
+    EXPECT_NE(std::string::npos, message.find(part)) << part << "\nis not in\n" << message;
+  }
+}
+
+TEST(CertifiedConfigTest, AcceptsWhatIsProvedAndBoundsTheErrorWhereAsked) {
+  const ObserverConfig plain = CertifiedGains(kGains).config();
+  expect_parts(plain.guarantee, {"ferrante2019_theorem2: "});
+  EXPECT_EQ("", plain.warning);
+  EXPECT_TRUE(std::isnan(initial_bound(plain)));
+  const ObserverConfig bounded = CertifiedGains(kGains).assuming(kAssumptions).config();
+  EXPECT_GT(initial_bound(bounded), 1.0);
+  EXPECT_LT(initial_bound(bounded), 10.0);
+}
+
+TEST(CertifiedConfigTest, WithoutCertificateNothingIsGuaranteed) {
+  const char kUncertified[] = R"(
+observer: ConstantGainObserver
+plant: {states: [p], A: [[0]]}
+sensors: {position: {C: [[1]], source: {topic: position}}}
+sampling: {T1: 0.1, T2: 0.2}
+gains: {L: [[0.5]]}
+)";
+  const auto config =
+      read_observer_config(read_yaml_text(kUncertified, "a.yaml"), no_plant_plugins);
+  EXPECT_EQ("", config.guarantee);
+  EXPECT_EQ("", config.warning);
+  EXPECT_TRUE(std::isnan(initial_bound(config)));
+  try {
+    read_observer_config(read_yaml_text(std::string(kUncertified) +
+                                            "error_assumptions: {initial_error: 1, noise: 0}",
+                                        "a.yaml"),
+                         no_plant_plugins);
+    FAIL();
+  } catch (const ConfigError& error) {
+    expect_parts(error.what(), {"a.yaml:7: error_assumptions", "certificate", "none"});
+  }
+}
+
+TEST(CertifiedConfigTest, BoundsTheErrorAsTheTheoremsProofDoes) {
+  const Certificate certificate = CertifiedGains(kGains).certificate();
+  const Eigen::MatrixXd P1 = certificate.values.at("P1");
+  const Eigen::VectorXd eigenvalues = symmetric_eigenvalues(P1);
+  const double omega_2 =
+      certificate.values.at("P2")(0, 0) * std::exp(scalar_value(certificate.values, "delta") * 0.2);
+  const double rate = 2.0 * 0.3;
+  const double w_squared = std::pow(scalar_value(certificate.values, "gamma") * 0.5, 2) / rate;
+  const auto runner_with = [](const std::string& assumptions) {
+    return CertifiedGains(kGains)
+        .with("gains: {theta0: {position: [5]}}")
+        .assuming(assumptions)
+        .config()
+        .law;
+  };
+  const auto law = runner_with("{initial_error: 1, noise: 0.1, disturbance: 0.5}");
+  const auto norm = [&](double W) { return std::sqrt(W / eigenvalues(0)); };
+  const auto bound = [&](const LawRunner& runner) {
+    return law->error_bound(runner.state().data());
+  };
+  // Nothing before the first sample: of V, only the estimate's part is left after it.
+  LawRunner sampled(law);
+  sampled.sample(0, {0.0});
+  double W = eigenvalues(1) + omega_2 * 0.01;
+  EXPECT_NEAR(norm(W), bound(sampled), 1e-9);
+  sampled.flow(from_seconds(0.15));
+  W = w_squared + (W - w_squared) * std::exp(-rate * 0.15);
+  EXPECT_NEAR(norm(W), bound(sampled), 1e-9);
+  sampled.sample(0, {0.0});
+  W += omega_2 * 0.01;
+  EXPECT_NEAR(norm(W), bound(sampled), 1e-9);
+
+  // Before it, theta is C x − C x̂ − theta0 off.
+  const auto quiet = runner_with("{initial_error: 0, noise: 0, disturbance: 0}");
+  LawRunner flowing(quiet);
+  EXPECT_NEAR(norm(omega_2 * 25.0), quiet->error_bound(flowing.state().data()), 1e-9);
+  flowing.flow(from_seconds(0.2));
+  EXPECT_NEAR(norm(omega_2 * 25.0 * std::exp(-rate * 0.2)),
+              quiet->error_bound(flowing.state().data()), 1e-9);
+  flowing.flow(1);
+  EXPECT_EQ(std::numeric_limits<double>::infinity(), quiet->error_bound(flowing.state().data()));
+}
+
+struct Change {
+  const char* yaml;
+  /// Parts of the message: place, key, expected, found.
+  std::vector<std::string> message;
+};
+
+const Change kUnproved[] = {
+    {"gains: {L: [[1.5], [-1.02]]}",
+     {"ferrante2019_oscillator_0.2.yaml", "certificate: expected gains and matrices",
+      "found others: ", "ferrante2019 (28) is violated by ", "design synthesize",
+      "allow_uncertified: true"}},
+    {"plant: {A: [[0, 1], [-4.1, 0]]}",
+     {"ferrante2019_oscillator_0.2.yaml", "certificate/plant/hash: expected ",
+      "the fingerprint of the plant and sensors configured", "plant.yaml", "found "}},
+    {"sensors: {position: {C: [[1, 0.01]]}}", {"certificate/plant/hash: expected "}},
+    {"sampling: {T2: 0.21}",
+     {"sampling: expected T1 and T2 inside [0.1, 0.2] s", "found [0.1, 0.21] s"}},
+    {"sampling: {T1: 0.09}", {"sampling: expected", "found [0.09, 0.2] s"}},
+    {"certificate: {gamma: 0.5}", {"certificate: expected", "is violated by"}},
+};
+
+TEST(CertifiedConfigTest, RefusesWhatIsNotProved) {
+  for (const Change& change : kUnproved) {
+    SCOPED_TRACE(change.yaml);
+    expect_parts(fault(CertifiedGains(kGains).with(change.yaml)), change.message);
+  }
+}
+
+TEST(CertifiedConfigTest, LoadsItWithAWarningAndWithoutBoundWhereThatIsAllowed) {
+  for (const Change& change : kUnproved) {
+    SCOPED_TRACE(change.yaml);
+    const ObserverConfig config = CertifiedGains(kGains)
+                                      .with(change.yaml)
+                                      .with("allow_uncertified: true")
+                                      .assuming(kAssumptions)
+                                      .config();
+    EXPECT_EQ("", config.guarantee);
+    expect_parts(config.warning, {"no guarantee and no error bound: "});
+    expect_parts(config.warning, change.message);
+    EXPECT_TRUE(std::isnan(initial_bound(config)));
+  }
+  const ObserverConfig proved =
+      CertifiedGains(kGains).with("allow_uncertified: true").assuming(kAssumptions).config();
+  EXPECT_EQ("", proved.warning);
+  EXPECT_FALSE(std::isnan(initial_bound(proved)));
+}
+
+TEST(CertifiedConfigTest, RefusesWhatIsNoCertificateInAnyCase) {
+  const Change changes[] = {
+      {"certificate: {P1: [[1, 0]]}", {"certificate/P1: expected a 2 x 2 matrix"}},
+      {"certificate: {P1: [[1, 0], [0.1, 1]]}", {"certificate/P1: expected a symmetric matrix"}},
+      {"certificate: {P2: [[.nan]]}", {"certificate/P2"}},
+      {"certificate: {theorem: fermat}", {"certificate/theorem: expected one of", "'fermat'"}},
+      {"certificate: {T1: 0.3}", {"certificate/T2: expected 0 <= T1 <= T2"}},
+      {"certificate: {gama: 3}", {"certificate/gama"}},
+      {"certificate: {N: [[1]]}", {"certificate/N"}},
+      {"error_assumptions: {initial_error: 1, noise: 0.1}", {"error_assumptions/disturbance"}},
+      {"error_assumptions: {initial_error: -1, noise: 0.1, disturbance: 0}",
+       {"error_assumptions/initial_error"}},
+      {"error_assumptions: {noise: 0.1, disturbance: 0}", {"error_assumptions/initial_error"}},
+      {"error_assumptions: {initial_error: 1, noise: 0, disturbance: 0, more: 1}",
+       {"error_assumptions/more"}},
+      {"allow_uncertified: perhaps", {"allow_uncertified: expected one of true, false"}},
+  };
+  for (const Change& change : changes) {
+    SCOPED_TRACE(change.yaml);
+    expect_parts(fault(CertifiedGains(kGains).with("allow_uncertified: true").with(change.yaml)),
+                 change.message);
+  }
+}
+
+/// Takes a key out of a section of the root.
+ConfigNode without(ConfigNode tree, const std::string& section, const std::string& key) {
+  for (auto& [name, node] : tree.entries) {
+    if (name != section) continue;
+    auto& entries = node.entries;
+    entries.erase(std::remove_if(entries.begin(), entries.end(),
+                                 [&](const auto& entry) { return entry.first == key; }),
+                  entries.end());
+  }
+  return tree;
+}
+
+TEST(CertifiedConfigTest, SaysWhenTheTheoremIsAboutAnotherType) {
+  const ConfigNode tree =
+      without(CertifiedGains(kGains).with("observer: ConstantGainObserver").tree(), "gains", "H");
+  try {
+    read_observer_config(tree, no_plant_plugins);
+    FAIL();
+  } catch (const ConfigError& error) {
+    expect_parts(error.what(), {"certificate/theorem: expected a theorem about a "
+                                "ConstantGainObserver",
+                                "about IntersampleInjectionObserver"});
+  }
+}
+
+TEST(CertifiedConfigTest, ADisturbanceNeedsACertificateForDisturbances) {
+  CertifiedGains gains(kGains);
+  const auto read = [&](const std::string& assumptions) {
+    const ConfigNode whole = gains.assuming(assumptions).tree();
+    return read_observer_config(
+        without(without(without(whole, "certificate", "N"), "certificate", "C_p"), "certificate",
+                "gamma"),
+        no_plant_plugins);
+  };
+  EXPECT_FALSE(std::isnan(initial_bound(read("{initial_error: 1, noise: 0, disturbance: 0}"))));
+  EXPECT_THROW(read("{initial_error: 1, noise: 0, disturbance: 0.1}"), ConfigError);
+}
+
+double cpu_seconds(const std::function<void()>& work) {
+  const std::clock_t begin = std::clock();
+  work();
+  return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+}
+
+TEST(CertifiedConfigTest, TheCheckTakesLessThanATenthOfASecond) {
+  const Certificate certificate = CertifiedGains(kGains).certificate();
+  EXPECT_LT(cpu_seconds([&] { check(certificate); }), 0.1);
+
+  // A condition over τ, of a plant with 8 states: P > Φ(τ)ᵀ P Φ(τ).
+  const Eigen::Index n = 8;
+  Eigen::MatrixXd A = Eigen::MatrixXd::Random(n, n) - 6.0 * Eigen::MatrixXd::Identity(n, n);
+  const MatrixExpression P = symbol("P", n, n);
+  const MatrixExpression transition = exponential(time_tau() * A);
+  const Condition condition{"P > Phi' P Phi", P - transpose(transition) * P * transition,
+                            Condition::Range{0.1, 3.0}};
+  const NamedMatrices values = {{"P", Eigen::MatrixXd::Identity(n, n)}};
+  EXPECT_LT(cpu_seconds([&] { EXPECT_TRUE(all_hold(check({condition}, values))); }), 0.1);
+}
+
+}  // namespace
+}  // namespace sampled_data_observers::test

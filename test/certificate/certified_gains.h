@@ -1,0 +1,46 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "sampled_data_observers/config/certificate_config.h"
+#include "sampled_data_observers/config/observer_config.h"
+#include "sampled_data_observers/config/yaml_file.h"
+
+namespace sampled_data_observers::test {
+
+/// A gain file of this repository with the plant that it names, as one configuration.
+class CertifiedGains {
+ public:
+  /// @param file  relative to the repository
+  explicit CertifiedGains(const std::string& file) {
+    const std::string path = std::string(SDO_SOURCE_DIR) + "/" + file;
+    const ConfigNode gains = read_yaml_file(path);
+    const std::string plant =
+        ConfigSection(gains, "").section("certificate").section("plant").text("file");
+    const auto folder = std::filesystem::path(path).parent_path();
+    tree_ = merge({gains, read_yaml_file((folder / plant).lexically_normal().string())});
+  }
+
+  /// Keys that replace or join those of the files.
+  CertifiedGains& with(const std::string& yaml) {
+    tree_ = override_with(tree_, read_yaml_text(yaml, "test.yaml"));
+    return *this;
+  }
+  CertifiedGains& assuming(const std::string& assumptions) {
+    return with("error_assumptions: " + assumptions);
+  }
+
+  const ConfigNode& tree() const { return tree_; }
+  ObserverConfig config() const { return read_observer_config(tree_, no_plant_plugins); }
+  Certificate certificate() const {
+    ConfigSection root(tree_, "");
+    return read_certificate(root, *config().plant)->certificate;
+  }
+
+ private:
+  ConfigNode tree_;
+};
+
+}  // namespace sampled_data_observers::test

@@ -1,0 +1,242 @@
+// Guaranteed bounds in 10,000 random runs for each gain file: errors, noise and disturbances within
+// what is assumed, some of them as bad as they may be, at random times within [T1, T2].
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <random>
+#include <vector>
+
+#include "certificate/certified_gains.h"
+#include "sampled_data_observers/observer/estimator.h"
+#include "sampled_data_observers/plant/runge_kutta_flow.h"
+
+namespace sampled_data_observers::test {
+namespace {
+
+constexpr Stamp kStart = 1'600'000'000'000'000'000;
+constexpr int kRuns = 10000;
+constexpr int kEventsPerRun = 12;
+constexpr int kPartsPerInterval = 3;
+constexpr Duration kStep = 10'000'000;
+
+/// ẋ = f(x) + N w of one mode, w held.
+class DisturbedFlow : private VectorField {
+ public:
+  DisturbedFlow(const Plant& plant, const Eigen::MatrixXd& N)
+      : plant_(plant),
+        N_(N),
+        flow_(plant.states(), kStep),
+        u_(Eigen::VectorXd::Zero(plant.inputs())) {}
+
+  void apply(std::size_t mode, const Eigen::VectorXd& w, Duration duration, Eigen::VectorXd& x) {
+    mode_ = mode;
+    N_w_ = N_ * w;
+    flow_.apply(*this, duration, x.data());
+  }
+
+ private:
+  void evaluate(const double* x, double* dx) const override {
+    plant_.modes()[mode_].flow->evaluate(x, u_.data(), dx);
+    for (Eigen::Index i = 0; i < N_w_.size(); ++i) dx[i] += N_w_(i);
+  }
+
+  const Plant& plant_;
+  const Eigen::MatrixXd& N_;
+  RungeKuttaFlow flow_;
+  std::size_t mode_ = 0;
+  Eigen::VectorXd N_w_;
+  Eigen::VectorXd u_;
+};
+
+/// Plays plant, sensors and jumps against an estimator.
+class RandomRuns {
+ public:
+  RandomRuns(const ObserverConfig& config, Certificate certificate, ErrorAssumptions assumptions)
+      : config_(config),
+        plant_(*config.plant),
+        certificate_(std::move(certificate)),
+        assumptions_(assumptions),
+        flow_(plant_, certificate_.subject.plant.N),
+        estimate_(Estimator(config.law, config.options).make_estimate()) {}
+
+  void run(std::uint64_t seed) {
+    generator_.seed(seed);
+    manner_ = static_cast<int>(seed % 4);
+    stamp_ = kStart;
+    mode_ = 0;
+    // The estimate begins with a restart, or with the first event.
+    const bool begins_with_event = seed / 4 % 2 == 0;
+    estimator_.emplace(config_.law, config_.options);
+    if (!begins_with_event) estimator_->restart(stamp_);
+    config_.law->initialize(estimate_.state.data());
+    const double size = manner_ == 0 ? uniform(0.0, 1.0) : 1.0;
+    x_ = estimate_.state.head(plant_.states()) +
+         size * assumptions_.initial_error * direction(plant_.states());
+    if (begins_with_event) event();
+    compare();
+    for (int i = 0; i < kEventsPerRun; ++i) {
+      // The time to the first sample may be short.
+      const bool is_first = i == 0 && !begins_with_event;
+      const double T1 = is_first ? 1e-3 : certificate_.subject.T1;
+      const double T2 = certificate_.subject.T2;
+      double interval = uniform(T1, T2);
+      if (uniform(0.0, 1.0) < 0.3) interval = uniform(0.0, 1.0) < 0.5 ? T1 : T2;
+      flow(from_seconds(interval));
+      event();
+      compare();
+    }
+  }
+
+  std::size_t violations() const { return violations_; }
+  std::size_t losses() const { return losses_; }
+  /// The largest share of the bound that the error took.
+  double largest_share() const { return largest_share_; }
+
+ private:
+  double uniform(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(generator_);
+  }
+
+  Eigen::VectorXd direction(Eigen::Index size) {
+    std::normal_distribution<double> normal;
+    Eigen::VectorXd result(size);
+    for (Eigen::Index i = 0; i < size; ++i) result(i) = normal(generator_);
+    return result.normalized();
+  }
+
+  Eigen::VectorXd error() { return x_ - estimate_.state.head(plant_.states()); }
+
+  /// A vector of at most this norm: none, any, or one that drives the error out along `worst`.
+  Eigen::VectorXd perturbation(double norm, const Eigen::VectorXd& worst) {
+    if (manner_ == 1 || worst.size() == 0) return Eigen::VectorXd::Zero(worst.size());
+    if (manner_ == 0) return uniform(0.0, norm) * direction(worst.size());
+    const double sign = manner_ == 2 ? 1.0 : -1.0;
+    return worst.isZero() ? Eigen::VectorXd(norm * direction(worst.size()))
+                          : Eigen::VectorXd(sign * norm * worst.normalized());
+  }
+
+  void flow(Duration interval) {
+    const Eigen::MatrixXd& N = certificate_.subject.plant.N;
+    for (int part = 0; part < kPartsPerInterval; ++part) {
+      const Duration duration =
+          interval * (part + 1) / kPartsPerInterval - interval * part / kPartsPerInterval;
+      const Eigen::VectorXd w = perturbation(assumptions_.disturbance, N.transpose() * error());
+      flow_.apply(mode_, w, duration, x_);
+      stamp_ += duration;
+      compare();
+    }
+  }
+
+  Eigen::VectorXd measurement(std::size_t sensor) {
+    const AffineMap& map = *plant_.modes()[mode_].outputs[sensor]->affine();
+    const Eigen::VectorXd worst = -(map.M() * error());
+    return map.M() * x_ + map.c() + perturbation(assumptions_.noise, worst);
+  }
+
+  /// A sample of the plant's sensor, or a jump where it has none.
+  void event() {
+    for (std::size_t i = 0; i < plant_.sensors().size(); ++i) {
+      if (plant_.sensors()[i].timing != SensorTiming::kSampled) continue;
+      const Eigen::VectorXd y = measurement(i);
+      submit({stamp_, EventKind::kSample, static_cast<int>(i), y.data(), y.size(), 0});
+      return;
+    }
+    jump();
+  }
+
+  void jump() {
+    const std::vector<PlantMode>& modes = plant_.modes();
+    const std::size_t next =
+        static_cast<std::size_t>(uniform(0.0, 1.0) * static_cast<double>(modes.size()));
+    std::vector<double> values;
+    if (plant_.switches()) values.push_back(modes[next].label);
+    int channel = kPlainJump;
+    for (std::size_t i = 0; i < plant_.sensors().size(); ++i) {
+      if (plant_.sensors()[i].timing != SensorTiming::kAtJumps) continue;
+      const Eigen::VectorXd y = measurement(i);
+      values.insert(values.end(), y.data(), y.data() + y.size());
+      channel = kMeasuredJump;
+    }
+    if (modes[mode_].jump) {
+      const AffineMap& map = *modes[mode_].jump->affine();
+      x_ = Eigen::VectorXd(map.M() * x_ + map.c());
+    }
+    mode_ = next;
+    submit({stamp_, EventKind::kJump, channel, values.data(),
+            static_cast<Eigen::Index>(values.size()), 0});
+  }
+
+  void submit(const Event& event) { ASSERT_TRUE(estimator_->submit(event, event.stamp).used()); }
+
+  void compare() {
+    ASSERT_EQ(Timeline::Query::kOk, estimator_->estimate_at(stamp_, estimate_));
+    const double bound = config_.law->error_bound(estimate_.state.data());
+    if (!std::isfinite(bound)) ++losses_;
+    const double norm = error().norm();
+    if (norm > bound * (1.0 + 1e-9) + 1e-12) ++violations_;
+    if (bound > 0.0) largest_share_ = std::max(largest_share_, norm / bound);
+  }
+
+  const ObserverConfig& config_;
+  const Plant& plant_;
+  Certificate certificate_;
+  ErrorAssumptions assumptions_;
+  DisturbedFlow flow_;
+  std::optional<Estimator> estimator_;
+  Estimate estimate_;
+  std::mt19937_64 generator_;
+  int manner_ = 0;
+  Stamp stamp_ = 0;
+  std::size_t mode_ = 0;
+  Eigen::VectorXd x_;
+  std::size_t violations_ = 0;
+  std::size_t losses_ = 0;
+  double largest_share_ = 0.0;
+};
+
+/// A gain file, and what is assumed.
+struct Claim {
+  const char* gains;
+  ErrorAssumptions assumptions;
+};
+
+const Claim kClaims[] = {
+    {"test/certificate/ferrante2019_oscillator_0.2.yaml", {1.0, 0.0, 0.0}},
+    {"test/certificate/ferrante2019_oscillator_0.2.yaml", {1.0, 0.05, 0.5}},
+    {"test/certificate/ferrante2019_oscillator_0.2.yaml", {0.0, 0.0, 1.0}},
+    {"test/certificate/ferrante2019_oscillator_0.2.yaml", {0.0, 0.1, 0.0}},
+    {"test/certificate/ferrante2019_oscillator_0.41.yaml", {1.0, 0.05, 0.5}},
+};
+
+std::string assumptions_text(const ErrorAssumptions& assumptions) {
+  return "{initial_error: " + std::to_string(assumptions.initial_error) +
+         ", noise: " + std::to_string(assumptions.noise) +
+         ", disturbance: " + std::to_string(assumptions.disturbance) + "}";
+}
+
+class BoundTest : public ::testing::TestWithParam<Claim> {};
+
+TEST_P(BoundTest, HoldsInRandomRuns) {
+  const Claim& claim = GetParam();
+  CertifiedGains gains(claim.gains);
+  const Certificate certificate = gains.certificate();
+  const ObserverConfig config = gains.assuming(assumptions_text(claim.assumptions)).config();
+  RandomRuns runs(config, certificate, claim.assumptions);
+  for (int seed = 0; seed < kRuns; ++seed) {
+    runs.run(static_cast<std::uint64_t>(seed));
+    ASSERT_EQ(0u, runs.violations()) << "seed " << seed;
+    ASSERT_EQ(0u, runs.losses()) << "seed " << seed;
+  }
+  // Otherwise the test would not notice a bound of another size.
+  EXPECT_GT(runs.largest_share(), 0.05);
+  RecordProperty("largest_share", std::to_string(runs.largest_share()));
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryClaim, BoundTest, ::testing::ValuesIn(kClaims));
+
+}  // namespace
+}  // namespace sampled_data_observers::test

@@ -1,0 +1,125 @@
+#include "sampled_data_observers/design/explanation.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "sampled_data_observers/design/design_method.h"
+
+namespace sampled_data_observers {
+namespace {
+
+CertificateSubject plant(const Eigen::MatrixXd& A) {
+  CertificateSubject subject;
+  const Eigen::Index n = A.rows();
+  ModeMatrices mode;
+  mode.A = A;
+  mode.C.resize(0, n);
+  mode.C_c.resize(0, n);
+  mode.C_d.resize(0, n);
+  subject.plant.modes = {mode};
+  for (Eigen::Index i = 1; i <= n; ++i) {
+    subject.plant.state_names.push_back("x" + std::to_string(i));
+  }
+  subject.plant.G.resize(n, 0);
+  subject.plant.S.resize(0, n);
+  subject.plant.N.resize(n, 0);
+  subject.plant.C_p.resize(0, n);
+  return subject;
+}
+
+/// bernard2022, example 5.5
+CertificateSubject impulsive() {
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(3, 3);
+  A(0, 1) = 1.0;
+  CertificateSubject subject = plant(A);
+  Eigen::MatrixXd A_d = Eigen::MatrixXd::Zero(3, 3);
+  A_d(0, 0) = A_d(1, 1) = A_d(2, 0) = 1.0;
+  subject.plant.modes.front().A_d = A_d;
+  subject.plant.modes.front().C_d = Eigen::RowVector3d(1, 0, 0);
+  subject.T1 = 2.0;
+  subject.T2 = 5.0;
+  return subject;
+}
+
+/// With one space between words, whatever the lines.
+std::string words(const std::string& text) {
+  std::istringstream in(text);
+  std::string all;
+  for (std::string word; in >> word;) all += (all.empty() ? "" : " ") + word;
+  return all;
+}
+
+bool says(const CertificateSubject& subject, const std::string& part) {
+  return words(explain(subject)).find(part) != std::string::npos;
+}
+
+TEST(Explanation, FindsFlowAndJumpsDetectableTogetherOnly) {
+  EXPECT_TRUE(says(impulsive(),
+                   "Jumps alone, (A_d, C_d): not observable. - unseen: the mode 1, "
+                   "which moves x2; it does not shrink: by 1 at each jump"))
+      << explain(impulsive());
+  EXPECT_TRUE(says(impulsive(), "detectable at all 101 values of tau looked at"));
+  EXPECT_TRUE(says(impulsive(), "(26), which takes flow and jumps one by one, can't hold"));
+  EXPECT_FALSE(says(impulsive(), "NO OBSERVER"));
+}
+
+TEST(Explanation, TellsThatNothingSeesAnUnstableModeAtJumps) {
+  CertificateSubject subject = impulsive();
+  subject.plant.modes.front().C_d = Eigen::RowVector3d(0, 1, 0);  // the velocity only
+  EXPECT_TRUE(says(subject, "NOT detectable at 101 of 101"));
+  EXPECT_TRUE(says(subject, "NO OBSERVER CAN CONVERGE"));
+}
+
+TEST(Explanation, ComparesTheDecayInFlowWithTheGrowthAtJumps) {
+  // dx/dt = (-0.1 x1, x2), jumps double x1, which y_c does not see.
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2, 2);
+  A.diagonal() << -0.1, 1.0;
+  CertificateSubject subject = plant(A);
+  subject.plant.modes.front().C_c = Eigen::RowVector2d(0, 1);
+  subject.plant.modes.front().A_d = 2.0 * Eigen::MatrixXd::Identity(2, 2);
+  subject.T1 = 1.0;
+  subject.T2 = 2.0;
+  EXPECT_TRUE(says(subject, "that takes a rate of decay of more than 0.6931 1/s"))
+      << explain(subject);
+  EXPECT_TRUE(says(subject, "what y_c does not show decays at 0.1 1/s only"));
+  subject.T1 = subject.T2 = 7.0;  // exp(-0.7) < 1 / 2
+  EXPECT_FALSE(says(subject, "what y_c does not show decays"));
+}
+
+TEST(Explanation, SaysOfEveryMethodWhetherItApplies) {
+  const std::string text = words(explain(impulsive()));
+  for (const DesignMethod* method : design_methods()) {
+    EXPECT_TRUE(text.find(method->name() + " applies: ") != std::string::npos ||
+                text.find(method->name() + " no: ") != std::string::npos)
+        << method->name();
+  }
+}
+
+TEST(Explanation, SpeaksWithoutTimes) {
+  CertificateSubject subject = impulsive();
+  subject.T1 = subject.T2 = 0.0;
+  EXPECT_TRUE(says(subject, "times between events: not given"));
+  EXPECT_FALSE(says(subject, "nan"));
+}
+
+TEST(ObservabilityCurves, ReachZeroAtPathologicalIntervals) {
+  Eigen::MatrixXd A(2, 2);
+  A << 0, 1, -4, 0;
+  CertificateSubject subject = plant(A);
+  subject.plant.modes.front().C = Eigen::RowVector2d(1, 0);
+  subject.T1 = 0.2;
+  subject.T2 = 0.4;
+  const std::vector<double> times = pathological_times(subject);
+  ASSERT_EQ(times.size(), 1u);
+  EXPECT_NEAR(times[0], std::acos(-1.0) / 2.0, 1e-12);
+  const std::vector<ObservabilityCurve> curves = observability_curves(subject);
+  ASSERT_EQ(curves.size(), 1u);
+  EXPECT_LT(*std::min_element(curves[0].value.begin(), curves[0].value.end()), 1e-12);
+  EXPECT_GT(curves[0].tau.back(), times[0]);
+}
+
+}  // namespace
+}  // namespace sampled_data_observers

@@ -1,0 +1,52 @@
+// Guaranteed bounds in the simulated examples: the error never exceeds them, and none is lost.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "support/example_run.h"
+
+namespace sampled_data_observers::test {
+namespace {
+
+/// An example, its scenario, settings and gains, what is assumed, and the largest bound at the end.
+struct CertifiedExample {
+  const char* name;
+  const char* scenario;
+  const char* observer;
+  const char* gains;
+  const char* assumptions;
+  double final_bound;
+};
+
+constexpr char kOscillator[] = "../../../test/certificate/ferrante2019_oscillator_0.41.yaml";
+
+const CertifiedExample kExamples[] = {
+    {"ferrante2019_oscillator", "scenario.yaml", "observer.yaml", kOscillator,
+     "{initial_error: 0, noise: 0, disturbance: 1}", 65.0},
+    {"ferrante2019_oscillator", "scenario_undisturbed.yaml", "observer_undisturbed.yaml",
+     kOscillator, "{initial_error: 4.2427, noise: 0, disturbance: 0}", 15.0},
+};
+
+class CertifiedExampleTest : public ::testing::TestWithParam<CertifiedExample> {};
+
+TEST_P(CertifiedExampleTest, NeverExceedsItsBound) {
+  const CertifiedExample& example = GetParam();
+  const ExampleRun run =
+      Example(example.name, example.gains)
+          .from_zero()
+          .override_observer("error_assumptions: " + std::string(example.assumptions))
+          .run(example.scenario, example.observer);
+  ASSERT_GT(run.error.size(), 1000u);
+  for (std::size_t k = 0; k < run.error.size(); ++k) {
+    const double bound = run.error_bound.value(k)(0);
+    ASSERT_TRUE(std::isfinite(bound)) << run.error.time(k);
+    ASSERT_LE(run.error.value(k).norm(), bound + 1e-12) << run.error.time(k);
+  }
+  EXPECT_LT(run.error_bound.value(run.error_bound.size() - 1)(0), example.final_bound);
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryExample, CertifiedExampleTest, ::testing::ValuesIn(kExamples));
+
+}  // namespace
+}  // namespace sampled_data_observers::test
