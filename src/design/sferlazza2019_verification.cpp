@@ -22,6 +22,10 @@ IntervalVerification verify_between(const Eigen::MatrixXd& A, const Eigen::Matri
     result.stopped_at = T1;
     return result;
   }
+  if (complement.cols() == 0) {
+    result.holds = true;
+    return result;
+  }
   // In the coordinates R x: Ψ falls no faster than by the largest eigenvalue of the symmetric part.
   const double beta = std::max(0.0, -min_eigenvalue(R * A * inverse_of(R)));
   const Eigen::MatrixXd weighed = R * complement;

@@ -36,7 +36,10 @@ class Corollary1 : public LmiDesignMethod {
       none.message = undetectable_sampling(subject);
     }
     if (!none.message.empty()) return none;
-    return solve(subject, parameters, objective);
+    DesignCandidate candidate = solve(subject, parameters, objective);
+    if (!candidate.is_verified() || candidate.margin > kLeastMargin) return candidate;
+    none.message = on_the_edge(candidate.margin);
+    return none;
   }
 
   LmiProgram program(const CertificateSubject& subject, const Parameters& parameters,

@@ -55,6 +55,10 @@ class Algorithm1 : public DesignMethod {
                        " times between T1 and T2 (" + solution.message + ")";
         return none;
       }
+      if (solution.margin <= kLeastMargin) {
+        none.message = on_the_edge(solution.margin);
+        return none;
+      }
       const Eigen::MatrixXd& P = solution.values.at("P");
       const NamedMatrices values = {{"P", P}, {"lambda", scalar_matrix(lambda)}};
       const std::optional<double> worst = worst_time(conditions, values, solution.margin);
