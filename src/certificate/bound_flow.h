@@ -4,9 +4,6 @@
 
 namespace sampled_data_observers {
 
-/// What summed durations may be off by [s]. Stamps are whole nanoseconds.
-constexpr double kClockRounding = 1e-9;
-
 /// w(duration) of ẇ = growth w + push, w(0) = start; infinity stays.
 inline double flowed_linearly(double start, double growth, double push, double duration) {
   if (std::isinf(start)) return start;

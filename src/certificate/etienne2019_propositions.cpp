@@ -59,7 +59,7 @@ class IssBound : public ErrorBound {
       return;
     }
     state[1] += duration;
-    if (!(state[1] <= T2_ + kClockRounding)) state[0] = std::numeric_limits<double>::infinity();
+    if (!(state[1] <= T2_)) state[0] = std::numeric_limits<double>::infinity();
     if (std::isinf(state[0])) return;
     state[0] = std::sqrt(final_ + (state[0] * state[0] - final_) * std::exp(-rate_ * duration));
   }
@@ -179,7 +179,11 @@ class Proposition1 : public Proposition {
   std::unique_ptr<const ErrorBound> error_bound(
       const CertificateSubject& subject, const NamedMatrices& values,
       const ErrorAssumptions& assumptions) const override {
-    if (assumptions.noise > 0.0 || assumptions.disturbance > 0.0) return nullptr;
+    if (assumptions.noise > 0.0 || assumptions.disturbance > 0.0) {
+      throw std::invalid_argument(
+          "it is about measurements without noise and plants without disturbance; "
+          "etienne2019_proposition2 bounds what they do");
+    }
     return std::make_unique<const IssBound>(subject, values, 0.0, assumptions);
   }
 };

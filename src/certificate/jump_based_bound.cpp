@@ -41,12 +41,12 @@ class JumpBasedBound : public ErrorBound {
   void flow(double duration, double* state) const override {
     state[kTau] += duration;
     state[kCausedSince] = flowed_linearly(state[kCausedSince], growth_, push_, duration);
-    if (!(state[kTau] <= T2_ + kClockRounding)) lose(state);
+    if (!(state[kTau] <= T2_)) lose(state);
   }
   void jump(double* state) const override {
     const double tau = state[kTau];
     const bool is_first = state[kJumped] == 0.0;
-    if (!is_first && tau < T1_ - kClockRounding) lose(state);
+    if (!is_first && tau < T1_) lose(state);
     if (!std::isinf(state[kAfterJump])) {
       const double carried =
           is_first ? reset_ * flowed_linearly(state[kAfterJump], growth_, 0.0, tau)

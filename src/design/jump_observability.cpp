@@ -6,6 +6,7 @@
 #include <string>
 
 #include "sampled_data_observers/certificate/matrix_functions.h"
+#include "sampled_data_observers/design/observability.h"
 
 namespace sampled_data_observers {
 namespace {
@@ -21,8 +22,7 @@ class Trial {
       const double part =
           points > 1 ? static_cast<double>(i) / static_cast<double>(points - 1) : 0.0;
       const double tau = subject.T1 + part * (subject.T2 - subject.T1);
-      const Eigen::MatrixXd flow = exponential_of(tau * plant.A);
-      intervals_.push_back({tau, plant.C_d * flow, *plant.A_d * flow});
+      intervals_.push_back({tau, pair_at_jumps(plant.A, *plant.A_d, plant.C_d, tau)});
     }
     result_.least_gramian = std::numeric_limits<double>::infinity();
   }
@@ -34,9 +34,9 @@ class Trial {
       return;
     }
     for (const Interval& interval : intervals_) {
-      const Eigen::MatrixXd seen = interval.output * transition;
+      const Eigen::MatrixXd seen = interval.pair.H * transition;
       sequence_.push_back(interval.tau);
-      run(jumps - 1, interval.cycle * transition, gramian + seen.transpose() * seen);
+      run(jumps - 1, interval.pair.F * transition, gramian + seen.transpose() * seen);
       sequence_.pop_back();
     }
   }
@@ -46,8 +46,7 @@ class Trial {
  private:
   struct Interval {
     double tau = 0.0;
-    Eigen::MatrixXd output;
-    Eigen::MatrixXd cycle;
+    DiscretePair pair;
   };
 
   std::vector<Interval> intervals_;

@@ -177,14 +177,16 @@ TEST(Bernard2022, TheLeastHighGainFallsWithTheDwellTime) {
   ModeMatrices& mode = subject.plant.modes.front();
   mode.C_c = Eigen::MatrixXd::Identity(1, 2);
   mode.A_d = Eigen::MatrixXd(-3.0 * Eigen::MatrixXd::Identity(2, 2));
-  double last = 1e9;
-  for (const double T1 : {0.5, 1.0, 2.0}) {
+  for (const double T1 : {0.5, 2.0}) {
     subject.T1 = T1;
     const Design design = designed("bernard2022_example4_2", subject);
     const double ell = scalar_value(design.certificate.values, "ell");
-    std::printf("ell %g at T1 %g\n", ell, T1);
-    EXPECT_LT(ell, last);
-    last = ell;
+    // Where a jump multiplies the error by 3, any P will do for it: what counts is the rate alone,
+    // which comes close to that of the eigenvalues, 2 ell.
+    const double needed = 2.0 * std::log(3.0) + 2.0 * 0.01;
+    EXPECT_NEAR(ell * design.parameters.at("decay_per_ell") * T1, needed, 2e-3 * needed);
+    EXPECT_GT(ell * T1, needed / 2.0);
+    EXPECT_LT(ell * T1, needed / 1.8);
     // Necessary: the error, sampled after jumps, shrinks.
     const Eigen::MatrixXd L_c = high_gain(mode.A, mode.C_c, observable_form(mode.A, mode.C_c), ell,
                                           {design.certificate.values.at("K").row(0).transpose()});
@@ -218,10 +220,8 @@ TEST(Bernard2022, FlowBasedGainsForASwitchedPlantWithObservableModes) {
 TEST(Bernard2022, FasterDesignsFallFasterFromJumpToJump) {
   const Design design = designed("bernard2022_equation36", bouncing_ball(), Objective::kMaxDecay);
   const double decay = scalar_value(design.certificate.values, "jump_decay");
-  std::printf("jump_decay %g\n", decay);
-  // The velocity keeps at least 0.8 of its error at the bounces of a ball that does not fly.
-  EXPECT_LT(decay, -std::log(0.8) + 0.01);
-  EXPECT_GT(decay, 0.05);
+  // At bounces without flight between them the velocity keeps 0.8 of its error, whatever the gain.
+  EXPECT_NEAR(decay, -std::log(0.8), 1e-3 * decay);
 }
 
 TEST(Bernard2022, TheBoundHoldsAlongErrorsAndIsLostOutsideTheInterval) {
@@ -230,55 +230,47 @@ TEST(Bernard2022, TheBoundHoldsAlongErrorsAndIsLostOutsideTheInterval) {
   NamedMatrices fixed = with_L_d({1.0, 0.2259, 1.0}, 0.05);
   const DesignCandidate proof = certified(kCorollary52, subject, fixed);
   ASSERT_TRUE(proof.is_verified()) << proof.message;
-  const auto bound =
-      find_theorem(kCorollary52)->error_bound(subject, proof.values, {2.0, 0.01, 0.001});
-  ASSERT_NE(bound, nullptr);
-  ASSERT_EQ(bound->state_size(), 4);
-  double state[4];
-  bound->initialize(state);
+  DrivenBound bound(find_theorem(kCorollary52)
+                        ->error_bound(subject, proof.values, assumptions(2.0, 0.01, 0.001)));
   const ModeMatrices& plant = subject.plant.mode();
   const Eigen::MatrixXd& L_d = fixed.at("L_d");
   Eigen::Vector3d e(1.0, -1.0, 1.0);
-  const double first = bound->bound(state);
-  EXPECT_LE(e.norm(), first);
+  EXPECT_LE(e.norm(), bound.value());
   // The first interval may be shorter than T1.
   for (const double tau : {0.3, 2.0, 5.0, 3.1, 5.0, 2.0, 4.4, 5.0, 5.0, 2.5, 5.0, 2.0}) {
-    const int steps = 100;
-    for (int i = 0; i < steps; ++i) {
-      e += tau / steps * (plant.A * e + Eigen::Vector3d(0.0, 0.001, 0.0));
-      bound->flow(tau / steps, state);
-      ASSERT_LE(e.norm(), bound->bound(state));
+    constexpr int kSteps = 100;
+    for (int i = 1; i <= kSteps; ++i) {
+      e += tau / kSteps * (plant.A * e + Eigen::Vector3d(0.0, 0.001, 0.0));
+      bound.flow_to(i == kSteps ? tau : i * tau / kSteps);
+      ASSERT_LE(e.norm(), bound.value());
     }
-    e = *plant.A_d * e - L_d * (e(0) + 0.01);
-    bound->jump(state);
-    ASSERT_LE(e.norm(), bound->bound(state));
+    e = (*plant.A_d * e - L_d * (e(0) + 0.01)).eval();
+    bound.jump();
+    ASSERT_LE(e.norm(), bound.value());
   }
-  EXPECT_TRUE(std::isfinite(bound->bound(state)));
-  double early[4];
-  std::copy(state, state + 4, early);
-  bound->flow(1.0, early);
-  EXPECT_TRUE(std::isfinite(bound->bound(early)));
-  bound->jump(early);
-  EXPECT_TRUE(std::isinf(bound->bound(early)));
-  bound->flow(5.1, state);
-  EXPECT_TRUE(std::isinf(bound->bound(state)));
+  ASSERT_TRUE(std::isfinite(bound.value()));
+  bound.flow_to(5.1);
+  EXPECT_TRUE(std::isinf(bound.value()));
+  bound.flow_to(1.0);
+  EXPECT_TRUE(std::isfinite(bound.value()));
+  bound.jump();
+  EXPECT_TRUE(std::isinf(bound.value()));
 }
 
 TEST(Bernard2022, ABoundWithoutNoiseGoesToZero) {
   const CertificateSubject subject = impulsive();
   const DesignCandidate proof =
       certified(kCorollary52, subject, with_L_d({1.0, 0.2259, 1.0}, 0.05));
-  const auto bound =
-      find_theorem(kCorollary52)->error_bound(subject, proof.values, {1.0, 0.0, 0.0});
-  double state[4];
-  bound->initialize(state);
-  bound->jump(state);
-  const double first = bound->bound(state);
+  ASSERT_TRUE(proof.is_verified()) << proof.message;
+  DrivenBound bound(
+      find_theorem(kCorollary52)->error_bound(subject, proof.values, assumptions(1.0, 0.0, 0.0)));
+  bound.jump();
+  const double first = bound.value();
   for (int i = 0; i < 100; ++i) {
-    bound->flow(3.0, state);
-    bound->jump(state);
+    bound.flow_to(3.0);
+    bound.jump();
   }
-  EXPECT_NEAR(bound->bound(state), first * std::exp(-0.05 * 100), 1e-9 * first);
+  EXPECT_NEAR(bound.value(), first * std::exp(-0.05 * 100), 1e-9 * first);
 }
 
 TEST(Bernard2022, StatedMapsAndHeldOutputsGiveNoBound) {
@@ -286,10 +278,12 @@ TEST(Bernard2022, StatedMapsAndHeldOutputsGiveNoBound) {
   subject.plant.stated.A = subject.plant.A();
   const DesignCandidate proof = certified(kCorollary52, subject, with_L_d({0.0, 0.0028, -0.0063}));
   ASSERT_TRUE(proof.is_verified());
-  EXPECT_EQ(find_theorem(kCorollary52)->error_bound(subject, proof.values, {1.0, 0.0, 0.0}),
-            nullptr);
-  EXPECT_EQ(find_theorem("bernard2022_equation22")->error_bound(subject, {}, {1.0, 0.0, 0.0}),
-            nullptr);
+  EXPECT_EQ(
+      find_theorem(kCorollary52)->error_bound(subject, proof.values, assumptions(1.0, 0.0, 0.0)),
+      nullptr);
+  EXPECT_EQ(
+      find_theorem("bernard2022_equation22")->error_bound(subject, {}, assumptions(1.0, 0.0, 0.0)),
+      nullptr);
 }
 
 TEST(Bernard2022, JumpObservabilityFindsTheIntervalThatHidesTheState) {

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <memory>
+#include <utility>
+#include <vector>
+
 #include "sampled_data_observers/design/certify.h"
 #include "sampled_data_observers/design/packing.h"
 #include "sampled_data_observers/design/workers.h"
@@ -31,6 +35,44 @@ inline DesignCandidate certified(const char* theorem, const CertificateSubject& 
   candidate.margin = unpacker.number();
   candidate.message = unpacker.text();
   return candidate;
+}
+
+/// An ErrorBound driven by flow and events, as GuaranteedBound does.
+class DrivenBound {
+ public:
+  explicit DrivenBound(std::unique_ptr<const ErrorBound> bound)
+      : bound_(std::move(bound)), then_(static_cast<std::size_t>(bound_->state_size())) {
+    bound_->initialize(then_.data());
+    now_ = then_;
+  }
+
+  /// @param since  time since the last event [s]
+  void flow_to(double since) {
+    now_ = then_;
+    bound_->flow(since, now_.data());
+  }
+  void sample() {
+    bound_->sample(now_.data());
+    then_ = now_;
+  }
+  void jump() {
+    bound_->jump(now_.data());
+    then_ = now_;
+  }
+  double value() const { return bound_->bound(now_.data()); }
+
+ private:
+  std::unique_ptr<const ErrorBound> bound_;
+  std::vector<double> then_;
+  std::vector<double> now_;
+};
+
+inline ErrorAssumptions assumptions(double initial_error, double noise, double disturbance) {
+  ErrorAssumptions all;
+  all.initial_error = initial_error;
+  all.noise = noise;
+  all.disturbance = disturbance;
+  return all;
 }
 
 /// The first mode of a plant without outputs, disturbance or performance output.

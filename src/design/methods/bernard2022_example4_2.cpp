@@ -21,7 +21,7 @@ class HighGainDesign : public DesignMethod {
     return {
         {"ell", "the gain [1/s]; the least where not given", std::nullopt, std::nullopt},
         {"decay_per_ell", "rate at which V falls in flow, in units of ell", std::nullopt,
-         SearchRange{0.1, 1.9, false}},
+         SearchRange{0.1, 1.98, false}},
         jump_decay_parameter(),
     };
   }
