@@ -126,9 +126,9 @@ class Explanation {
     out_.heading("SAMPLED OUTPUT y = C x" + mode_name_);
     const std::vector<Mode> unseen = unseen_modes(mode.A, mode.C);
     if (unseen.empty()) {
-      out_.paragraph("(A, C) is observable: y and its first " +
-                     std::to_string(*observability_order(mode.A, mode.C) - 1) +
-                     " derivatives determine the state.");
+      out_.paragraph("(A, C) is observable, of order " +
+                     std::to_string(*observability_order(mode.A, mode.C)) +
+                     ": so many values, y and its derivatives, determine the state.");
     } else {
       const bool detectable = is_detectable(mode.A, mode.C, TimeDomain::kContinuous);
       out_.paragraph(std::string("(A, C) is not observable") +
