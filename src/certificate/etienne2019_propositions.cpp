@@ -6,12 +6,11 @@
 
 #include "bound_flow.h"
 #include "sampled_data_observers/certificate/matrix_functions.h"
+#include "sampled_data_observers/certificate/wirtinger.h"
 #include "theorems.h"
 
 namespace sampled_data_observers {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 /// R_i = A + Ψ_i, or A alone for a linear plant.
 std::vector<Eigen::MatrixXd> flow_vertices_of(const PlantMatrices& plant) {
@@ -139,13 +138,6 @@ class Proposition : public Theorem {
       }
     }
     return all;
-  }
-
- private:
-  /// (2 h/π)², rounded up.
-  static double wirtinger_constant(double h) {
-    const double root = 2.0 * h / kPi;
-    return root * root * (1.0 + 4.0 * std::numeric_limits<double>::epsilon());
   }
 };
 

@@ -2,13 +2,10 @@
 
 #include "methods.h"
 #include "sampled_data_observers/certificate/matrix_functions.h"
+#include "sampled_data_observers/certificate/wirtinger.h"
 
 namespace sampled_data_observers {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
-/// By how much a feasible gamma is enlarged, so that the proof does not lie on the edge.
-constexpr double kInflation = 1.01;
 
 /// etienne2019: with G_1 = G_2 = G, G_3 = G_4 = 0 and Q = Gᵀ L the conditions (13) are linear.
 class GainDesign : public LmiDesignMethod {
@@ -22,7 +19,7 @@ class GainDesign : public LmiDesignMethod {
                                    bool has_disturbance) {
     const PlantMatrices& plant = subject.plant;
     const Eigen::Index n = plant.states();
-    const double wirtinger = 4.0 * subject.T2 * subject.T2 / (kPi * kPi);
+    const double wirtinger = wirtinger_constant(subject.T2);
     LmiProgram program;
     const MatrixExpression P = program.symmetric("P", n);
     const MatrixExpression X = program.symmetric("X", n);
@@ -115,7 +112,7 @@ class Proposition2Design : public GainDesign {
 
   NamedMatrices gains(const CertificateSubject&, const Parameters&,
                       const NamedMatrices& solution) const override {
-    return {{"L", gain(solution)}, {"gamma", kInflation * solution.at("gamma")}};
+    return {{"L", gain(solution)}};
   }
 };
 
