@@ -132,19 +132,22 @@ class Theorem2 : public Theorem {
     const MatrixExpression P = symbol("P", n, n);
     std::vector<Condition> all = {
         {"lambda < 1, sferlazza2019 (38)", 1.0 - square("lambda"), std::nullopt}};
-    const Eigen::MatrixXd complement = null_space(subject.plant.C());
-    if (complement.cols() == 0) {
+    const Eigen::MatrixXd directions = null_space(subject.plant.C());
+    if (directions.cols() == 0) {
       // All of the state is measured: (21) is P > 0.
       all.push_back({"P > 0, sferlazza2019 (21)", P, std::nullopt});
       return all;
     }
+    // Projected, since directions that are rounded are not quite in the null space: any basis will
+    // do, but it must be exact for a proof.
+    const MatrixExpression C = subject.plant.C();
+    const MatrixExpression complement =
+        (identity(n) - transpose(C) * inverse(C * transpose(C)) * C) * directions;
     const MatrixExpression flown_back =
-        exponential(-(time_tau() * MatrixExpression(subject.plant.A()))) *
-        MatrixExpression(complement);
+        exponential(-(time_tau() * MatrixExpression(subject.plant.A()))) * complement;
     all.push_back({"Xi_P(tau) > 0, sferlazza2019 (21)",
-                   symmetric_blocks({{transpose(flown_back) * P * flown_back,
-                                      transpose(MatrixExpression(complement)) * P},
-                                     {P}}),
+                   symmetric_blocks(
+                       {{transpose(flown_back) * P * flown_back, transpose(complement) * P}, {P}}),
                    Condition::Range{subject.T1, subject.T2}});
     return all;
   }

@@ -1,26 +1,17 @@
 #include <csdp/declarations.h>
 #include <dlfcn.h>
 
+#include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstdlib>
-#include <limits>
-#include <map>
 #include <new>
 #include <utility>
 
-#include "sampled_data_observers/certificate/matrix_functions.h"
 #include "sampled_data_observers/design/lmi_solver.h"
+#include "standard_form.h"
 
 namespace sampled_data_observers {
 namespace {
-
-/// min c'x so that F_0 + Σ x_k F_k >= 0, block by block. The solver's dual has this form, with
-/// A_k = F_k, C = −F_0 and a = c.
-struct StandardForm {
-  std::vector<AffineMatrix> blocks;
-  std::vector<double> objective;
-};
 
 template <class T>
 T* allocate(std::size_t count) {
@@ -28,38 +19,6 @@ T* allocate(std::size_t count) {
   auto* memory = static_cast<T*>(std::calloc(std::max<std::size_t>(count, 1), sizeof(T)));
   if (memory == nullptr) throw std::bad_alloc();
   return memory;
-}
-
-StandardForm standard_form(const LmiProgram& program, const SolverOptions& options) {
-  StandardForm form;
-  const int variables = program.scalar_variables();
-  const auto objective = program.compile_objective();
-  // Without objective: maximize t, so that strict blocks are >= t I and t <= 1.
-  const int t = objective ? -1 : variables;
-  form.objective.assign(static_cast<std::size_t>(variables + (objective ? 0 : 1)), 0.0);
-  for (LmiProgram::Block& block : program.compile()) {
-    AffineMatrix& matrix = block.matrix;
-    if (block.is_strict) {
-      const auto size = static_cast<int>(matrix.constant.rows());
-      for (int i = 0; i < size; ++i) {
-        if (objective) {
-          matrix.constant(i, i) -= options.margin;
-        } else {
-          matrix.terms.push_back({t, i, i, -1.0});
-        }
-      }
-    }
-    form.blocks.push_back(std::move(matrix));
-  }
-  if (objective) {
-    for (const AffineMatrix::Term& term : objective->terms) {
-      form.objective[static_cast<std::size_t>(term.variable)] += term.coefficient;
-    }
-  } else {
-    form.objective.back() = -1.0;
-    form.blocks.push_back({Eigen::MatrixXd::Ones(1, 1), {{t, 0, 0, -1.0}}});
-  }
-  return form;
 }
 
 blockmatrix make_C(const StandardForm& form) {
@@ -81,26 +40,12 @@ blockmatrix make_C(const StandardForm& form) {
   return C;
 }
 
-/// Entries of the upper triangle by variable, of one block.
-using Entries = std::map<std::pair<int, int>, double>;
-
-std::vector<Entries> entries_of(const AffineMatrix& block, std::size_t variables) {
-  std::vector<Entries> entries(variables);
-  for (const AffineMatrix::Term& term : block.terms) {
-    const std::pair<int, int> at = std::minmax(term.row, term.col);
-    // Off the diagonal, both triangles are averaged.
-    const double part = term.row == term.col ? 1.0 : 0.5;
-    entries[static_cast<std::size_t>(term.variable)][at] += part * term.coefficient;
-  }
-  return entries;
-}
-
 constraintmatrix* make_constraints(const StandardForm& form) {
   const std::size_t variables = form.objective.size();
   auto* constraints = allocate<constraintmatrix>(variables + 1);
   // Each list begins with the last block.
   for (std::size_t b = form.blocks.size(); b-- > 0;) {
-    const std::vector<Entries> entries = entries_of(form.blocks[b], variables);
+    const std::vector<TriangleEntries> entries = triangles_of(form.blocks[b], variables);
     for (std::size_t k = 0; k < variables; ++k) {
       if (entries[k].empty()) continue;
       auto* block = allocate<sparseblock>(1);
@@ -151,17 +96,6 @@ std::pair<SolverStatus, const char*> meaning_of(int code) {
   }
 }
 
-void judge(const LmiProgram& program, const std::vector<double>& x, LmiSolution& solution) {
-  solution.margin = std::numeric_limits<double>::infinity();
-  for (const LmiProgram::Block& block : program.compile()) {
-    const double least = min_eigenvalue(evaluate(block.matrix, x));
-    if (block.is_strict) solution.margin = std::min(solution.margin, least);
-    // A bound is met up to rounding.
-    const double tolerance = block.is_strict ? 0.0 : -1e-6;
-    if (!(least > tolerance)) solution.violated.push_back({block.name, least});
-  }
-}
-
 /// The solver and its linear algebra start threads of their own where they are built so. Workers
 /// are as many as processors already.
 void use_one_thread() {
@@ -199,10 +133,7 @@ LmiSolution solve_with_csdp(const LmiProgram& program, const SolverOptions& opti
   const std::vector<double> x(y + 1, y + 1 + variables);
   free_prob(n, variables, C, a, constraints, X, y, Z);
 
-  if (std::all_of(x.begin(), x.end(), [](double value) { return std::isfinite(value); })) {
-    solution.values = program.unpack(x);
-    judge(program, x, solution);
-  }
+  take_variables(program, x, solution);
   solution.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return solution;

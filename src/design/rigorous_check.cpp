@@ -18,6 +18,8 @@ namespace {
 constexpr slong kPrecisions[] = {128, 256, 1024};
 constexpr std::size_t kMaxIntervals = 4096;
 constexpr int kMaxBisections = 44;
+/// Looked at for a violation after it is known that there is no proof.
+constexpr std::size_t kMaxIntervalsWithoutProof = 256;
 
 /// Of τ. The one with the least eigenvalue comes first, since there a violation is to be expected.
 struct Interval {
@@ -73,10 +75,12 @@ class Prover {
     proof_.name = condition_.name;
     proof_.value = guess.min_eigenvalue;
     proof_.tau = guess.tau;
-    if (!condition_.tau) {
+    if (!std::isfinite(guess.min_eigenvalue)) {
+      proof_.reason = "its matrix is not finite";
+    } else if (!condition_.tau) {
       const Finding finding = look_at({});
       if (finding == Finding::kPositive) proof_.status = ProofStatus::kProved;
-      if (finding == Finding::kUnclear) leave_undecided({});
+      if (finding == Finding::kUndecidable) leave_undecided({});
     } else if (guess.holds() || look_at({*guess.tau, *guess.tau, 0, 0.0}) != Finding::kNegative) {
       search();
     }
@@ -85,33 +89,37 @@ class Prover {
 
  private:
   enum class Finding {
-    kPositive,  ///< definite on all of the interval
-    kNegative,  ///< not even semidefinite at its centre
-    kUnclear
+    kPositive,    ///< definite on all of the interval
+    kNegative,    ///< not even semidefinite at the centre
+    kUnclear,     ///< definite at the centre
+    kUndecidable  ///< too close to singular there
   };
 
   void search() {
     std::priority_queue<Interval> open;
     open.push({condition_.tau->low, condition_.tau->high, 0, 0.0});
-    bool is_proved = true;
+    bool may_be_proved = true;
+    std::size_t limit = kMaxIntervals;
     while (!open.empty()) {
       const Interval interval = open.top();
       open.pop();
       const Finding finding = look_at(interval);
       if (finding == Finding::kNegative) return;
       if (finding == Finding::kPositive) continue;
-      const bool is_last = proof_.intervals >= kMaxIntervals;
-      if (is_last || interval.bisections == kMaxBisections) {
-        if (is_proved) leave_undecided(interval);
-        is_proved = false;
-        if (is_last) return;
-        continue;
+      const bool is_short = interval.bisections == kMaxBisections;
+      const bool is_last = proof_.intervals >= limit;
+      if (may_be_proved && (finding == Finding::kUndecidable || is_short || is_last)) {
+        leave_undecided(interval);
+        may_be_proved = false;
+        limit = std::min(limit, proof_.intervals + kMaxIntervalsWithoutProof);
       }
+      if (is_last) return;
+      if (is_short) continue;
       const double centre = interval.centre();
       open.push({interval.low, centre, interval.bisections + 1, least_eigenvalue_});
       open.push({centre, interval.high, interval.bisections + 1, least_eigenvalue_});
     }
-    if (is_proved) {
+    if (may_be_proved) {
       proof_.status = ProofStatus::kProved;
       proof_.tau.reset();
     }
@@ -152,7 +160,7 @@ class Prover {
       if (is_positive_definite(algebra.range(F), precision)) return Finding::kPositive;
       if (is_positive_definite(F.front(), precision)) return Finding::kUnclear;
     }
-    return Finding::kUnclear;
+    return Finding::kUndecidable;
   }
 
   void disprove(double tau, double value) {

@@ -10,6 +10,7 @@
 #include "sampled_data_observers/design/analysis.h"
 #include "sampled_data_observers/design/packing.h"
 #include "sampled_data_observers/design/parameter_search.h"
+#include "sampled_data_observers/design/require_detectable.h"
 #include "sampled_data_observers/design/workers.h"
 
 namespace sampled_data_observers {
@@ -101,6 +102,7 @@ class Synthesis {
     } catch (const std::invalid_argument& fault) {
       throw DesignError(method_.name() + " is not for this plant: " + fault.what());
     }
+    require_detectable(problem_.subject.plant);
     const std::vector<DesignParameter> known = method_.parameters(problem_.subject);
     for (const auto& [name, value] : problem_.given) {
       parameter_named(known, name);

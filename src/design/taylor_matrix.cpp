@@ -8,6 +8,13 @@ namespace {
 
 BallMatrix identity_balls(Eigen::Index n) { return exact_balls(Eigen::MatrixXd::Identity(n, n)); }
 
+/// Widens all entries by the largest number in `error`.
+void add_error(BallMatrix& a, const Ball& error) {
+  for (Eigen::Index i = 0; i < a.rows(); ++i) {
+    for (Eigen::Index j = 0; j < a.cols(); ++j) arb_add_error(a.entry(i, j), error.get());
+  }
+}
+
 /// 1/k!
 Ball inverse_factorial(std::size_t k, slong precision) {
   Ball result;
@@ -190,7 +197,21 @@ TaylorMatrix TaylorAlgebra::exponential(const Matrix& a) const {
   if (a.coefficients.front().rows() == 1) {
     return {exponential_of_product(a.coefficients, identity_balls(1)), std::nullopt};
   }
-  return {{sampled_data_observers::exponential(range(a.coefficients), precision_)}, std::nullopt};
+  return {exponential_of_sum(a.coefficients), std::nullopt};
+}
+
+/// For X = X_0 + h G: ‖e^X − e^{X_0}‖ <= |h| ‖G‖ e^{‖X_0‖ + |h| ‖G‖}.
+TaylorAlgebra::Coefficients TaylorAlgebra::exponential_of_sum(const Coefficients& X) const {
+  const Coefficients slope(X.begin() + 1, X.end());
+  const Ball norm = norm_bound(range(slope));
+  Ball bound;
+  arb_mul(bound.get(), powers_[1].get(), norm.get(), precision_);
+  arb_add(bound.get(), bound.get(), norm_bound(X.front()).get(), precision_);
+  arb_exp(bound.get(), bound.get(), precision_);
+  arb_mul(bound.get(), bound.get(), norm.get(), precision_);
+  BallMatrix rest(X.front().rows(), X.front().cols());
+  add_error(rest, bound);
+  return {sampled_data_observers::exponential(X.front(), precision_), std::move(rest)};
 }
 
 /// e^{f M} = e^{f_0 M} e^{g M}, with g = f − f_0 = h g̃ and
@@ -227,9 +248,7 @@ TaylorAlgebra::Coefficients TaylorAlgebra::exponential_of_product(const Coeffici
           precision_);
   BallMatrix phi = sampled_data_observers::scaled(inverse_factorial(kDegree, precision_).get(),
                                                   identity_balls(n), precision_);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    for (Eigen::Index j = 0; j < n; ++j) arb_add_error(phi.entry(i, j), distance.get());
-  }
+  add_error(phi, distance);
   Ball slope_power;
   arb_pow_ui(slope_power.get(), range(slope).entry(0, 0), kDegree, precision_);
   add_term(series, kDegree,

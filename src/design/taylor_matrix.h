@@ -10,7 +10,8 @@
 namespace sampled_data_observers {
 
 /// A matrix that depends on τ = τ_c + h, enclosed over an interval |h| <= r by a polynomial in h
-/// with balls as coefficients: for each h it is Σ F_k h^k with some F_k in the coefficients.
+/// with balls as coefficients: for each h it is Σ F_k h^k with some F_k in the coefficients. The
+/// constant one is as narrow as rounding allows: it encloses the matrix at τ_c.
 ///
 /// Ball arithmetic on the interval itself would forget that all entries depend on the same τ, and
 /// its matrix exponential grows with e^{|A| r} whatever e^{A τ} does. In the polynomial the
@@ -69,6 +70,7 @@ class TaylorAlgebra {
   template <class Product>
   Coefficients multiply(const Coefficients& a, const Coefficients& b, const Product& product) const;
   Coefficients scale(const Coefficients& scalar, const Coefficients& a) const;
+  Coefficients exponential_of_sum(const Coefficients& X) const;
   Coefficients exponential_of_product(const Coefficients& f, const BallMatrix& M) const;
 
   const NamedMatrices& values_;

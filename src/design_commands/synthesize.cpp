@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "commands.h"
+#include "cross_check.h"
 #include "gain_files.h"
 #include "sampled_data_observers/config/design_config.h"
 #include "sampled_data_observers/design/synthesis.h"
@@ -26,6 +27,7 @@ struct Arguments {
   std::vector<std::string> searched;
   unsigned jobs = default_jobs();
   double time_limit = 20.0;
+  std::string cross_check;
 };
 
 void synthesize_command(const Arguments& arguments, const std::string& command_line) {
@@ -38,7 +40,12 @@ void synthesize_command(const Arguments& arguments, const std::string& command_l
     throw DesignError("the times between samples are missing: give --T2, or design/sampling in " +
                       arguments.files.front());
   }
-  if (problem.subject.T1 > problem.subject.T2) throw DesignError("T1 > T2");
+  if (problem.subject.T1 > problem.subject.T2) {
+    char text[96];
+    std::snprintf(text, sizeof text, "T1 = %.9g s is larger than T2 = %.9g s", problem.subject.T1,
+                  problem.subject.T2);
+    throw DesignError(text);
+  }
   problem.given = config.parameters;
   for (const std::string& assignment : arguments.assignments) assign(assignment, problem.given);
   problem.searched.insert(arguments.searched.begin(), arguments.searched.end());
@@ -58,6 +65,9 @@ void synthesize_command(const Arguments& arguments, const std::string& command_l
                                           command_line, arguments.output);
   std::printf("%s\nwritten to %s after %zu attempts in %.1f s\n", text.c_str(),
               arguments.output.c_str(), design.attempts, design.seconds);
+  if (!arguments.cross_check.empty()) {
+    cross_check(*find_design_method(arguments.method), design, arguments.time_limit);
+  }
 }
 
 }  // namespace
@@ -80,8 +90,10 @@ void add_synthesize(CLI::App& app, const std::string& command_line) {
   command->add_option("-o,--output", arguments->output, "Gain file to write")->required();
   command->add_option("--objective", arguments->objective, "What to look for")
       ->check(CLI::IsMember({"feasible", "min-gamma", "max-T2", "max-decay"}));
-  command->add_option("--T1", arguments->T1, "Instead of design/sampling/T1 [s]");
-  command->add_option("--T2", arguments->T2, "Instead of design/sampling/T2 [s]");
+  command->add_option("--T1", arguments->T1, "Instead of design/sampling/T1 [s]")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--T2", arguments->T2, "Instead of design/sampling/T2 [s]")
+      ->check(CLI::PositiveNumber);
   command->add_option("--set", arguments->assignments,
                       "Fix a parameter of the method, NAME=NUMBER; may be given several times");
   command
@@ -91,6 +103,11 @@ void add_synthesize(CLI::App& app, const std::string& command_line) {
       ->type_name("NAME");
   command->add_option("--jobs", arguments->jobs, "Solvers at a time (default: all processors)");
   command->add_option("--time-limit", arguments->time_limit, "For one attempt [s]");
+  command
+      ->add_option("--cross-check", arguments->cross_check,
+                   "Solve the design's semidefinite program with a second solver, too, and compare "
+                   "the objectives")
+      ->check(CLI::IsMember({"sdpa"}));
   command->callback([arguments, command_line] { synthesize_command(*arguments, command_line); });
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "sampled_data_observers/certificate/certificate.h"
 #include "sampled_data_observers/design/certify.h"
 #include "sampled_data_observers/design/packing.h"
@@ -19,6 +21,9 @@ inline CertificateSubject linear_subject(const Eigen::MatrixXd& A, const Eigen::
   mode.C_c.resize(0, n);
   mode.C_d.resize(0, n);
   subject.plant.modes = {mode};
+  for (Eigen::Index i = 1; i <= n; ++i) {
+    subject.plant.state_names.push_back("x" + std::to_string(i));
+  }
   subject.plant.G.resize(n, 0);
   subject.plant.S.resize(0, n);
   subject.plant.N.resize(n, 0);

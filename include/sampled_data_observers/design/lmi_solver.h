@@ -30,8 +30,10 @@ struct LmiSolution {
   std::string solver;   ///< name and version
   int return_code = 0;  ///< the solver's own
   std::string message;  ///< what the code means, or why there is none
-  double primal_objective = 0.0;
+  /// The program is the dual one in the solver's eyes: this is its objective …
   double dual_objective = 0.0;
+  /// … and this bounds it from below.
+  double primal_objective = 0.0;
   /// Least eigenvalue of all strict blocks: how far inside the solution is.
   double margin = 0.0;
   std::vector<ViolatedBlock> violated;
@@ -52,7 +54,14 @@ struct SolverOptions {
 /// to standard output: to be called in a worker process only (see workers.h).
 LmiSolution solve_with_csdp(const LmiProgram& program, const SolverOptions& options);
 
-/// Solves in a worker process of its own.
+/// Solves with the program `sdpa`, of the Debian package of this name, in a process of its own: a
+/// second opinion. Where there is no such program, the solution says so.
+/// @param time_limit  [s]
+LmiSolution solve_with_sdpa(const LmiProgram& program, double time_limit = 10.0,
+                            const SolverOptions& options = {});
+
+/// Solves with CSDP in a worker process of its own.
+/// @param time_limit  [s]
 LmiSolution solve_lmi(const LmiProgram& program, double time_limit = 10.0,
                       const SolverOptions& options = {});
 

@@ -18,11 +18,6 @@ class Corollary1 : public LmiDesignMethod {
 
   const Theorem& theorem() const override { return *find_theorem("ferrante2016_theorem1"); }
 
-  void require_applicable(const CertificateSubject& subject) const override {
-    theorem().require_applicable(subject);
-    require_detectable(subject);
-  }
-
   std::vector<DesignParameter> parameters(const CertificateSubject&) const override {
     return {{"decay", "rate of convergence from sample to sample [1/s]; 0: (12) as printed", 0.0,
              std::nullopt}};
@@ -41,7 +36,10 @@ class Corollary1 : public LmiDesignMethod {
       none.message = undetectable_sampling(subject);
     }
     if (!none.message.empty()) return none;
-    return LmiDesignMethod::attempt(subject, parameters, objective);
+    DesignCandidate candidate = solve(subject, parameters, objective);
+    if (!candidate.is_verified() || candidate.margin > kLeastMargin) return candidate;
+    none.message = on_the_edge(candidate.margin);
+    return none;
   }
 
   LmiProgram program(const CertificateSubject& subject, const Parameters& parameters,
@@ -67,7 +65,7 @@ class Corollary1 : public LmiDesignMethod {
  protected:
   NamedMatrices gains(const CertificateSubject&, const Parameters&,
                       const NamedMatrices& solution) const override {
-    return {{"L", solve_linear(solution.at("F"), solution.at("J"))}, {"P", solution.at("P")}};
+    return {{"L", solve_linear(solution.at("F"), solution.at("J"))}};
   }
 };
 

@@ -1,27 +1,11 @@
 #include "sampled_plant.h"
 
-#include <cmath>
 #include <locale>
 #include <sstream>
-#include <stdexcept>
 
 #include "sampled_data_observers/design/observability.h"
 
 namespace sampled_data_observers {
-
-void require_detectable(const CertificateSubject& subject) {
-  for (const Mode& mode : unseen_modes(subject.plant.A(), subject.plant.C())) {
-    if (mode.decays(TimeDomain::kContinuous)) continue;
-    std::ostringstream text;
-    text.imbue(std::locale::classic());
-    text
-        << "the pair (A, C) is not detectable: the output does not show the mode of the eigenvalue "
-        << mode.eigenvalue.real();
-    if (mode.eigenvalue.imag() != 0.0) text << " +- " << mode.eigenvalue.imag() << " i";
-    text << " 1/s, which does not decay by itself. Measure another output, or leave its states out";
-    throw std::invalid_argument(text.str());
-  }
-}
 
 std::string undetectable_sampling(const CertificateSubject& subject) {
   for (const PathologicalInterval& interval :
@@ -35,6 +19,14 @@ std::string undetectable_sampling(const CertificateSubject& subject) {
     return text.str();
   }
   return "";
+}
+
+std::string on_the_edge(double margin) {
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text.precision(2);
+  text << "the solution lies on the edge of the inequalities (margin " << margin << " for P <= I)";
+  return text.str();
 }
 
 }  // namespace sampled_data_observers

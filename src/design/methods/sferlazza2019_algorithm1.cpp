@@ -1,6 +1,6 @@
-#include <algorithm>
-#include <cmath>
-#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "methods.h"
 #include "sampled_data_observers/certificate/matrix_functions.h"
@@ -25,11 +25,6 @@ class Algorithm1 : public DesignMethod {
   }
 
   const Theorem& theorem() const override { return *find_theorem("sferlazza2019_theorem2"); }
-
-  void require_applicable(const CertificateSubject& subject) const override {
-    theorem().require_applicable(subject);
-    require_detectable(subject);
-  }
 
   std::vector<DesignParameter> parameters(const CertificateSubject&) const override {
     return {{"lambda", "how much of the error a sample keeps, in [0, 1)", 0.0, std::nullopt}};
@@ -58,6 +53,10 @@ class Algorithm1 : public DesignMethod {
       if (!solution.satisfies_all()) {
         none.message = "(21) has no solution for " + std::to_string(times.size()) +
                        " times between T1 and T2 (" + solution.message + ")";
+        return none;
+      }
+      if (solution.margin <= kLeastMargin) {
+        none.message = on_the_edge(solution.margin);
         return none;
       }
       const Eigen::MatrixXd& P = solution.values.at("P");

@@ -1,0 +1,78 @@
+// The second solver against closed forms and the first one; skipped where it is not installed.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "sampled_data_observers/design/lmi_solver.h"
+
+namespace sampled_data_observers {
+namespace {
+
+/// The L2 gain of dx/dt = −2 x + w, y = x, which is 1/2, by the bounded real lemma.
+LmiProgram low_pass() {
+  LmiProgram program;
+  const MatrixExpression P = program.scalar("P");
+  const MatrixExpression mu = program.squared("gamma");
+  program.require_positive("P > 0", P);
+  program.require_negative("bounded real lemma", symmetric_blocks({{-4.0 * P + 1.0, P}, {-mu}}));
+  program.minimize(mu);
+  return program;
+}
+
+bool is_installed() { return std::system("command -v sdpa >/dev/null") == 0; }
+
+class Sdpa : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!is_installed()) GTEST_SKIP() << "the program sdpa is not installed";
+  }
+};
+
+TEST_F(Sdpa, FindsTheL2GainOfALowPass) {
+  const LmiSolution solution = solve_with_sdpa(low_pass());
+  ASSERT_TRUE(solution.satisfies_all()) << solution.message;
+  EXPECT_NEAR(scalar_value(solution.values, "gamma"), 0.5, 1e-4);
+  EXPECT_NEAR(solution.dual_objective, solve_lmi(low_pass()).dual_objective, 1e-6);
+}
+
+TEST_F(Sdpa, FindsTheSameMarginAsTheOtherSolver) {
+  Eigen::MatrixXd A(2, 2);
+  A << 0, 1, -2, -3;
+  LmiProgram program;
+  const MatrixExpression P = program.symmetric("P", 2);
+  program.require_positive("P > 0", P);
+  program.require_negative("He(P A) < 0", He(P * A));
+  program.bound_above("P <= I", P, identity(2));
+  const LmiSolution other = solve_lmi(program);
+  const LmiSolution solution = solve_with_sdpa(program);
+  ASSERT_TRUE(solution.satisfies_all()) << solution.message;
+  EXPECT_NEAR(solution.margin, other.margin, 1e-5);
+  EXPECT_NEAR(solution.dual_objective, other.dual_objective, 1e-5);
+}
+
+TEST_F(Sdpa, TellsContradictions) {
+  LmiProgram program;
+  const MatrixExpression x = program.scalar("x");
+  program.bound_above("x <= 1", x, 1.0);
+  program.bound_above("2 <= x", 2.0, x);
+  program.minimize(x);
+  EXPECT_EQ(solve_with_sdpa(program).status, SolverStatus::kInfeasible);
+}
+
+TEST_F(Sdpa, IsEndedAtItsTimeLimit) {
+  const LmiSolution solution = solve_with_sdpa(low_pass(), 0.0);
+  EXPECT_EQ(solution.status, SolverStatus::kTimedOut);
+  EXPECT_TRUE(solution.values.empty());
+}
+
+TEST(SdpaProgram, IsAskedForWhereItIsMissing) {
+  const std::string path = std::getenv("PATH");
+  ::setenv("PATH", "/nonexistent", 1);
+  const LmiSolution solution = solve_with_sdpa(low_pass());
+  ::setenv("PATH", path.c_str(), 1);
+  EXPECT_EQ(solution.status, SolverStatus::kFailed);
+  EXPECT_NE(solution.message.find("Debian's package sdpa"), std::string::npos) << solution.message;
+}
+
+}  // namespace
+}  // namespace sampled_data_observers
