@@ -22,6 +22,12 @@ double min_eigenvalue(const Eigen::MatrixXd& a) { return symmetric_eigenvalues(a
 
 double max_eigenvalue(const Eigen::MatrixXd& a) { return symmetric_eigenvalues(a)(a.rows() - 1); }
 
+double largest_generalized_eigenvalue(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  const Eigen::LLT<Eigen::MatrixXd> root(b);
+  const Eigen::MatrixXd half = root.matrixL().solve(a);
+  return max_eigenvalue(root.matrixL().solve(half.transpose()));
+}
+
 Eigen::VectorXd least_eigenvector(const Eigen::MatrixXd& a) {
   const Eigen::MatrixXd symmetric = (a + a.transpose()) / 2.0;
   return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric).eigenvectors().col(0);

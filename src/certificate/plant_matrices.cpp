@@ -12,7 +12,9 @@ const AffineMap& affine(const VectorMap& map, const std::string& what) {
   const AffineMap* result = map.affine();
   if (result != nullptr) return *result;
   throw std::invalid_argument("the conditions are about linear maps, but " + what +
-                              " is given by formulas or a plug-in");
+                              " is given by formulas or a plug-in (where the observer's error has "
+                              "a linear flow or jump map all the same, design/A or design/A_d "
+                              "states it)");
 }
 
 Eigen::MatrixXd stacked_outputs(const Plant& plant, const PlantMode& mode, SensorTiming timing) {
@@ -48,9 +50,13 @@ bool PlantMatrices::jumps() const {
                      [](const ModeMatrices& mode) { return mode.A_d.has_value(); });
 }
 
-PlantMatrices matrices_of(const Plant& plant) {
+PlantMatrices matrices_of(const Plant& plant, const StatedErrorMaps& stated) {
   require_one_sensor_of_each_timing(plant);
+  if (plant.switches() && !stated.is_empty()) {
+    throw std::invalid_argument("A and A_d of a design are those of a plant that does not switch");
+  }
   PlantMatrices result;
+  result.stated = stated;
   result.state_names = plant.state_names();
   const Eigen::Index n = plant.states();
   result.G.resize(n, 0);
@@ -60,7 +66,9 @@ PlantMatrices matrices_of(const Plant& plant) {
   for (const PlantMode& mode : plant.modes()) {
     ModeMatrices matrices;
     matrices.label = mode.label;
-    if (const auto* lipschitz = dynamic_cast<const LipschitzMap*>(mode.flow.get())) {
+    if (stated.A) {
+      matrices.A = *stated.A;
+    } else if (const auto* lipschitz = dynamic_cast<const LipschitzMap*>(mode.flow.get())) {
       if (plant.switches()) {
         throw std::invalid_argument("the conditions are about switched plants with linear flows");
       }
@@ -73,7 +81,11 @@ PlantMatrices matrices_of(const Plant& plant) {
     } else {
       matrices.A = affine(*mode.flow, "the flow").M();
     }
-    if (mode.jump) matrices.A_d = affine(*mode.jump, "the jump map").M();
+    if (stated.A_d) {
+      matrices.A_d = *stated.A_d;
+    } else if (mode.jump) {
+      matrices.A_d = affine(*mode.jump, "the jump map").M();
+    }
     matrices.C = stacked_outputs(plant, mode, SensorTiming::kSampled);
     matrices.C_c = stacked_outputs(plant, mode, SensorTiming::kContinuous);
     matrices.C_d = stacked_outputs(plant, mode, SensorTiming::kAtJumps);

@@ -5,6 +5,15 @@
 namespace sampled_data_observers {
 
 // One source file each, or each family.
+const Theorem& bernard2022_corollary5_2();
+const Theorem& bernard2022_equation14();
+const Theorem& bernard2022_equation22();
+const Theorem& bernard2022_equation26();
+const Theorem& bernard2022_example4_2();
+const Theorem& bernard2022_example7_1();
+const Theorem& bernard2022_section7_3_2();
+const Theorem& etienne2019_proposition1();
+const Theorem& etienne2019_proposition2();
 const Theorem& ferrante2016_theorem1();
 const Theorem& ferrante2019_theorem2();
 const Theorem& ferrante2019_corollary1();

@@ -20,8 +20,9 @@ const Theorem& read_theorem(ConfigSection& section) {
 
 CertificateSubject read_subject(ConfigSection& section, const Plant& plant) {
   CertificateSubject subject;
+  const StatedErrorMaps stated = read_stated_error_maps(section, plant.states());
   try {
-    subject.plant = matrices_of(plant);
+    subject.plant = matrices_of(plant, stated);
   } catch (const std::invalid_argument& fault) {
     throw section.error("theorem", "a plant that the theorem is about", fault.what());
   }

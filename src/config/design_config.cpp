@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "sampled_data_observers/config/config_section.h"
+#include "sampled_data_observers/config/named_values.h"
 #include "sampled_data_observers/config/plant_fingerprint.h"
 #include "sampled_data_observers/config/yaml_file.h"
 
@@ -17,13 +18,14 @@ DesignConfig read_design_config(const std::vector<std::string>& files,
   DesignConfig config;
   config.plant = read_plant(root, load_plugin).plant;
   config.plant_hash = plant_fingerprint(tree);
+  ConfigSection section = root.section_or_empty("design");
+  const Eigen::Index n = config.plant->states();
+  const StatedErrorMaps stated = read_stated_error_maps(section, n);
   try {
-    config.subject.plant = matrices_of(*config.plant);
+    config.subject.plant = matrices_of(*config.plant, stated);
   } catch (const std::invalid_argument& fault) {
     throw root.error("plant", "a plant that a design can be made for", fault.what());
   }
-  ConfigSection section = root.section_or_empty("design");
-  const Eigen::Index n = config.plant->states();
   if (section.has("N")) config.subject.plant.N = section.matrix("N", n, -1);
   if (section.has("C_p")) config.subject.plant.C_p = section.matrix("C_p", -1, n);
   if (section.has("sampling")) {

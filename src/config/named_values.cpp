@@ -56,4 +56,11 @@ NamedMatrices read_gain_values(ConfigSection& gains, const std::vector<NamedShap
   return values;
 }
 
+StatedErrorMaps read_stated_error_maps(ConfigSection& section, Eigen::Index n) {
+  StatedErrorMaps stated;
+  if (section.has("A")) stated.A = section.matrix("A", n, n);
+  if (section.has("A_d")) stated.A_d = section.matrix("A_d", n, n);
+  return stated;
+}
+
 }  // namespace sampled_data_observers

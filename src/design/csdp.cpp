@@ -1,4 +1,5 @@
 #include <csdp/declarations.h>
+#include <dlfcn.h>
 
 #include <algorithm>
 #include <chrono>
@@ -95,9 +96,20 @@ std::pair<SolverStatus, const char*> meaning_of(int code) {
   }
 }
 
+/// The solver and its linear algebra start threads of their own where they are built so. Workers
+/// are as many as processors already.
+void use_one_thread() {
+  using SetThreads = void (*)(int);
+  for (const char* name : {"openblas_set_num_threads", "omp_set_num_threads"}) {
+    const auto set_threads = reinterpret_cast<SetThreads>(::dlsym(RTLD_DEFAULT, name));
+    if (set_threads != nullptr) set_threads(1);
+  }
+}
+
 }  // namespace
 
 LmiSolution solve_with_csdp(const LmiProgram& program, const SolverOptions& options) {
+  use_one_thread();
   const auto start = std::chrono::steady_clock::now();
   const StandardForm form = standard_form(program, options);
   const auto variables = static_cast<int>(form.objective.size());

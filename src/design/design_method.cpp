@@ -34,6 +34,10 @@ DesignCandidate LmiDesignMethod::solve(const CertificateSubject& subject,
     return candidate;
   }
   NamedMatrices values = gains(subject, parameters, solution.values);
+  if (values.empty()) {
+    candidate.message = "the solver left a bound";
+    return candidate;
+  }
   for (const NamedShape& shape : theorem().parameters(subject)) {
     const auto given = parameters.find(shape.name);
     if (given != parameters.end()) values[shape.name] = scalar_matrix(given->second);
@@ -68,8 +72,21 @@ DesignCandidate LmiDesignMethod::attempt(const CertificateSubject& subject,
 
 const std::vector<const DesignMethod*>& design_methods() {
   static const std::vector<const DesignMethod*> all = {
-      &ferrante2016_corollary1(),   &ferrante2019_proposition2(), &ferrante2019_proposition3(),
-      &ferrante2019_proposition4(), &ferrante2019_proposition5(), &ferrante2019_alternating(),
+      &bernard2022_coupled_design(),
+      &bernard2022_flow_based_design(),
+      &bernard2022_jump_based_design(),
+      &bernard2022_polytopic_design(),
+      &bernard2022_high_gain_design(),
+      &bernard2022_switched_flow_based_design(),
+      &bernard2022_switched_jump_based_design(),
+      &etienne2019_proposition1_design(),
+      &etienne2019_proposition2_design(),
+      &ferrante2016_corollary1(),
+      &ferrante2019_proposition2(),
+      &ferrante2019_proposition3(),
+      &ferrante2019_proposition4(),
+      &ferrante2019_proposition5(),
+      &ferrante2019_alternating(),
       &sferlazza2019_algorithm1(),
   };
   return all;

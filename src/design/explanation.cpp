@@ -76,6 +76,8 @@ class Explanation {
   std::string times() const {
     return "[T1, T2] = [" + brief(subject_.T1) + ", " + brief(subject_.T2) + "] s";
   }
+  /// Else jumps or other modes may show what one flow does not.
+  bool only_flows() const { return !plant_.jumps() && plant_.modes.size() == 1; }
   std::string moved(const Mode& mode) const {
     return states_moved(mode.directions, plant_.state_names);
   }
@@ -124,15 +126,15 @@ class Explanation {
     out_.heading("SAMPLED OUTPUT y = C x" + mode_name_);
     const std::vector<Mode> unseen = unseen_modes(mode.A, mode.C);
     if (unseen.empty()) {
-      out_.paragraph("(A, C) is observable: y and its first " +
-                     std::to_string(*observability_order(mode.A, mode.C) - 1) +
-                     " derivatives determine the state.");
+      out_.paragraph("(A, C) is observable, of order " +
+                     std::to_string(*observability_order(mode.A, mode.C)) +
+                     ": so many values, y and its derivatives, determine the state.");
     } else {
       const bool detectable = is_detectable(mode.A, mode.C, TimeDomain::kContinuous);
       out_.paragraph(std::string("(A, C) is not observable") +
                      (detectable ? ", but detectable: what y does not show decays by itself."
                                  : ", and not detectable."));
-      if (!say_unseen(unseen, TimeDomain::kContinuous) && !plant_.jumps()) {
+      if (!say_unseen(unseen, TimeDomain::kContinuous) && only_flows()) {
         obstacles_.push_back(
             {"the sampled output never shows a mode of the flow that does not decay" + mode_name_,
              "measure something that the unseen modes move"});
@@ -194,7 +196,7 @@ class Explanation {
     }
     const auto fatal = std::find_if(within.begin(), within.end(),
                                     [](const PathologicalInterval& one) { return !one.decays; });
-    if (fatal == within.end() || plant_.jumps()) return;
+    if (fatal == within.end() || !only_flows()) return;
     obstacles_.push_back({"samples that come exactly every " + seconds(fatal->tau) + ", which " +
                               times() + " allows, don't show something that does not decay",
                           "choose [T1, T2] without " + seconds(fatal->tau) +
@@ -262,7 +264,7 @@ class Explanation {
                    ", such as tau = " + seconds(undetectable.front()) + ":");
     const DiscretePair pair = pair_at_jumps(mode.A, *mode.A_d, mode.C_d, undetectable.front());
     say_unseen(unseen_modes(pair.F, pair.H), TimeDomain::kDiscrete);
-    if (mode.C_c.rows() > 0 || mode.C.rows() > 0) return;
+    if (mode.C_c.rows() > 0 || mode.C.rows() > 0 || plant_.modes.size() > 1) return;
     obstacles_.push_back({"jumps that come exactly every " + seconds(undetectable.front()) +
                               " don't show something that does not decay",
                           "measure more at jumps, or add a continuous output"});

@@ -52,6 +52,9 @@ void write_gain_file(const Design& design, const GainFileOrigin& origin, std::os
       << "sampling: {T1: " << shortest_decimal(subject.T1)
       << ", T2: " << shortest_decimal(subject.T2) << "}  # s\n\n"
       << "gains:\n";
+  for (const auto& [key, choice] : theorem.gain_choices()) {
+    out << "  " << key << ": " << choice << '\n';
+  }
   write_values(theorem.gains(subject), certificate.values, out);
   out << "\ncertificate:\n"
       << "  theorem: " << theorem.name() << '\n'
@@ -61,6 +64,9 @@ void write_gain_file(const Design& design, const GainFileOrigin& origin, std::os
       << "  T2: " << shortest_decimal(subject.T2) << '\n';
   if (subject.plant.N.cols() > 0) out << "  N: " << nested_lists(subject.plant.N) << '\n';
   if (subject.plant.C_p.rows() > 0) out << "  C_p: " << nested_lists(subject.plant.C_p) << '\n';
+  const StatedErrorMaps& stated = subject.plant.stated;
+  if (stated.A) out << "  A: " << nested_lists(*stated.A) << '\n';
+  if (stated.A_d) out << "  A_d: " << nested_lists(*stated.A_d) << '\n';
   write_values(theorem.parameters(subject), certificate.values, out);
   write_values(theorem.multipliers(subject), certificate.values, out);
   out << "  margin: " << shortest_decimal(design.margin)

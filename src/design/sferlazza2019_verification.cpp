@@ -8,7 +8,7 @@
 namespace sampled_data_observers {
 namespace {
 
-constexpr std::size_t kMaxSteps = 200000;
+constexpr std::size_t kMaxSteps = 50000;
 /// Of each step, so that rounding does not make it too long.
 constexpr double kCaution = 0.9;
 
@@ -20,6 +20,10 @@ IntervalVerification verify_between(const Eigen::MatrixXd& A, const Eigen::Matri
   const Eigen::MatrixXd R = cholesky_root(P);  // P = Rᵀ R
   if (!R.allFinite()) {
     result.stopped_at = T1;
+    return result;
+  }
+  if (complement.cols() == 0) {
+    result.holds = true;
     return result;
   }
   // In the coordinates R x: Ψ falls no faster than by the largest eigenvalue of the symmetric part.

@@ -17,6 +17,8 @@ StandardForm standard_form(const LmiProgram& program, const SolverOptions& optio
   form.objective.assign(static_cast<std::size_t>(variables + (objective ? 0 : 1)), 0.0);
   for (LmiProgram::Block& block : program.compile()) {
     AffineMatrix& matrix = block.matrix;
+    // No variable changes it, and it would only bound t.
+    if (matrix.is_constant()) continue;
     if (block.is_strict) {
       const auto size = static_cast<int>(matrix.constant.rows());
       for (int i = 0; i < size; ++i) {

@@ -59,6 +59,8 @@ std::vector<std::string> parameters_of(const SweepRequest& request) {
     for (const DesignParameter& parameter : method->parameters(subject))
       names.insert(parameter.name);
   }
+  // It has a column of its own as what is looked for.
+  if (request.objective == Objective::kMinGamma) names.erase("gamma");
   return {names.begin(), names.end()};
 }
 

@@ -7,7 +7,7 @@ namespace {
 
 // The decorator's own numbers: whether a reset is pending, the time since its jump [ns], and μ.
 constexpr Eigen::Index kPending = 0;
-constexpr Eigen::Index kSince = 1;
+constexpr Eigen::Index kSinceJump = 1;
 constexpr Eigen::Index kMu = 2;
 
 }  // namespace
@@ -32,7 +32,7 @@ void DelayedJumps::initialize(double* state) const {
 
 void DelayedJumps::flow(Duration duration, double* state, double* workspace) const {
   law().flow(duration, state, workspace);
-  own(state)[kSince] += static_cast<double>(duration);
+  own(state)[kSinceJump] += static_cast<double>(duration);
 }
 
 bool DelayedJumps::reset(const Event& event, double* state, double* workspace) const {
@@ -40,19 +40,19 @@ bool DelayedJumps::reset(const Event& event, double* state, double* workspace) c
   double* mu = numbers + kMu;
   const bool pending = numbers[kPending] != 0.0;
   if (event.kind == EventKind::kRelease) {
-    if (!pending || numbers[kSince] != event.values[0]) return false;
+    if (!pending || numbers[kSinceJump] != event.values[0]) return false;
     release(state);
     return true;
   }
   if (event.kind == EventKind::kJump) {
     if (pending) release(state);
     std::copy_n(state, inner_size(), mu);
-    numbers[kSince] = 0.0;
+    numbers[kSinceJump] = 0.0;
     numbers[kPending] = 1.0;
     return law().reset(event, mu, workspace);
   }
   // Of the jump's own stamp: its outputs, or a sample of the state after it.
-  if (pending && numbers[kSince] == 0.0) law().reset(event, mu, workspace);
+  if (pending && numbers[kSinceJump] == 0.0) law().reset(event, mu, workspace);
   return law().reset(event, state, workspace);
 }
 

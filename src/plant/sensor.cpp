@@ -5,7 +5,7 @@
 namespace sampled_data_observers {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+constexpr double kHalfTurn = 3.14159265358979323846;
 
 }  // namespace
 
@@ -22,8 +22,8 @@ const char* to_string(SensorTiming timing) {
 }
 
 double wrap_angle(double angle) {
-  const double wrapped = std::remainder(angle, 2.0 * kPi);
-  return wrapped <= -kPi ? kPi : wrapped;
+  const double wrapped = std::remainder(angle, 2.0 * kHalfTurn);
+  return wrapped <= -kHalfTurn ? kHalfTurn : wrapped;
 }
 
 void wrap_angles(const std::vector<bool>& angular, double* values) {

@@ -18,7 +18,7 @@ namespace {
 
 using SteadyClock = std::chrono::steady_clock;
 
-constexpr std::uint32_t kQueueLength = 2000;
+constexpr std::uint32_t kPublisherQueue = 2000;
 
 /// The clock goes on that long after the last message, for estimates that are published late.
 constexpr Duration kAfterEnd = kNanosecondsPerSecond;
@@ -86,7 +86,7 @@ void PlantSimulatorNodelet::start() {
   ros::NodeHandle& handle = getNodeHandle();
   for (const SimulatedChannel& channel : simulator_->channels()) {
     publishers_.push_back(visit_simulated_type(channel, [&](auto tag) {
-      return handle.advertise<typename decltype(tag)::type>(channel.topic, kQueueLength);
+      return handle.advertise<typename decltype(tag)::type>(channel.topic, kPublisherQueue);
     }));
   }
   if (options_.clock_speed > 0.0) {

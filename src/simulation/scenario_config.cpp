@@ -12,8 +12,6 @@
 namespace sampled_data_observers {
 namespace {
 
-constexpr double kShortest = 1e-9;    // s: one tick of the clock
-constexpr double kLongest = 1e6;      // s
 constexpr double kLatestStart = 4e9;  // s: ros::Time ends at 2^32 s
 constexpr std::size_t kLargestSeed = std::size_t{1} << 53;
 

@@ -9,9 +9,6 @@
 namespace sampled_data_observers {
 namespace {
 
-constexpr double kShortest = 1e-9;  // s: one tick of the clock
-constexpr double kLongest = 1e6;    // s
-
 void read_bounds(ConfigSection& section, const std::string& key, Schedule& schedule) {
   const Eigen::VectorXd bounds = section.vector(key, 2);
   if (!(kShortest <= bounds(0) && bounds(0) <= bounds(1) && bounds(1) <= kLongest)) {

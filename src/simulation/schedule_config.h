@@ -8,6 +8,10 @@
 
 namespace sampled_data_observers {
 
+// The durations that schedules and scenarios take [s]: one tick of the clock is the least.
+constexpr double kShortest = 1e-9;
+constexpr double kLongest = 1e6;
+
 /// Where a schedule of a fixed period begins.
 enum class FirstOfPeriod { kAtStart, kAfterPeriod };
 

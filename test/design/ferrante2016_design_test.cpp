@@ -2,12 +2,17 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
+#include <random>
+#include <sstream>
+#include <string>
+#include <vector>
 
 #include "paper_plants.h"
 #include "sampled_data_observers/certificate/ferrante2016_bounds.h"
 #include "sampled_data_observers/certificate/matrix_functions.h"
+#include "sampled_data_observers/design/gain_file.h"
 #include "sampled_data_observers/design/polytopic_embedding.h"
+#include "support/allocation_counter.h"
 
 namespace sampled_data_observers::test {
 namespace {
@@ -62,24 +67,71 @@ TEST(Ferrante2016Example1, BoundsTheErrorTightlyAndNoLooserThanThePaper) {
   const Ferrante2016Bounds paper = ferrante2016_bounds(scalar_plant(), scalar_values());
   std::vector<double> state(static_cast<std::size_t>(bound->state_size()));
   bound->initialize(state.data());
-  double error = 2.0;
-  double t = 0.0;
-  const auto flow_and_compare = [&](double duration, int j) {
-    error *= std::exp(duration);
-    t += duration;
-    bound->flow(duration, state.data());
-    const double value = bound->bound(state.data());
-    EXPECT_GE(value, error * (1.0 - 1e-12)) << "t = " << t;
-    EXPECT_LE(value, 1.001 * error + 1e-12) << "t = " << t;
-    EXPECT_LE(value, 1.001 * std::exp(paper.R / 2.0) * std::sqrt(paper.alpha_2 / paper.alpha_1) *
-                         std::exp(-paper.gamma / 2.0 * (t + j)) * 2.0);
-  };
-  flow_and_compare(0.3, 0);
-  for (int j = 1; j < 6; ++j) {
-    error *= 1.0 - scalar_value(scalar_values(), "L");
+  const double first = 0.3;
+  double after_sample = 2.0;
+  for (int j = 0; j < 6; ++j) {
+    const double interval = j == 0 ? first : 1.0;
+    std::vector<double> flown;
+    for (int i = 0; i <= 10; ++i) {
+      const double tau = interval * i / 10.0;
+      flown = state;
+      bound->flow(tau, flown.data());
+      const double error = after_sample * std::exp(tau);
+      const double t = tau + (j == 0 ? 0.0 : first + j - 1);
+      const double value = bound->bound(flown.data());
+      EXPECT_GE(value, error * (1.0 - 1e-12)) << "t = " << t;
+      EXPECT_LE(value, 1.001 * error) << "t = " << t;
+      EXPECT_LE(value, 2.0 * std::exp(paper.R / 2.0) * std::sqrt(paper.alpha_2 / paper.alpha_1) *
+                           std::exp(-paper.gamma / 2.0 * (t + j)) * 1.001);
+    }
+    state = flown;
     bound->sample(state.data());
-    for (int i = 0; i < 10; ++i) flow_and_compare(0.1, j);
+    after_sample *= std::exp(interval) * (1.0 - scalar_value(scalar_values(), "L"));
   }
+}
+
+TEST(Ferrante2016Example2, BoundsTheErrorWithoutAllocatingAndUpToT2) {
+  const CertificateSubject subject = mass_spring(0.2, 3.0);
+  const NamedMatrices values = certified("ferrante2016_theorem1", subject,
+                                         {{"L", printed_gain()}, {"decay", scalar_matrix(0.0)}});
+  ASSERT_FALSE(values.empty());
+  ErrorAssumptions assumptions;
+  assumptions.initial_error = 3.0;
+  assumptions.noise = 0.1;
+  const auto bound = theorem().error_bound(subject, values, assumptions);
+  std::vector<double> state(static_cast<std::size_t>(bound->state_size()));
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  Eigen::VectorXd error = Eigen::VectorXd::Constant(5, 3.0 / std::sqrt(5.0));
+  std::size_t allocated = 0;
+  const auto then_bound = [&](const auto& map) {
+    const std::size_t before = allocations();
+    map();
+    const double value = bound->bound(state.data());
+    allocated += allocations() - before;
+    return value;
+  };
+  then_bound([&] { bound->initialize(state.data()); });
+  for (int j = 0; j < 200; ++j) {
+    const double tau = j == 0 ? 0.05 : 0.2 + 2.8 * uniform(random);
+    error = exponential_of(subject.plant.A() * tau) * error;
+    ASSERT_GE(then_bound([&] { bound->flow(tau, state.data()); }), error.norm()) << j;
+    const double noise = 0.1 * (2.0 * uniform(random) - 1.0);
+    error -= printed_gain() * ((subject.plant.C() * error)(0) + noise);
+    ASSERT_GE(then_bound([&] { bound->sample(state.data()); }), error.norm()) << j;
+  }
+  EXPECT_EQ(allocated, 0u);
+  EXPECT_LT(bound->bound(state.data()), 10.0);
+
+  std::vector<double> late = state;
+  bound->flow(3.1, late.data());
+  EXPECT_TRUE(std::isinf(bound->bound(late.data())));
+  bound->flow(3.0, state.data());
+  EXPECT_TRUE(std::isfinite(bound->bound(state.data())));
+  bound->sample(state.data());
+  bound->flow(0.1, state.data());
+  bound->sample(state.data());
+  EXPECT_TRUE(std::isinf(bound->bound(state.data())));
 }
 
 TEST(Ferrante2016Example2, FindsAGainThatTheTheoremAccepts) {
@@ -124,16 +176,33 @@ TEST(Ferrante2016Example2, AcceptsThePrintedGainByTheTheorem) {
 
 TEST(Ferrante2016Example2, ComesToItsEdgeWhereSamplesMayFollowTooSoon) {
   EXPECT_EQ(refusal(kMethod, mass_spring(0.1, 3.0)), "");
-  const std::string message = refusal(kMethod, mass_spring(0.02, 3.0));
-  EXPECT_NE(message.find("found no design"), std::string::npos) << message;
+  const std::string message = refusal(kMethod, mass_spring(0.05, 3.0));
+  EXPECT_NE(message.find("lies on the edge"), std::string::npos) << message;
 }
 
-TEST(Ferrante2016Example2, FindsTheLargestDecay) {
-  const Design design = design_by(kMethod, mass_spring(0.2, 1.0), {}, Objective::kMaxDecay);
-  const double decay = scalar_value(design.certificate.values, "decay");
-  EXPECT_GT(decay, 0.01);
+TEST(Ferrante2016Example2, HasNoLargestT2AndSaysSo) {
+  const Design design = design_by(kMethod, mass_spring(0.2, 3.0), {}, Objective::kMaxT2);
+  EXPECT_TRUE(design.has_no_maximum);
+  EXPECT_DOUBLE_EQ(design.certificate.subject.T2, 1024.0 * 3.0);
   EXPECT_TRUE(all_hold(check(design.certificate)));
-  EXPECT_NE(refusal(kMethod, mass_spring(0.2, 1.0), {{"decay", 1.01 * decay}}), "");
+  std::ostringstream file;
+  write_gain_file(design, {"plant.yaml", "", "", ""}, file);
+  EXPECT_NE(file.str().find("max-T2  # the search ended here"), std::string::npos) << file.str();
+}
+
+TEST(Ferrante2016Corollary1, FindsTheLargestDecayOfADoubleIntegrator) {
+  // L = [1; l] sets the position and multiplies the error of the velocity by 1 - l tau: at a rate d
+  // for tau from 0.5 to 1 with (1 - l/2) e^{d/2} = (l - 1) e^d = 1, so that e^{-d/2} = sqrt(2) - 1.
+  Eigen::MatrixXd A(2, 2);
+  A << 0, 1, 0, 0;
+  Eigen::MatrixXd position(1, 2);
+  position << 1, 0;
+  const double largest = -2.0 * std::log(std::sqrt(2.0) - 1.0);
+  const Design design =
+      design_by(kMethod, linear_subject(A, position, 0.5, 1.0), {}, Objective::kMaxDecay);
+  EXPECT_TRUE(all_hold(check(design.certificate)));
+  EXPECT_FALSE(design.has_no_maximum);
+  EXPECT_NEAR(scalar_value(design.certificate.values, "decay"), largest, 0.01 * largest);
 }
 
 TEST(Ferrante2016Corollary1, TellsWhatItCannotDesignFor) {

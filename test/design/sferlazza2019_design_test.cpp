@@ -3,6 +3,8 @@
 
 #include <cmath>
 #include <random>
+#include <string>
+#include <vector>
 
 #include "paper_plants.h"
 #include "sampled_data_observers/certificate/matrix_functions.h"
@@ -120,8 +122,7 @@ void expect_bound_covers_error(double lambda, double noise) {
     // The first sample may come at once.
     const double tau = j == 0 ? 0.4 : 1.0 + 2.0 * uniform(random);
     error = exponential_of(subject.plant.A() * tau) * error;
-    bound->flow(tau / 2.0, state.data());
-    bound->flow(tau / 2.0, state.data());
+    bound->flow(tau, state.data());
     ASSERT_GE(bound->bound(state.data()), error.norm()) << "before sample " << j;
     gain.evaluate(exponential_of(-subject.plant.A() * tau).eval().data(), K.data(),
                   workspace.data());

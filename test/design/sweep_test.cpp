@@ -27,7 +27,7 @@ TEST(BestCurves, LetTheDesignForALargerT2ServeWhereItIsBetter) {
   ASSERT_EQ(curves.size(), 6u);
   EXPECT_EQ(curves[0].design.value, 1.0);
   for (int i : {1, 2, 3}) {
-    EXPECT_EQ(curves[i].T2, 0.1 * (i + 1)) << i;
+    EXPECT_DOUBLE_EQ(curves[i].T2, 0.1 * (i + 1)) << i;
     EXPECT_EQ(curves[i].design.value, 5.0) << i;
     EXPECT_EQ(curves[i].design.T2, 0.4) << i;
   }

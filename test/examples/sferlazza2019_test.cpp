@@ -1,15 +1,15 @@
 // The aircraft of sferlazza2019, (66), as shipped, with samples every 1 to 3 s and every 4 to 8 s.
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <unsupported/Eigen/MatrixFunctions>
 #include <vector>
 
 #include "sampled_data_observers/config/config_section.h"
 #include "support/example_run.h"
+#include "support/matrix_functions.h"
 
 namespace sampled_data_observers::test {
 namespace {
@@ -58,7 +58,7 @@ std::vector<Flow> lyapunov_function(const Example& example, const ExampleRun& ru
     if (errors.size() == 0 || errors.value(0).norm() < 1e-5) break;
     Flow flow;
     for (std::size_t k = 0; k < errors.size() && errors.value(k).norm() >= 1e-5; ++k) {
-      const Eigen::MatrixXd back = Eigen::MatrixXd(-A * (errors.time(k) - sample)).exp();
+      const Eigen::MatrixXd back = exponential(-A * (errors.time(k) - sample));
       const Eigen::VectorXd e = back * errors.value(k);
       flow.values.push_back(e.dot(P * e));
       flow.rounding.push_back(2.0 * (P * e).norm() * back.norm() * 1e-11);
@@ -117,18 +117,17 @@ TEST_P(Sferlazza2019, TheCertificateGivesTheRatio) {
   const Eigen::MatrixXd A = flow_matrix(scenario);
   const Eigen::MatrixXd P = certificate(example);
   const Eigen::MatrixXd C = scenario.plant->modes().front().outputs.front()->affine()->M();
-  const Eigen::MatrixXd kernel = C.fullPivLu().kernel();
+  const Eigen::MatrixXd kernel = test::kernel(C);
   ASSERT_EQ(2, kernel.cols());
   const SamplingBounds bounds = example.observer("scenario.yaml", "observer.yaml").options.sampling;
   double largest = 0.0;
   double smallest = 1.0;
   for (int i = 0; i <= 1000; ++i) {
     const double tau = to_seconds(bounds.T1) + 1e-3 * i * to_seconds(bounds.T2 - bounds.T1);
-    const Eigen::MatrixXd back = Eigen::MatrixXd(-A * tau).exp() * kernel;
+    const Eigen::MatrixXd back = exponential(-A * tau) * kernel;
     const Eigen::MatrixXd before = back.transpose() * P * back;
     const Eigen::MatrixXd after = kernel.transpose() * P * kernel;
-    const double ratio =
-        Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(after, before).eigenvalues()(1);
+    const double ratio = generalized_eigenvalues(after, before)(1);
     largest = std::max(largest, ratio);
     smallest = std::min(smallest, ratio);
   }
@@ -146,7 +145,7 @@ TEST_P(Sferlazza2019, TheInputPlacesThePapersEigenvalues) {
     input.evaluate(arguments.data(), nullptr, &K(i));
   }
   const Eigen::MatrixXd B = scenario.plant->modes().front().flow->affine()->N();
-  const Eigen::VectorXcd eigenvalues = (flow_matrix(scenario) + B * K).eigenvalues();
+  const Eigen::VectorXcd eigenvalues = test::eigenvalues(flow_matrix(scenario) + B * K);
   std::vector<double> real;
   for (int i = 0; i < 3; ++i) {
     EXPECT_NEAR(0.0, eigenvalues(i).imag(), 1e-6);

@@ -1,15 +1,14 @@
 // The hybrid Kalman filter on a switched plant, in limiting cases, and what it refuses.
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <random>
-#include <unsupported/Eigen/MatrixFunctions>
 
 #include "sampled_data_observers/hybrid/timeline.h"
 #include "sampled_data_observers/observer/hybrid_kalman_filter.h"
+#include "support/matrix_functions.h"
 #include "support/random_events.h"
 
 namespace sampled_data_observers {
@@ -125,20 +124,20 @@ struct Textbook {
     Eigen::MatrixXd whole = zero(n + 1);
     whole.topLeftCorner(n, n) = f.M();
     whole.topRightCorner(n, 1) = f.N() * u + f.c();
-    const Eigen::MatrixXd transition = Eigen::MatrixXd(whole * t).exp();
+    const Eigen::MatrixXd transition = test::exponential(whole * t);
     const Eigen::MatrixXd Phi = transition.topLeftCorner(n, n);
     x = (Phi * x + transition.topRightCorner(n, 1)).eval();
     Eigen::MatrixXd block = zero(2 * n);
     block.topLeftCorner(n, n) = -f.M();
     block.topRightCorner(n, n) = Q;
     block.bottomRightCorner(n, n) = f.M().transpose();
-    const Eigen::MatrixXd exponential = Eigen::MatrixXd(block * t).exp();
+    const Eigen::MatrixXd exponential = test::exponential(block * t);
     P = (Phi * P * Phi.transpose() + Phi * exponential.topRightCorner(n, n)).eval();
   }
   void correct(const VectorMap& map, const Eigen::MatrixXd& R, const Eigen::VectorXd& y) {
     const Eigen::MatrixXd& C = map.affine()->M();
     const Eigen::MatrixXd S = C * P * C.transpose() + R;
-    const Eigen::MatrixXd K = P * C.transpose() * S.inverse();
+    const Eigen::MatrixXd K = P * C.transpose() * test::inverse(S);
     x += K * (y - C * x);
     P = (P - K * C * P).eval();
   }
@@ -237,7 +236,7 @@ TEST(HybridKalmanCasesTest, WithoutNoiseOfTheProcessItIsTheLeastSquaresFit) {
     const Eigen::Vector2d row(1.0, t);
     information += row * row.transpose() / 0.25;
     weighted += row * y / 0.25;
-    const Eigen::Vector2d fit = information.inverse() * weighted;
+    const Eigen::Vector2d fit = test::inverse(information) * weighted;
     EXPECT_NEAR(fit(1), run.x()(1), 1e-10);
     EXPECT_NEAR(fit(0) + fit(1) * t, run.x()(0), 1e-9);
     EXPECT_EQ(run.x()(0), run.x()(2));

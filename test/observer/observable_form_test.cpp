@@ -2,19 +2,20 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <string>
 #include <vector>
 
+#include "support/matrix_functions.h"
+
 namespace sampled_data_observers {
 namespace {
 
 std::vector<double> sorted_real_eigenvalues(const Eigen::MatrixXd& M) {
   std::vector<double> result;
-  for (const std::complex<double>& value : Eigen::VectorXcd(M.eigenvalues())) {
+  for (const std::complex<double>& value : test::eigenvalues(M)) {
     EXPECT_NEAR(0.0, value.imag(), 1e-6);
     result.push_back(value.real());
   }
@@ -108,7 +109,7 @@ TEST(ObservableFormTest, OfTwoDoubleIntegratorsInOtherCoordinates) {
   H(0, 0) = H(1, 2) = 1.0;
   Eigen::MatrixXd S(4, 4);
   S << 1.0, 0.2, 0.0, 0.1, 0.0, 1.0, 0.3, 0.0, 0.5, 0.0, 1.0, 0.0, 0.0, 0.1, 0.0, 2.0;
-  const Eigen::MatrixXd inverse = S.inverse();
+  const Eigen::MatrixXd inverse = test::inverse(S);
   const ObservableForm form = observable_form(S * A * inverse, H * inverse);
   EXPECT_EQ((std::vector<Eigen::Index>{2, 2}), form.indices);
   EXPECT_LT(form.D.norm(), 1e-12);

@@ -2,14 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
 #include <cmath>
 #include <random>
-#include <unsupported/Eigen/MatrixFunctions>
 
 #include "sampled_data_observers/plant/linear_plant.h"
 #include "sampled_data_observers/plant/lipschitz_map.h"
 #include "support/allocation_counter.h"
+#include "support/matrix_functions.h"
 
 namespace sampled_data_observers {
 namespace {
@@ -86,7 +85,7 @@ Eigen::MatrixXd gain(const TimeVaryingGainObserver& law, double tau, int sensor 
 }
 
 Eigen::MatrixXd backward(const Eigen::MatrixXd& A, double tau) {
-  return Eigen::MatrixXd(-A * tau).exp();
+  return test::exponential(-A * tau);
 }
 
 /// Ψ = e^{−Aᵀτ} P e^{−Aτ}
@@ -99,25 +98,26 @@ Eigen::MatrixXd weight(const Eigen::MatrixXd& A, const Eigen::MatrixXd& P, doubl
 /// equal matrices.
 Eigen::MatrixXd expected_gain(const Eigen::MatrixXd& A, const Eigen::MatrixXd& C_double,
                               const Eigen::MatrixXd& P_double, long double lambda, double tau) {
-  using Matrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+  using test::extended::Matrix;
   const Matrix C = C_double.cast<long double>();
   const Matrix P = P_double.cast<long double>();
   const Eigen::Index n = C.cols();
   const Eigen::Index m = C.rows();
-  const Matrix E = Matrix(A.cast<long double>() * static_cast<long double>(-tau)).exp();
+  const Matrix E =
+      test::extended::exponential(A.cast<long double>() * static_cast<long double>(-tau));
   const Matrix Psi = E.transpose() * P * E;
-  const Matrix complement = C.fullPivLu().kernel();
-  const Matrix W = (complement.transpose() * Psi * complement).inverse();
+  const Matrix complement = test::extended::kernel(C);
+  const Matrix W = test::extended::inverse(complement.transpose() * Psi * complement);
   const Matrix coupling = C * Psi * complement;
   const Matrix M11 = C * Psi * C.transpose() - coupling * W * coupling.transpose();
   const Matrix M22 = P - P * complement * W * complement.transpose() * P;
   Matrix stacked = Matrix::Zero(n, m);
-  stacked.topRows(m) = M11.llt().matrixU();
-  const Matrix R22 = M22.llt().matrixU();
+  stacked.topRows(m) = test::extended::cholesky_upper(M11);
+  const Matrix R22 = test::extended::cholesky_upper(M22);
   const Matrix M21 = lambda * R22.transpose() * stacked;
   const Matrix difference =
-      C.transpose() - complement * W * coupling.transpose() - P.inverse() * M21;
-  const Matrix K = difference * (C * C.transpose()).inverse();
+      C.transpose() - complement * W * coupling.transpose() - test::extended::inverse(P) * M21;
+  const Matrix K = difference * test::extended::inverse(C * C.transpose());
   return K.cast<double>();
 }
 
@@ -152,9 +152,9 @@ TEST(TimeVaryingGainTest, HasTheClosedFormOfExample1) {
 
 TEST(TimeVaryingGainTest, AtTauZeroItProjectsInTheNormOfP) {
   // The nearest estimate, in the norm of P, that agrees with the sample, whatever lambda.
-  const Eigen::MatrixXd inverse = kP.inverse();
+  const Eigen::MatrixXd inverse = test::inverse(kP);
   const Eigen::MatrixXd expected =
-      inverse * kC.transpose() * (kC * inverse * kC.transpose()).inverse();
+      inverse * kC.transpose() * test::inverse(kC * inverse * kC.transpose());
   for (const double lambda : {0.0, 0.3, 0.95}) {
     const TimeVaryingGainObserver law(context(kA, {kC}), kP, lambda);
     EXPECT_LT((gain(law, 0.0) - expected).norm(), 1e-10) << lambda;
@@ -195,7 +195,7 @@ TEST(InverseOutputGainTest, KeepsTheShareLambdaOfTheErrorAfterTheSampleBefore) {
     LawRun run(law);
     Eigen::VectorXd x = Eigen::Vector3d(1.0, -2.0, 0.5);
     for (const double tau : {0.7, 2.3, 0.01}) {
-      x = Eigen::MatrixXd(kA * tau).exp() * x;
+      x = test::exponential(kA * tau) * x;
       run.flow(tau);
       const Eigen::VectorXd e = x - run.estimate();
       run.sample(0, C * x);

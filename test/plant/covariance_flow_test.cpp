@@ -2,12 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
-#include <unsupported/Eigen/MatrixFunctions>
 
 #include "support/allocation_counter.h"
+#include "support/matrix_functions.h"
 
 namespace sampled_data_observers {
 namespace {
@@ -25,13 +24,13 @@ double relative(const Eigen::MatrixXd& found, const Eigen::MatrixXd& expected) {
 /// By Van Loan's block exponential, in long double; good while |A| t is moderate.
 Eigen::MatrixXd van_loan(const Eigen::MatrixXd& A, const Eigen::MatrixXd& Q, double t,
                          const Eigen::MatrixXd& P) {
-  using Matrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+  using test::extended::Matrix;
   const Eigen::Index n = A.rows();
   Matrix block = Matrix::Zero(2 * n, 2 * n);
   block.topLeftCorner(n, n) = -A.cast<long double>();
   block.topRightCorner(n, n) = Q.cast<long double>();
   block.bottomRightCorner(n, n) = A.transpose().cast<long double>();
-  const Matrix exponential = Matrix(block * static_cast<long double>(t)).exp();
+  const Matrix exponential = test::extended::exponential(block * static_cast<long double>(t));
   const Matrix Phi = exponential.bottomRightCorner(n, n).transpose();
   const Matrix result =
       Phi * P.cast<long double>() * Phi.transpose() + Phi * exponential.topRightCorner(n, n);

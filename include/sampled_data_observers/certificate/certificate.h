@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -71,6 +72,8 @@ class Theorem {
 
   /// Gains of the observer.
   virtual std::vector<NamedShape> gains(const CertificateSubject& subject) const = 0;
+  /// What else the section `gains` of its observer must say: the form of a HighGainObserver.
+  virtual std::map<std::string, std::string> gain_choices() const { return {}; }
   /// Matrices and multipliers in which the conditions are linear where all else is fixed.
   virtual std::vector<NamedShape> multipliers(const CertificateSubject& subject) const = 0;
   /// Scalars that are chosen: rates, levels, and those searched for.

@@ -12,6 +12,8 @@ Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& a);
 double min_eigenvalue(const Eigen::MatrixXd& a);
 double max_eigenvalue(const Eigen::MatrixXd& a);
 
+/// The least c for which a <= c b, a symmetric and b symmetric positive definite.
+double largest_generalized_eigenvalue(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 /// An eigenvector of norm 1 of the least eigenvalue of (a + aᵀ)/2.
 /// @pre a is finite
 Eigen::VectorXd least_eigenvector(const Eigen::MatrixXd& a);

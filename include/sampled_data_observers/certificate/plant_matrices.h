@@ -19,6 +19,17 @@ struct ModeMatrices {
   std::optional<Eigen::MatrixXd> A_d;  ///< n x n: x⁺ = A_d x + b_d at jumps
 };
 
+/// Maps of the observer's error e = x − x̂ that a design states, ė = A e in flow and e⁺ = A_d e at
+/// jumps before any innovation, each n x n. They stand for maps of the plant that are no matrices:
+/// where the observer takes what is nonlinear from measured outputs (output injection), it cancels
+/// in the error.
+struct StatedErrorMaps {
+  std::optional<Eigen::MatrixXd> A;
+  std::optional<Eigen::MatrixXd> A_d;
+
+  bool is_empty() const { return !A && !A_d; }
+};
+
 /// The plant as the papers' conditions see it:
 ///   ẋ = A x + B u + G ψ(S x) + N w between jumps, y = C x at samples, y_p = C_p (x − x̂).
 struct PlantMatrices {
@@ -30,6 +41,7 @@ struct PlantMatrices {
   std::vector<Eigen::MatrixXd> vertices;  ///< n x n each
   Eigen::MatrixXd N;                      ///< n x n_w; no columns without disturbance
   Eigen::MatrixXd C_p;                    ///< n_p x n; no rows without performance output
+  StatedErrorMaps stated;                 ///< which of A and A_d are not the plant's own
 
   const ModeMatrices& mode() const { return modes.front(); }
   const Eigen::MatrixXd& A() const { return mode().A; }
@@ -40,8 +52,9 @@ struct PlantMatrices {
 };
 
 /// The matrices of a plant without disturbance and performance output.
+/// @param stated  instead of the plant's own maps, for a plant that does not switch
 /// @throws std::invalid_argument for a plant that the conditions of the papers are not about: a
 /// flow, jump or output map by formulas, or several sensors of one timing.
-PlantMatrices matrices_of(const Plant& plant);
+PlantMatrices matrices_of(const Plant& plant, const StatedErrorMaps& stated = {});
 
 }  // namespace sampled_data_observers

@@ -19,4 +19,7 @@ NamedMatrices read_named_values(ConfigSection& section, const std::vector<NamedS
 NamedMatrices read_gain_values(ConfigSection& gains, const std::vector<NamedShape>& shapes,
                                const CertificateSubject& subject);
 
+/// Reads the maps A and A_d of the error, n x n, where the section states them.
+StatedErrorMaps read_stated_error_maps(ConfigSection& section, Eigen::Index n);
+
 }  // namespace sampled_data_observers

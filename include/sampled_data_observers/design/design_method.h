@@ -114,7 +114,7 @@ class LmiDesignMethod : public DesignMethod {
                              Objective objective) const = 0;
 
  protected:
-  /// The gains by name.
+  /// The gains by name; none where the solution is so inaccurate that they are not what was asked.
   virtual NamedMatrices gains(const CertificateSubject& subject, const Parameters& parameters,
                               const NamedMatrices& solution) const = 0;
 };

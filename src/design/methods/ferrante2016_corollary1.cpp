@@ -36,7 +36,10 @@ class Corollary1 : public LmiDesignMethod {
       none.message = undetectable_sampling(subject);
     }
     if (!none.message.empty()) return none;
-    return LmiDesignMethod::attempt(subject, parameters, objective);
+    DesignCandidate candidate = solve(subject, parameters, objective);
+    if (!candidate.is_verified() || candidate.margin > kLeastMargin) return candidate;
+    none.message = on_the_edge(candidate.margin);
+    return none;
   }
 
   LmiProgram program(const CertificateSubject& subject, const Parameters& parameters,
@@ -62,7 +65,7 @@ class Corollary1 : public LmiDesignMethod {
  protected:
   NamedMatrices gains(const CertificateSubject&, const Parameters&,
                       const NamedMatrices& solution) const override {
-    return {{"L", solve_linear(solution.at("F"), solution.at("J"))}, {"P", solution.at("P")}};
+    return {{"L", solve_linear(solution.at("F"), solution.at("J"))}};
   }
 };
 

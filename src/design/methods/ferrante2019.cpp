@@ -1,5 +1,7 @@
 #include "ferrante2019.h"
 
+#include "sampled_data_observers/certificate/matrix_functions.h"
+
 namespace sampled_data_observers {
 
 std::vector<DesignParameter> ferrante2019_parameters(const CertificateSubject& subject) {
@@ -20,6 +22,10 @@ std::vector<Objective> ferrante2019_objectives(const CertificateSubject& subject
   std::vector<Objective> all = {Objective::kFeasible, Objective::kMaxT2, Objective::kMaxDecay};
   if (subject.plant.N.cols() > 0) all.push_back(Objective::kMinGamma);
   return all;
+}
+
+bool keeps_gain_bound(const Eigen::MatrixXd& L, const Parameters& parameters) {
+  return L.allFinite() && norm2(L) <= parameters.at("gain_bound") * (1.0 + 1e-6);
 }
 
 void add_gamma(LmiProgram& program, const CertificateSubject& subject, const Parameters& parameters,

@@ -21,6 +21,9 @@ LmiProgram ferrante2019_program(const CertificateSubject& subject, const Paramet
 void add_gamma(LmiProgram& program, const CertificateSubject& subject, const Parameters& parameters,
                Objective objective);
 
+/// Whether the norm of L is within gain_bound, but for rounding.
+bool keeps_gain_bound(const Eigen::MatrixXd& L, const Parameters& parameters);
+
 class Ferrante2019Proposition : public LmiDesignMethod {
  public:
   const Theorem& theorem() const override { return *find_theorem("ferrante2019_theorem2"); }
@@ -30,6 +33,17 @@ class Ferrante2019Proposition : public LmiDesignMethod {
   std::vector<Objective> objectives(const CertificateSubject& subject) const override {
     return ferrante2019_objectives(subject);
   }
+
+ protected:
+  NamedMatrices gains(const CertificateSubject& subject, const Parameters& parameters,
+                      const NamedMatrices& solution) const final {
+    NamedMatrices gains = any_gains(subject, solution);
+    if (!keeps_gain_bound(gains.at("L"), parameters)) gains.clear();
+    return gains;
+  }
+
+  virtual NamedMatrices any_gains(const CertificateSubject& subject,
+                                  const NamedMatrices& solution) const = 0;
 };
 
 }  // namespace sampled_data_observers

@@ -107,7 +107,9 @@ class Alternating : public DesignMethod {
       solution = solve_with_csdp(gain_program(subject, with_room, Objective::kFeasible, values),
                                  SolverOptions());
     }
-    if (solution.values.empty()) return {};
+    const bool is_of_use =
+        !solution.values.empty() && keeps_gain_bound(solution.values.at("L"), parameters);
+    if (!is_of_use) return {};
     return {{"L", solution.values.at("L")}, {"H", solution.values.at("H")}};
   }
 

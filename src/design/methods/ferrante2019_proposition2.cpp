@@ -41,8 +41,8 @@ class Proposition2 : public Ferrante2019Proposition {
   }
 
  protected:
-  NamedMatrices gains(const CertificateSubject& subject, const Parameters&,
-                      const NamedMatrices& solution) const override {
+  NamedMatrices any_gains(const CertificateSubject& subject,
+                          const NamedMatrices& solution) const override {
     const Eigen::MatrixXd L = solve_linear(solution.at("P1"), solution.at("J"));
     const Eigen::MatrixXd H =
         solve_linear(solution.at("P2"), solution.at("Y").transpose()) - subject.plant.C() * L;

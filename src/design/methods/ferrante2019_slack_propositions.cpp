@@ -73,8 +73,7 @@ class SlackProposition : public Ferrante2019Proposition {
   }
 
  protected:
-  NamedMatrices gains(const CertificateSubject&, const Parameters&,
-                      const NamedMatrices& solution) const override {
+  NamedMatrices any_gains(const CertificateSubject&, const NamedMatrices& solution) const override {
     const Eigen::MatrixXd& J = solution.at("J");
     NamedMatrices gains;
     gains["L"] = solve_linear(solution.at("X").transpose(), J);

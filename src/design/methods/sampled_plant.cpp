@@ -21,4 +21,12 @@ std::string undetectable_sampling(const CertificateSubject& subject) {
   return "";
 }
 
+std::string on_the_edge(double margin) {
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text.precision(2);
+  text << "the solution lies on the edge of the inequalities (margin " << margin << " for P <= I)";
+  return text.str();
+}
+
 }  // namespace sampled_data_observers

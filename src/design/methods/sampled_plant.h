@@ -6,7 +6,14 @@
 
 namespace sampled_data_observers {
 
+// What methods for sampled linear plants have in common.
+
 /// That samples of some time in [T1, T2] apart don't show a mode; empty where there is none such.
 std::string undetectable_sampling(const CertificateSubject& subject);
+
+/// Solutions with P <= I that are less far inside are on the edge: P is nearly singular, and what
+/// they prove is convergence that nobody would see.
+constexpr double kLeastMargin = 1e-7;
+std::string on_the_edge(double margin);
 
 }  // namespace sampled_data_observers

@@ -1,6 +1,6 @@
-#include <algorithm>
-#include <cmath>
-#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "methods.h"
 #include "sampled_data_observers/certificate/matrix_functions.h"
@@ -53,6 +53,10 @@ class Algorithm1 : public DesignMethod {
       if (!solution.satisfies_all()) {
         none.message = "(21) has no solution for " + std::to_string(times.size()) +
                        " times between T1 and T2 (" + solution.message + ")";
+        return none;
+      }
+      if (solution.margin <= kLeastMargin) {
+        none.message = on_the_edge(solution.margin);
         return none;
       }
       const Eigen::MatrixXd& P = solution.values.at("P");

@@ -1,0 +1,152 @@
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "bernard2022.h"
+#include "jump_based_bound.h"
+#include "theorems.h"
+
+namespace sampled_data_observers {
+namespace {
+
+const char* const kConverges =
+    "the error falls by the factor exp(-jump_decay) or more from jump to jump, in the norm of P, "
+    "for all times between jumps in [T1, T2]";
+const char* const kWithKnownOutput =
+    "the error falls by the factor exp(-jump_decay) or more from jump to jump, in the norm of P, "
+    "for all times between jumps of T1 or more, with the continuous output known at all times";
+
+/// Where the innovation acts.
+enum class Innovation { kFlowAndJumps, kFlow, kJumps };
+
+/// bernard2022, Theorem 3.1 with V = (x − x̂)ᵀ P (x − x̂) for linear maps; see
+/// quadratic_conditions().
+class QuadraticCondition : public Theorem {
+ public:
+  QuadraticCondition(int number, Innovation innovation, std::string guarantee)
+      : number_(std::to_string(number)),
+        in_flow_(innovation != Innovation::kJumps),
+        at_jumps_(innovation != Innovation::kFlow),
+        guarantee_(std::move(guarantee)) {}
+
+  std::string name() const override { return "bernard2022_equation" + number_; }
+  std::string guarantee() const override { return guarantee_; }
+  std::vector<std::string> observer_types() const override { return {"SynchronizedObserver"}; }
+
+  void require_applicable(const CertificateSubject& subject) const override {
+    require_linear_jumping_plant(subject);
+    if (in_flow_ && subject.plant.mode().C_c.rows() == 0) {
+      throw std::invalid_argument("L_c needs a sensor that is `measured: continuous`");
+    }
+    if (at_jumps_ && subject.plant.mode().C_d.rows() == 0) {
+      throw std::invalid_argument("L_d needs a sensor that is `measured: at_jumps`");
+    }
+  }
+
+  std::vector<NamedShape> gains(const CertificateSubject& subject) const override {
+    const Eigen::Index n = subject.plant.states();
+    std::vector<NamedShape> all;
+    if (in_flow_) all.push_back(matrix_shape("L_c", n, subject.plant.mode().C_c.rows()));
+    if (at_jumps_) all.push_back(matrix_shape("L_d", n, subject.plant.mode().C_d.rows()));
+    return all;
+  }
+
+  std::vector<NamedShape> multipliers(const CertificateSubject& subject) const override {
+    return {symmetric_shape("P", subject.plant.states())};
+  }
+
+  std::vector<NamedShape> parameters(const CertificateSubject&) const override {
+    return {scalar_shape(in_flow_ ? "flow_decay" : "flow_growth"), scalar_shape("jump_decay")};
+  }
+
+  std::string decay_parameter() const override { return "jump_decay"; }
+
+  std::vector<NamedRange> search_ranges(const CertificateSubject& subject) const override {
+    if (in_flow_) return {{"flow_decay", flow_decay_range(subject)}};
+    return {{"flow_growth", {1e-3 / subject.T2, 10.0 / subject.T2, true}}};
+  }
+
+  bool is_homogeneous(const CertificateSubject&) const override { return true; }
+
+  std::vector<Condition> conditions(const CertificateSubject& subject) const override {
+    const Eigen::Index n = subject.plant.states();
+    const ModeMatrices& plant = subject.plant.mode();
+    MatrixExpression flow = plant.A;
+    MatrixExpression reset = *plant.A_d;
+    if (in_flow_) flow = flow - symbol("L_c", n, plant.C_c.rows()) * plant.C_c;
+    if (at_jumps_) reset = reset - symbol("L_d", n, plant.C_d.rows()) * plant.C_d;
+    return quadratic_conditions(subject, in_flow_ ? FlowOfError::kDecays : FlowOfError::kMayGrow,
+                                flow, reset, "bernard2022 (" + number_);
+  }
+
+  std::unique_ptr<const ErrorBound> error_bound(
+      const CertificateSubject& subject, const NamedMatrices& values,
+      const ErrorAssumptions& assumptions) const override {
+    // y_c is taken as known at all times. It comes in messages and is held between them.
+    if (in_flow_ || !subject.plant.stated.is_empty()) return nullptr;
+    const ModeMatrices& plant = subject.plant.mode();
+    const Eigen::MatrixXd& L_d = values.at("L_d");
+    return jump_based_bound(subject, values.at("P"), *plant.A_d - L_d * plant.C_d, L_d,
+                            {scalar_value(values, "a_d") / 2.0, scalar_value(values, "a_c") / 2.0},
+                            assumptions);
+  }
+
+ private:
+  std::string number_;
+  bool in_flow_;
+  bool at_jumps_;
+  std::string guarantee_;
+};
+
+}  // namespace
+
+void require_linear_jumping_plant(const CertificateSubject& subject) {
+  if (subject.plant.modes.size() > 1) {
+    throw std::invalid_argument("it is about plants that do not switch");
+  }
+  if (!subject.plant.is_linear()) {
+    throw std::invalid_argument("it is about linear flows; design/A may state that of the error");
+  }
+  if (!subject.plant.jumps()) throw std::invalid_argument("it is about plants that jump");
+}
+
+SearchRange flow_decay_range(const CertificateSubject& subject) {
+  return {1e-2 / subject.T2, 100.0 / std::max(subject.T1, 1e-3 * subject.T2), true};
+}
+
+std::vector<Condition> quadratic_conditions(const CertificateSubject& subject, FlowOfError kind,
+                                            const MatrixExpression& flow,
+                                            const MatrixExpression& reset,
+                                            const std::string& source) {
+  const bool decays = kind == FlowOfError::kDecays;
+  const MatrixExpression P = symbol("P", flow.rows(), flow.rows());
+  const MatrixExpression rate = symbol(decays ? "flow_decay" : "flow_growth");
+  const MatrixExpression jump_decay = symbol("jump_decay");
+  const MatrixExpression a_c = decays ? -rate : rate;
+  const MatrixExpression a_d =
+      -(a_c * MatrixExpression(decays ? subject.T1 : subject.T2)) - 2.0 * jump_decay;
+  return {
+      {"P > 0", P, std::nullopt},
+      {decays ? "a_c < 0" : "a_c > 0", rate, std::nullopt},
+      {"jump_decay > 0", jump_decay, std::nullopt},
+      {"flow, " + source + "a)", a_c * P - He(P * flow), std::nullopt},
+      {"jump, " + source + "b)", exponential(a_d) * P - transpose(reset) * P * reset, std::nullopt},
+  };
+}
+
+const Theorem& bernard2022_equation14() {
+  static const QuadraticCondition theorem(14, Innovation::kFlowAndJumps, kWithKnownOutput);
+  return theorem;
+}
+
+const Theorem& bernard2022_equation22() {
+  static const QuadraticCondition theorem(22, Innovation::kFlow, kWithKnownOutput);
+  return theorem;
+}
+
+const Theorem& bernard2022_equation26() {
+  static const QuadraticCondition theorem(26, Innovation::kJumps, kConverges);
+  return theorem;
+}
+
+}  // namespace sampled_data_observers

@@ -1,0 +1,244 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "bound_flow.h"
+#include "sampled_data_observers/certificate/matrix_functions.h"
+#include "sampled_data_observers/certificate/wirtinger.h"
+#include "theorems.h"
+
+namespace sampled_data_observers {
+namespace {
+
+/// R_i = A + Ψ_i, or A alone for a linear plant.
+std::vector<Eigen::MatrixXd> flow_vertices_of(const PlantMatrices& plant) {
+  if (plant.is_linear()) return {plant.A()};
+  std::vector<Eigen::MatrixXd> R;
+  for (const Eigen::MatrixXd& vertex : plant.vertices) R.emplace_back(plant.A() + vertex);
+  return R;
+}
+
+/// V(z) = zᵀ P z of etienne2019, Theorem 1: from a sample on, V̇ = −α V + γ² |Γ|² at worst, with
+/// Γ = L σ + δ. Until the first sample nothing is injected and the error flows as the plant does.
+class IssBound : public ErrorBound {
+ public:
+  /// @param gamma  0 for Proposition 1, which is about Γ = 0
+  IssBound(const CertificateSubject& subject, const NamedMatrices& values, double gamma,
+           const ErrorAssumptions& assumptions)
+      : T2_(subject.T2), rate_(scalar_value(values, "alpha")) {
+    const Eigen::MatrixXd& P = values.at("P");
+    const Eigen::MatrixXd& N = subject.plant.N;
+    const double level =
+        gamma * (norm2(values.at("L")) * assumptions.noise + norm2(N) * assumptions.disturbance);
+    final_ = level * level / rate_;
+    initial_ = std::sqrt(max_eigenvalue(P)) * assumptions.initial_error;
+    least_ = min_eigenvalue(P);
+    growth_ = -std::numeric_limits<double>::infinity();
+    for (const Eigen::MatrixXd& R : flow_vertices_of(subject.plant)) {
+      growth_ = std::max(growth_, largest_generalized_eigenvalue(P * R + R.transpose() * P, P));
+    }
+    growth_ /= 2.0;
+    if (N.cols() > 0) {
+      push_ = std::sqrt(max_eigenvalue(N.transpose() * P * N)) * assumptions.disturbance;
+    }
+  }
+
+  // √V, the time since the last sample [s], and whether there was one.
+  Eigen::Index state_size() const override { return 3; }
+  void initialize(double* state) const override {
+    state[0] = initial_;
+    state[1] = 0.0;
+    state[2] = 0.0;
+  }
+  void flow(double duration, double* state) const override {
+    if (state[2] == 0.0) {
+      state[0] = flowed_linearly(state[0], growth_, push_, duration);
+      return;
+    }
+    state[1] += duration;
+    if (!(state[1] <= T2_)) state[0] = std::numeric_limits<double>::infinity();
+    if (std::isinf(state[0])) return;
+    state[0] = std::sqrt(final_ + (state[0] * state[0] - final_) * std::exp(-rate_ * duration));
+  }
+  void sample(double* state) const override {
+    state[1] = 0.0;
+    state[2] = 1.0;
+  }
+  void jump(double*) const override {}
+  double bound(const double* state) const override { return state[0] / std::sqrt(least_); }
+
+ private:
+  double T2_;
+  double rate_;
+  double final_ = 0.0;
+  double initial_ = 0.0;
+  double least_ = 0.0;
+  double growth_ = 0.0;
+  double push_ = 0.0;
+};
+
+class Proposition : public Theorem {
+ public:
+  std::vector<std::string> observer_types() const override { return {"SampleAndHoldObserver"}; }
+
+  void require_applicable(const CertificateSubject& subject) const override {
+    const PlantMatrices& plant = subject.plant;
+    if (plant.modes.size() > 1 || plant.jumps()) {
+      throw std::invalid_argument("etienne2019 is about plants that do not jump");
+    }
+    if (plant.C().rows() == 0) throw std::invalid_argument("etienne2019 needs a sampled sensor");
+    if (!plant.is_linear() && plant.vertices.empty()) {
+      throw std::invalid_argument("etienne2019 needs plant/vertices, the polytope of G psi(S x)");
+    }
+  }
+
+  std::string decay_parameter() const override { return "alpha"; }
+
+  std::vector<NamedShape> gains(const CertificateSubject& subject) const override {
+    return {matrix_shape("L", subject.plant.states(), subject.plant.C().rows())};
+  }
+
+ protected:
+  /// (13) at each vertex R_i and at both ends ρ of e^{−ατ}, with Ḡ = [G_1 G_2 …] of n x n blocks,
+  /// as many as H_i = [R_i + L C, −I, L C (, I)] has; M of (12), or of (16) with four.
+  static std::vector<Condition> finsler_conditions(const CertificateSubject& subject,
+                                                   const std::vector<MatrixExpression>& G,
+                                                   const std::string& number) {
+    const Eigen::Index n = subject.plant.states();
+    const MatrixExpression P = symbol("P", n, n);
+    const MatrixExpression X = symbol("X", n, n);
+    const MatrixExpression Y = symbol("Y", n, n);
+    const MatrixExpression alpha = symbol("alpha");
+    const MatrixExpression LC = symbol("L", n, subject.plant.C().rows()) * subject.plant.C();
+    std::vector<Condition> all = {
+        {"P > 0", P, std::nullopt}, {"X > 0", X, std::nullopt}, {"Y > 0", Y, std::nullopt}};
+    const MatrixExpression decayed = exponential(-(alpha * MatrixExpression(subject.T2)));
+    int vertex = 0;
+    for (const Eigen::MatrixXd& R : flow_vertices_of(subject.plant)) {
+      ++vertex;
+      for (const auto& [end, rho] :
+           {std::pair<const char*, MatrixExpression>{"1", 1.0},
+            std::pair<const char*, MatrixExpression>{"exp(-alpha T2)", decayed}}) {
+        // Π = [Π1 Π2; ⋆ Π3] with Π1 = −(2 h̄/π)² X, Π2 = Y, Π3 = X, in the order (y, w).
+        std::vector<std::vector<MatrixExpression>> M = {
+            {alpha * P, P, zeros(n, n)},
+            {rho * (MatrixExpression(wirtinger_constant(subject.T2)) * X), -(rho * Y)},
+            {-(rho * X)}};
+        std::vector<MatrixExpression> H = {MatrixExpression(R) + LC, -identity(n), LC};
+        if (G.size() == 4) {
+          for (auto& row : M) row.push_back(zeros(n, n));
+          M.push_back({-(square("gamma") * identity(n))});
+          H.push_back(identity(n));
+        }
+        all.push_back({number + " at vertex " + std::to_string(vertex) + ", rho = " + end,
+                       -(symmetric_blocks(M) + He(transpose(blocks({G})) * blocks({H}))),
+                       std::nullopt});
+      }
+    }
+    return all;
+  }
+};
+
+class Proposition1 : public Proposition {
+ public:
+  std::string name() const override { return "etienne2019_proposition1"; }
+
+  std::string guarantee() const override {
+    return "without noise and disturbance the error converges at the rate alpha / 2, for all times "
+           "between samples up to T2";
+  }
+
+  std::vector<NamedShape> multipliers(const CertificateSubject& subject) const override {
+    const Eigen::Index n = subject.plant.states();
+    return {symmetric_shape("P", n), symmetric_shape("X", n), symmetric_shape("Y", n),
+            matrix_shape("G", n, n)};
+  }
+
+  std::vector<NamedShape> parameters(const CertificateSubject&) const override {
+    return {scalar_shape("alpha")};
+  }
+
+  bool is_homogeneous(const CertificateSubject&) const override { return true; }
+
+  std::vector<Condition> conditions(const CertificateSubject& subject) const override {
+    const Eigen::Index n = subject.plant.states();
+    const MatrixExpression G = symbol("G", n, n);
+    return finsler_conditions(subject, {G, G, zeros(n, n)}, "etienne2019 (14)");
+  }
+
+  std::unique_ptr<const ErrorBound> error_bound(
+      const CertificateSubject& subject, const NamedMatrices& values,
+      const ErrorAssumptions& assumptions) const override {
+    if (assumptions.noise > 0.0 || assumptions.disturbance > 0.0) {
+      throw std::invalid_argument(
+          "it is about measurements without noise and plants without disturbance; "
+          "etienne2019_proposition2 bounds what they do");
+    }
+    return std::make_unique<const IssBound>(subject, values, 0.0, assumptions);
+  }
+};
+
+class Proposition2 : public Proposition {
+ public:
+  std::string name() const override { return "etienne2019_proposition2"; }
+
+  std::string guarantee() const override {
+    return "the error is input-to-state stable: it converges at the rate alpha / 2 to at most "
+           "gamma / sqrt(alpha) times the bound on L noise + disturbance, for all times between "
+           "samples up to T2";
+  }
+
+  std::vector<NamedShape> multipliers(const CertificateSubject& subject) const override {
+    const Eigen::Index n = subject.plant.states();
+    return {symmetric_shape("P", n),   symmetric_shape("X", n),   symmetric_shape("Y", n),
+            matrix_shape("G_1", n, n), matrix_shape("G_2", n, n), matrix_shape("G_3", n, n),
+            matrix_shape("G_4", n, n)};
+  }
+
+  std::vector<NamedShape> parameters(const CertificateSubject&) const override {
+    return {scalar_shape("alpha"), scalar_shape("gamma")};
+  }
+
+  bool is_homogeneous(const CertificateSubject&) const override { return false; }
+
+  std::vector<Condition> conditions(const CertificateSubject& subject) const override {
+    const Eigen::Index n = subject.plant.states();
+    std::vector<MatrixExpression> G;
+    for (const char* name : {"G_1", "G_2", "G_3", "G_4"}) G.push_back(symbol(name, n, n));
+    std::vector<Condition> all = finsler_conditions(subject, G, "etienne2019 (15)");
+    // Else gamma would say nothing: it scales with P.
+    all.push_back({"c_1 = 1: P > I", symbol("P", n, n) - identity(n), std::nullopt});
+    return all;
+  }
+
+  std::vector<GuaranteedFigure> guaranteed_figures(const CertificateSubject&,
+                                                   const NamedMatrices& values) const override {
+    const double gain = scalar_value(values, "gamma") /
+                        std::sqrt(min_eigenvalue(values.at("P")) * scalar_value(values, "alpha"));
+    return {{"final error per unit of |L noise + disturbance| [s]", gain},
+            {"final error per unit of noise", gain * norm2(values.at("L"))}};
+  }
+
+  std::unique_ptr<const ErrorBound> error_bound(
+      const CertificateSubject& subject, const NamedMatrices& values,
+      const ErrorAssumptions& assumptions) const override {
+    return std::make_unique<const IssBound>(subject, values, scalar_value(values, "gamma"),
+                                            assumptions);
+  }
+};
+
+}  // namespace
+
+const Theorem& etienne2019_proposition1() {
+  static const Proposition1 theorem;
+  return theorem;
+}
+
+const Theorem& etienne2019_proposition2() {
+  static const Proposition2 theorem;
+  return theorem;
+}
+
+}  // namespace sampled_data_observers

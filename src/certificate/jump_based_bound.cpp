@@ -1,0 +1,93 @@
+#include "jump_based_bound.h"
+
+#include <cmath>
+#include <limits>
+
+#include "bound_flow.h"
+#include "sampled_data_observers/certificate/matrix_functions.h"
+
+namespace sampled_data_observers {
+namespace {
+
+/// sup |a v|_P for |v| <= 1
+double weighted_norm(const Eigen::MatrixXd& a, const Eigen::MatrixXd& P) {
+  return a.cols() == 0 ? 0.0 : std::sqrt(max_eigenvalue(a.transpose() * P * a));
+}
+
+/// |x − x̂|_P is at most the sum of two parts: one that comes from the error just after the last
+/// jump, and one that the disturbance has caused since.
+class JumpBasedBound : public ErrorBound {
+ public:
+  JumpBasedBound(const CertificateSubject& subject, const Eigen::MatrixXd& P,
+                 const Eigen::MatrixXd& reset, const Eigen::MatrixXd& L_d,
+                 const JumpContraction& contraction, const ErrorAssumptions& assumptions)
+      : T1_(subject.T1), T2_(subject.T2), contraction_(contraction) {
+    const Eigen::MatrixXd& A = subject.plant.A();
+    growth_ = largest_generalized_eigenvalue(P * A + A.transpose() * P, P) / 2.0;
+    push_ = weighted_norm(subject.plant.N, P) * assumptions.disturbance;
+    reset_ = std::sqrt(largest_generalized_eigenvalue(reset.transpose() * P * reset, P));
+    noise_ = weighted_norm(L_d, P) * assumptions.noise;
+    initial_ = std::sqrt(max_eigenvalue(P)) * assumptions.initial_error;
+    least_ = std::sqrt(min_eigenvalue(P));
+  }
+
+  Eigen::Index state_size() const override { return kEntries; }
+  void initialize(double* state) const override {
+    state[kAfterJump] = initial_;
+    state[kCausedSince] = 0.0;
+    state[kTau] = 0.0;
+    state[kJumped] = 0.0;
+  }
+  void flow(double duration, double* state) const override {
+    state[kTau] += duration;
+    state[kCausedSince] = flowed_linearly(state[kCausedSince], growth_, push_, duration);
+    if (!(state[kTau] <= T2_)) lose(state);
+  }
+  void jump(double* state) const override {
+    const double tau = state[kTau];
+    const bool is_first = state[kJumped] == 0.0;
+    if (!is_first && tau < T1_) lose(state);
+    if (!std::isinf(state[kAfterJump])) {
+      const double carried =
+          is_first ? reset_ * flowed_linearly(state[kAfterJump], growth_, 0.0, tau)
+                   : state[kAfterJump] * std::exp(contraction_.offset + contraction_.slope * tau);
+      state[kAfterJump] = carried + reset_ * state[kCausedSince] + noise_;
+    }
+    state[kCausedSince] = 0.0;
+    state[kTau] = 0.0;
+    state[kJumped] = 1.0;
+  }
+  void sample(double*) const override {}
+  double bound(const double* state) const override {
+    const double carried = flowed_linearly(state[kAfterJump], growth_, 0.0, state[kTau]);
+    return (carried + state[kCausedSince]) / least_;
+  }
+
+ private:
+  enum Entry { kAfterJump, kCausedSince, kTau, kJumped, kEntries };
+
+  static void lose(double* state) { state[kAfterJump] = std::numeric_limits<double>::infinity(); }
+
+  double T1_;
+  double T2_;
+  JumpContraction contraction_;
+  double growth_ = 0.0;
+  double push_ = 0.0;
+  double reset_ = 0.0;
+  double noise_ = 0.0;
+  double initial_ = 0.0;
+  double least_ = 0.0;
+};
+
+}  // namespace
+
+std::unique_ptr<const ErrorBound> jump_based_bound(const CertificateSubject& subject,
+                                                   const Eigen::MatrixXd& P,
+                                                   const Eigen::MatrixXd& reset,
+                                                   const Eigen::MatrixXd& L_d,
+                                                   const JumpContraction& contraction,
+                                                   const ErrorAssumptions& assumptions) {
+  return std::make_unique<const JumpBasedBound>(subject, P, reset, L_d, contraction, assumptions);
+}
+
+}  // namespace sampled_data_observers

@@ -1,0 +1,88 @@
+#include <cmath>
+#include <utility>
+
+#include "bernard2022_parameters.h"
+#include "methods.h"
+#include "sampled_data_observers/design/certify.h"
+
+namespace sampled_data_observers {
+namespace {
+
+/// bernard2022, example 4.2: the least ℓ for which its high gain satisfies (22).
+class HighGainDesign : public DesignMethod {
+ public:
+  std::string name() const override { return "bernard2022_example4_2"; }
+  std::string summary() const override {
+    return "least high gain ell for the time between jumps, with all zeros of K at -1";
+  }
+  const Theorem& theorem() const override { return *find_theorem("bernard2022_example4_2"); }
+
+  std::vector<DesignParameter> parameters(const CertificateSubject&) const override {
+    return {
+        {"ell", "the gain [1/s]; the least where not given", std::nullopt, std::nullopt},
+        {"decay_per_ell", "rate at which V falls in flow, in units of ell", std::nullopt,
+         SearchRange{0.1, 1.98, false}},
+        jump_decay_parameter(),
+    };
+  }
+
+  std::vector<Objective> objectives(const CertificateSubject&) const override {
+    return {Objective::kFeasible, Objective::kMaxDecay};
+  }
+
+  DesignCandidate attempt(const CertificateSubject& subject, const Parameters& parameters,
+                          Objective) const override {
+    const auto given = parameters.find("ell");
+    if (given != parameters.end()) return with_gain(subject, parameters, given->second);
+    double low = 0.1 / subject.T2;
+    DesignCandidate best = with_gain(subject, parameters, low);
+    if (best.is_verified()) return best;
+    double high = low;
+    for (int i = 0; i < kMaxDoublings && !best.is_verified(); ++i) {
+      low = high;
+      high *= 2.0;
+      best = with_gain(subject, parameters, high);
+    }
+    while (best.is_verified() && high / low > kSearchRatio) {
+      const double middle = std::sqrt(low * high);
+      DesignCandidate candidate = with_gain(subject, parameters, middle);
+      (candidate.is_verified() ? high : low) = middle;
+      if (candidate.is_verified()) best = std::move(candidate);
+    }
+    return best;
+  }
+
+ private:
+  static constexpr int kMaxDoublings = 20;
+  static constexpr double kSearchRatio = 1.001;
+
+  DesignCandidate with_gain(const CertificateSubject& subject, const Parameters& parameters,
+                            double ell) const {
+    const Eigen::Index n = subject.plant.states();
+    // (s + 1)^n = s^n + K_n s^(n−1) + … + K_1
+    Eigen::MatrixXd K(1, n);
+    double binomial = 1.0;
+    for (Eigen::Index i = 0; i < n; ++i) {
+      K(0, i) = binomial;
+      binomial *= static_cast<double>(n - i) / static_cast<double>(i + 1);
+    }
+    DesignCandidate candidate =
+        certify_here(theorem(), subject,
+                     {{"ell", scalar_matrix(ell)},
+                      {"K", K},
+                      {"flow_decay", scalar_matrix(ell * parameters.at("decay_per_ell"))},
+                      {"jump_decay", scalar_matrix(parameters.at("jump_decay"))}},
+                     Objective::kFeasible);
+    candidate.cost = ell;
+    return candidate;
+  }
+};
+
+}  // namespace
+
+const DesignMethod& bernard2022_high_gain_design() {
+  static const HighGainDesign method;
+  return method;
+}
+
+}  // namespace sampled_data_observers

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+
+#include "sampled_data_observers/design/lmi_program.h"
+
+namespace sampled_data_observers {
+
+/// Bounds a gain P⁻¹ J by ‖P⁻¹ J‖₂ <= k: Jᵀ P⁻¹ J <= q k² I and P >= q I with a new variable q.
+inline void bound_gain(LmiProgram& program, const std::string& gain, const MatrixExpression& P,
+                       const MatrixExpression& J, double k) {
+  const MatrixExpression q = program.scalar("q of " + gain);
+  program.bound_above("q I <= P of " + gain, q * identity(P.rows()), P);
+  const Eigen::Index size = J.rows() + J.cols();
+  program.bound_above("norm of " + gain, zeros(size, size),
+                      symmetric_blocks({{P, J}, {k * k * q * identity(J.cols())}}));
+}
+
+}  // namespace sampled_data_observers
