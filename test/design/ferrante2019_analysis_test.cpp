@@ -74,28 +74,26 @@ TEST(Ferrante2019Analysis, FindsTheGammaOfThePrintedGains) {
 }
 
 TEST(Ferrante2019Analysis, FindsTheLargestRateAndTimeOfTheEarlierGains) {
-  for (const char* theorem : {kTheorem2, kCorollary1}) {
-    const auto longest = [&](double lambda_t) {
-      return analysis(theorem, oscillator(0.41), printed_50(), {{"lambda_t", lambda_t}},
-                      Objective::kMaxT2)
-          .certificate.subject.T2;
-    };
-    EXPECT_NEAR(longest(1e-4), 0.446, 0.01 * 0.446) << theorem;
-    EXPECT_NEAR(longest(0.05), 0.314, 0.01 * 0.314) << theorem;
-    const Design fastest =
-        analysis(theorem, oscillator(0.41), printed_50(), {}, Objective::kMaxDecay);
-    EXPECT_NEAR(value(fastest, "lambda_t"), 0.0132, 0.01 * 0.0132) << theorem;
-  }
+  const auto longest = [](const char* theorem, double lambda_t) {
+    return analysis(theorem, oscillator(0.41), printed_50(), {{"lambda_t", lambda_t}},
+                    Objective::kMaxT2)
+        .certificate.subject.T2;
+  };
+  const auto fastest = [](const char* theorem) {
+    return value(analysis(theorem, oscillator(0.41), printed_50(), {}, Objective::kMaxDecay),
+                 "lambda_t");
+  };
+  EXPECT_NEAR(longest(kTheorem2, 0.05), 0.314, 0.01 * 0.314);
+  EXPECT_NEAR(fastest(kTheorem2), 0.0132, 0.01 * 0.0132);
+  EXPECT_NEAR(longest(kCorollary1, 1e-4), 0.446, 0.01 * 0.446);
+  EXPECT_NEAR(fastest(kCorollary1), 0.0132, 0.01 * 0.0132);
 }
 
 TEST(Ferrante2019Analysis, FindsTheLargestTimeOfPostoyansGain) {
-  const Design longest =
-      analysis(kTheorem2, flexible_link(0.1), postoyan(), {{"lambda_t", 0.01}}, Objective::kMaxT2);
+  const Design longest = analysis(kCorollary1, flexible_link(0.1), postoyan(), {{"lambda_t", 0.01}},
+                                  Objective::kMaxT2);
   EXPECT_NEAR(longest.certificate.subject.T2, 0.1145, 0.01 * 0.1145);
-  const Design rate_only = analysis(kCorollary1, flexible_link(0.1), postoyan(),
-                                    {{"lambda_t", 0.01}}, Objective::kMaxT2);
-  EXPECT_NEAR(rate_only.certificate.subject.T2, 0.1145, 0.01 * 0.1145);
-  EXPECT_NEAR(value(rate_only, "delta"), 15.0, 2.0);
+  EXPECT_NEAR(value(longest, "delta"), 15.0, 2.0);
 }
 
 TEST(Ferrante2019Analysis, RateOfCorollary2IsOneOfTheorem2) {
@@ -115,13 +113,13 @@ TEST(Ferrante2019Analysis, FinalErrorsAreTheLimitsOfTheErrorBound) {
           .certificate;
   const auto limit = [&](const ErrorAssumptions& assumptions, double between_samples) {
     const auto bound = proof.theorem->error_bound(proof.subject, proof.values, assumptions);
-    double state[2];
-    bound->initialize(state);
+    std::vector<double> state(static_cast<std::size_t>(bound->state_size()));
+    bound->initialize(state.data());
     for (int i = 0; i < 5000; ++i) {
-      bound->flow(between_samples, state);
-      bound->sample(state);
+      bound->flow(between_samples, state.data());
+      bound->sample(state.data());
     }
-    return bound->bound(state);
+    return bound->bound(state.data());
   };
   const double noise = figure(proof, "final error over noise");
   EXPECT_NEAR(limit({0.0, 1.0, 0.0}, proof.subject.T1), noise, 1e-6 * noise);

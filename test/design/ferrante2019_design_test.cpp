@@ -26,39 +26,42 @@ const LmiDesignMethod& proposition(int number) {
 /// The least gamma for which the inequalities of the proposition itself hold; infinity where the
 /// solver finds them contradictory.
 double gamma_of_proposition(int number, const CertificateSubject& subject, double lambda_t,
-                            double delta) {
+                            double delta, double gain_bound) {
   const Parameters parameters = {
-      {"lambda_t", lambda_t}, {"delta", delta}, {"gain_bound", 1000.0}, {"a", 1.0}};
+      {"lambda_t", lambda_t}, {"delta", delta}, {"gain_bound", gain_bound}, {"a", 1.0}};
   const LmiSolution solution = solve_with_csdp(
       proposition(number).program(subject, parameters, Objective::kMinGamma), SolverOptions());
-  return solution.status == SolverStatus::kSolved ? scalar_value(solution.values, "gamma")
-                                                  : std::numeric_limits<double>::infinity();
+  const bool is_solved =
+      solution.status == SolverStatus::kSolved || solution.status == SolverStatus::kInaccurate;
+  return is_solved ? scalar_value(solution.values, "gamma")
+                   : std::numeric_limits<double>::infinity();
 }
 
-double best_gamma_of_proposition(int number, const CertificateSubject& subject, double lambda_t) {
+double best_gamma_of_proposition(int number, const CertificateSubject& subject, double lambda_t,
+                                 double gain_bound = 1000.0) {
   double best = std::numeric_limits<double>::infinity();
   const SearchRange range = {std::max(2.0 * lambda_t, 0.1 / subject.T2) * 1.001, 30.0 / subject.T2,
                              true};
   WorkerOptions options;
   options.jobs = 2;
-  search_parameters(
-      {{"delta", range}}, SearchGoal::kLeastCost, [&](const std::vector<Parameters>& choices) {
-        const auto outcomes = run_in_workers(
-            choices.size(),
-            [&](std::size_t i) {
-              return std::to_string(
-                  gamma_of_proposition(number, subject, lambda_t, choices[i].at("delta")));
-            },
-            options);
-        std::vector<double> costs;
-        for (const WorkerOutcome& outcome : outcomes) {
-          costs.push_back(outcome.status == WorkerOutcome::Status::kDone
-                              ? std::stod(outcome.result)
-                              : std::numeric_limits<double>::infinity());
-          best = std::min(best, costs.back());
-        }
-        return costs;
-      });
+  search_parameters({{"delta", range}}, SearchGoal::kLeastCost,
+                    [&](const std::vector<Parameters>& choices) {
+                      const auto outcomes = run_in_workers(
+                          choices.size(),
+                          [&](std::size_t i) {
+                            return std::to_string(gamma_of_proposition(
+                                number, subject, lambda_t, choices[i].at("delta"), gain_bound));
+                          },
+                          options);
+                      std::vector<double> costs;
+                      for (const WorkerOutcome& outcome : outcomes) {
+                        costs.push_back(outcome.status == WorkerOutcome::Status::kDone
+                                            ? std::stod(outcome.result)
+                                            : std::numeric_limits<double>::infinity());
+                        best = std::min(best, costs.back());
+                      }
+                      return costs;
+                    });
   return best;
 }
 
@@ -101,12 +104,17 @@ TEST(Ferrante2019Example1, PropositionsReachTheirGamma) {
   EXPECT_NEAR(best_gamma_of_proposition(5, subject, 0.05), 5.11, kTolerance * 5.11);
 }
 
-TEST(Ferrante2019Example1, AlternatingIsBetterThanThePapersGainsAndAllPropositions) {
-  // The gain of (51) has the norm 3.643 and by Theorem 2 the gain 32.92.
-  const double bound = 3.65;
-  const double alternating = best_gamma("ferrante2019_alternating", 0.41, bound);
-  EXPECT_LT(alternating, 32.92);
-  EXPECT_LT(alternating, best_gamma("ferrante2019_proposition2", 0.41, bound));
+TEST(Ferrante2019Example1, AlternatingIsFarBetterThanProposition2WithinABoundOnTheGain) {
+  const auto at_one_delta = [](const char* method) {
+    const Design best = design(method, oscillator(0.41),
+                               {{"lambda_t", 0.05}, {"gain_bound", 3.65}, {"delta", 3.05}});
+    EXPECT_LE(norm2(best.certificate.values.at("L")), 3.65 * 1.00001);
+    return gamma(best);
+  };
+  const double alternating = at_one_delta("ferrante2019_alternating");
+  // Analysis gives 32.92 for the gain of (51), whose norm is 3.643.
+  EXPECT_LT(alternating, 1.01 * 32.92);
+  EXPECT_GT(at_one_delta("ferrante2019_proposition2"), 3.0 * alternating);
 }
 
 TEST(Ferrante2019Example2, Proposition5ReachesItsGammaAndAHeldInnovation) {
@@ -118,29 +126,36 @@ TEST(Ferrante2019Example2, Proposition5ReachesItsGammaAndAHeldInnovation) {
   EXPECT_LT(gamma(best), 1.512);
 }
 
+// The errata give these numbers for the performance output z3. They are reproduced, to 0.1 %, with
+// both z3 and z4, and a bound of 1e4 on the gain; with z3 alone the gammas are less than half.
 TEST(Ferrante2019Example3, PropositionsReachTheirGammaAtOneDelta) {
-  const CertificateSubject subject = flexible_link(0.1);
-  const auto at_10 = [&](int number) {
+  const auto at_10 = [](int number, int performance_outputs) {
+    const CertificateSubject subject = flexible_link(0.1, performance_outputs);
     const auto outcome = run_in_workers(
         1,
         [&](std::size_t) {
-          return std::to_string(gamma_of_proposition(number, subject, 0.01, 10));
+          return std::to_string(gamma_of_proposition(number, subject, 0.01, 10.0, 1e4));
         },
         WorkerOptions());
     return std::stod(outcome.front().result);
   };
-  EXPECT_NEAR(at_10(2), 0.17386, kTolerance * 0.17386);
-  EXPECT_NEAR(at_10(3), 0.65083, kTolerance * 0.65083);
-  EXPECT_NEAR(at_10(4), 0.58094, kTolerance * 0.58094);
-  EXPECT_NEAR(at_10(5), 0.54920, kTolerance * 0.54920);
+  const std::vector<std::pair<int, double>> expected = {
+      {2, 0.17386}, {3, 0.65083}, {4, 0.58094}, {5, 0.54920}};
+  for (const auto& [number, gamma] : expected) {
+    EXPECT_NEAR(at_10(number, 2), gamma, 1e-3 * gamma) << number;
+    EXPECT_LT(at_10(number, 1), 0.5 * gamma) << number;
+  }
 }
 
+// Reproduced with a bound of 1e5 on the gain.
 TEST(Ferrante2019Example3, PropositionsReachTheirBestGamma) {
   const CertificateSubject subject = flexible_link(0.1016, 2);
-  EXPECT_NEAR(best_gamma_of_proposition(2, subject, 0.01), 0.113, kTolerance * 0.113);
-  EXPECT_NEAR(best_gamma_of_proposition(3, subject, 0.01), 0.252, kTolerance * 0.252);
-  EXPECT_NEAR(best_gamma_of_proposition(4, subject, 0.01), 0.247, kTolerance * 0.247);
-  EXPECT_NEAR(best_gamma_of_proposition(5, subject, 0.01), 0.258, kTolerance * 0.258);
+  const std::vector<std::pair<int, double>> expected = {
+      {2, 0.113}, {3, 0.252}, {4, 0.247}, {5, 0.258}};
+  for (const auto& [number, gamma] : expected) {
+    EXPECT_NEAR(best_gamma_of_proposition(number, subject, 0.01, 1e5), gamma, kTolerance * gamma)
+        << number;
+  }
 }
 
 TEST(Ferrante2019Example3, OnlyProposition2ReachesTheLongestTime) {
@@ -191,12 +206,11 @@ TEST(Ferrante2019Designs, Propositions3And5TellThatDeltaMustExceedTwiceTheRate) 
 }
 
 TEST(Ferrante2019Designs, ReachLongerTimesAndFasterRatesThanTheStart) {
-  const std::string method = "ferrante2019_proposition5";
-  const Design longest = design(method, oscillator(0.1), {{"lambda_t", 0.05}}, Objective::kMaxT2);
-  // The propositions' curves of example 1 end between 0.3 s and 0.41 s.
-  EXPECT_GT(longest.certificate.subject.T2, 0.3);
-  EXPECT_LT(longest.certificate.subject.T2, 0.41);
-  const Design fastest = design(method, oscillator(0.3), {}, Objective::kMaxDecay);
+  const std::string method = "ferrante2019_proposition4";
+  const Design longest =
+      design(method, oscillator(0.3), {{"lambda_t", 0.05}, {"delta", 5}}, Objective::kMaxT2);
+  EXPECT_GT(longest.certificate.subject.T2, 0.33);
+  const Design fastest = design(method, oscillator(0.3), {{"delta", 6}}, Objective::kMaxDecay);
   EXPECT_GT(scalar_value(fastest.certificate.values, "lambda_t"), 0.05);
 }
 

@@ -20,13 +20,29 @@ struct CertifiedExample {
   double final_bound;
 };
 
-constexpr char kOscillator[] = "../../../test/certificate/ferrante2019_oscillator_0.41.yaml";
-
 const CertifiedExample kExamples[] = {
-    {"ferrante2019_oscillator", "scenario.yaml", "observer.yaml", kOscillator,
+    {"ferrante2019_oscillator", "scenario.yaml", "observer.yaml", "gains.yaml",
      "{initial_error: 0.6, noise: 0, disturbance: 1}", 65.0},
     {"ferrante2019_oscillator", "scenario_undisturbed.yaml", "observer_undisturbed.yaml",
-     kOscillator, "{initial_error: 4.2427, noise: 0, disturbance: 0}", 2.0},
+     "gains.yaml", "{initial_error: 4.2427, noise: 0, disturbance: 0}", 2.0},
+    {"ferrante2019_unicycle", "scenario.yaml", "observer.yaml", "gains.yaml",
+     "{initial_error: 1, noise: 0, disturbance: 1}", 1e3},
+    {"ferrante2019_flexible_link", "scenario.yaml", "observer.yaml", "gains.yaml",
+     "{initial_error: 1, noise: 0, disturbance: 1}", 1e3},
+    {"ferrante2016_scalar", "scenario.yaml", "observer.yaml", "gains.yaml",
+     "{initial_error: 3, noise: 0.1, disturbance: 0}", 1e3},
+    {"ferrante2016_mass_spring", "scenario.yaml", "observer.yaml", "gains.yaml",
+     "{initial_error: 3, noise: 0, disturbance: 0}", 1e3},
+    {"sferlazza2019_aircraft_1_3", "scenario.yaml", "observer.yaml", "gains.yaml",
+     "{initial_error: 2, noise: 0, disturbance: 0}", 1e3},
+    {"sferlazza2019_aircraft_4_8", "scenario.yaml", "observer.yaml", "gains.yaml",
+     "{initial_error: 2, noise: 0, disturbance: 0}", 1e3},
+    {"etienne2019_dc_drive", "scenario.yaml", "observer.yaml", "gains.yaml",
+     "{initial_error: 2, noise: 0.2, disturbance: 0}", 1e3},
+    {"bernard2022_impulsive", "scenario.yaml", "observer.yaml", "gains.yaml",
+     "{initial_error: 10, noise: 0, disturbance: 0}", 1e3},
+    {"bernard2022_bouncing_ball", "scenario.yaml", "observer.yaml", "gains.yaml",
+     "{initial_error: 20, noise: 0, disturbance: 0}", 1e3},
 };
 
 class CertifiedExampleTest : public ::testing::TestWithParam<CertifiedExample> {};

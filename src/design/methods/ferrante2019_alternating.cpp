@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kMaxSteps = 30;
 /// A step that gains less ends the alternation.
-constexpr double kLeastProgress = 1e-3;
+constexpr double kLeastProgress = 2e-4;
 /// Gains are sought for a gamma larger than the least one, so that they are not at the edge, where
 /// the next Lyapunov matrices could not move.
 constexpr double kRoom = 1.01;
