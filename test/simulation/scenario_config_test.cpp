@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <fstream>
 
-#include "sampled_data_observers/config/observer_config.h"
 #include "simulation/simulation_support.h"
 #include "support/config_faults.h"
 
