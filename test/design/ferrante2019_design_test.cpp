@@ -126,8 +126,9 @@ TEST(Ferrante2019Example2, Proposition5ReachesItsGammaAndAHeldInnovation) {
   EXPECT_LT(gamma(best), 1.512);
 }
 
-// The errata give these numbers for the performance output z3. They are reproduced, to 0.1 %, with
-// both z3 and z4, and a bound of 1e4 on the gain; with z3 alone the gammas are less than half.
+// Numbers that an independent computation gave for the performance output z3. They are reproduced,
+// to 0.1 %, with both z3 and z4, and a bound of 1e4 on the gain; with z3 alone the gammas are less
+// than half.
 TEST(Ferrante2019Example3, PropositionsReachTheirGammaAtOneDelta) {
   const auto at_10 = [](int number, int performance_outputs) {
     const CertificateSubject subject = flexible_link(0.1, performance_outputs);
