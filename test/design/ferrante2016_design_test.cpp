@@ -223,6 +223,10 @@ TEST(Ferrante2016Corollary1, FindsALargeDecay) {
   const double decay = scalar_value(design.certificate.values, "decay");
   EXPECT_GT(decay, 0.7 * kLargestDecay);
   EXPECT_LT(decay, kLargestDecay);
+  // A rate of zero, given as one to begin with, is no obstacle.
+  const Design from_zero =
+      design_by(kMethod, double_integrator(), {{"decay", 0.0}}, Objective::kMaxDecay);
+  EXPECT_GT(scalar_value(from_zero.certificate.values, "decay"), 0.7 * kLargestDecay);
 }
 
 TEST(Ferrante2016Corollary1, TellsWhatItCannotDesignFor) {
