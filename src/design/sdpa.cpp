@@ -91,13 +91,20 @@ int run(const std::vector<std::string>& command, double time_limit) {
   std::vector<char*> arguments;
   for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
+  // Its matrices are small: threads would mostly wait for each other, on a busy machine for long.
+  std::string one_thread[] = {"OMP_NUM_THREADS=1", "OPENBLAS_NUM_THREADS=1"};
+  std::vector<char*> environment = {one_thread[0].data(), one_thread[1].data()};
+  for (char** variable = environ; *variable != nullptr; ++variable) {
+    environment.push_back(*variable);
+  }
+  environment.push_back(nullptr);
   posix_spawn_file_actions_t actions;
   ::posix_spawn_file_actions_init(&actions);
   ::posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
   ::posix_spawn_file_actions_addopen(&actions, 2, "/dev/null", O_WRONLY, 0);
   pid_t pid = 0;
-  const int fault =
-      ::posix_spawnp(&pid, arguments.front(), &actions, nullptr, arguments.data(), environ);
+  const int fault = ::posix_spawnp(&pid, arguments.front(), &actions, nullptr, arguments.data(),
+                                   environment.data());
   ::posix_spawn_file_actions_destroy(&actions);
   if (fault != 0) throw std::system_error(fault, std::generic_category(), command.front());
   const auto start = Clock::now();

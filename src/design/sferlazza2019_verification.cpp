@@ -8,7 +8,7 @@
 namespace sampled_data_observers {
 namespace {
 
-constexpr std::size_t kMaxSteps = 50000;
+constexpr std::size_t kMaxVerificationSteps = 50000;
 /// Of each step, so that rounding does not make it too long.
 constexpr double kCaution = 0.9;
 
@@ -31,7 +31,7 @@ IntervalVerification verify_between(const Eigen::MatrixXd& A, const Eigen::Matri
   const Eigen::MatrixXd weighed = R * complement;
   const Eigen::MatrixXd inverse_root = inverse_of(cholesky_root(weighed.transpose() * weighed));
   double tau = T1;
-  for (; result.steps < kMaxSteps; ++result.steps) {
+  for (; result.steps < kMaxVerificationSteps; ++result.steps) {
     const Eigen::MatrixXd back = R * exponential_of(-A * tau) * complement * inverse_root;
     const double ratio = min_eigenvalue(back.transpose() * back);
     if (!(ratio > 1.0)) break;

@@ -138,7 +138,7 @@ class Synthesis {
 
   double starting_decay() const {
     const auto given = problem_.given.find(method_.decay_parameter());
-    if (given != problem_.given.end()) return given->second;
+    if (given != problem_.given.end() && given->second > 0.0) return given->second;
     return 0.1 / problem_.subject.T2;
   }
 

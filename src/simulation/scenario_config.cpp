@@ -19,10 +19,11 @@ const char kMeasurementType[] = "sampled_data_observers/Measurement";
 const char kTimeName[] = "t";
 
 /// What only an observer reads from the same tree.
-const char* const kObserverKeys[] = {
-    "observer",      "gains",    "sampling",         "history",     "rate",  "initial_estimate",
-    "publish_delay", "frame_id", "future_tolerance", "certificate", "design",
-    "error_assumptions", "allow_uncertified"};
+const char* const kObserverKeys[] = {"observer",         "gains",    "sampling",
+                                     "history",          "rate",     "initial_estimate",
+                                     "publish_delay",    "frame_id", "future_tolerance",
+                                     "certificate",      "design",   "error_assumptions",
+                                     "allow_uncertified"};
 
 class ScenarioReader {
  public:

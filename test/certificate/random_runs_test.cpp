@@ -223,14 +223,19 @@ struct Claim {
 };
 
 const Claim kClaims[] = {
-    {"test/certificate/ferrante2016_scalar.yaml", {1.0, 0.0, 0.0}},
-    {"test/certificate/ferrante2016_scalar.yaml", {1.0, 0.1, 0.0}},
-    {"test/certificate/ferrante2016_mass_spring.yaml", {1.0, 0.1, 0.0}},
+    {"config/examples/ferrante2016_scalar/gains.yaml", {1.0, 0.0, 0.0}},
+    {"config/examples/ferrante2016_scalar/gains.yaml", {1.0, 0.1, 0.0}},
+    {"config/examples/ferrante2016_mass_spring/gains.yaml", {1.0, 0.1, 0.0}},
     {"test/certificate/ferrante2019_oscillator_0.2.yaml", {1.0, 0.0, 0.0}},
     {"test/certificate/ferrante2019_oscillator_0.2.yaml", {1.0, 0.05, 0.5}},
     {"test/certificate/ferrante2019_oscillator_0.2.yaml", {0.0, 0.0, 1.0}},
     {"test/certificate/ferrante2019_oscillator_0.2.yaml", {0.0, 0.1, 0.0}},
     {"test/certificate/ferrante2019_oscillator_0.41.yaml", {1.0, 0.05, 0.5}},
+    {"config/examples/sferlazza2019_aircraft_1_3/gains.yaml", {1.0, 0.0, 0.0}},
+    {"config/examples/etienne2019_dc_drive/gains.yaml", {1.0, 0.0, 0.0}},
+    {"config/examples/etienne2019_dc_drive/gains.yaml", {1.0, 0.1, 0.0}},
+    {"config/examples/bernard2022_impulsive/gains.yaml", {1.0, 0.0, 0.0}},
+    {"config/examples/bernard2022_bouncing_ball/gains.yaml", {1.0, 0.0, 0.0}},
 };
 
 std::string assumptions_text(const ErrorAssumptions& assumptions) {

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Run {
+struct ToolRun {
   int status = -1;
   std::string output;
 
@@ -41,9 +41,9 @@ class DesignTool : public testing::Test {
     return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   }
 
-  static Run run(const std::string& arguments, const std::string& environment = "") {
+  static ToolRun run(const std::string& arguments, const std::string& environment = "") {
     const std::string command = environment + " " SDO_DESIGN_TOOL " " + arguments + " 2>&1";
-    Run result;
+    ToolRun result;
     FILE* pipe = ::popen(command.c_str(), "r");
     char buffer[4096];
     for (std::size_t got = 0; (got = std::fread(buffer, 1, sizeof buffer, pipe)) > 0;) {
@@ -54,8 +54,8 @@ class DesignTool : public testing::Test {
     return result;
   }
 
-  Run synthesize(const std::string& plant, const std::string& options = "",
-                 const std::string& environment = "") const {
+  ToolRun synthesize(const std::string& plant, const std::string& options = "",
+                     const std::string& environment = "") const {
     return run("synthesize " + plant + " --method ferrante2019_proposition2 -o " +
                    path("gains.yaml") + " " + options,
                environment);
@@ -98,7 +98,7 @@ class DesignTool : public testing::Test {
         "  P1: [[1]]\n"
         "  P2: [[0.5]]\n";
     // The tool tells the hash that it expects.
-    const Run wrong = run("verify " + write("claim.yaml", claim));
+    const ToolRun wrong = run("verify " + write("claim.yaml", claim));
     const std::string before = "scalar.yaml, ";
     const std::size_t at = wrong.output.find(before);
     EXPECT_EQ(wrong.status, 1);
@@ -113,12 +113,12 @@ class DesignTool : public testing::Test {
 };
 
 TEST_F(DesignTool, MakesAGainFileThatVerifiesAndProves) {
-  const Run made = synthesize(write("plant.yaml", oscillator()));
+  const ToolRun made = synthesize(write("plant.yaml", oscillator()));
   ASSERT_EQ(made.status, 0) << made.output;
-  const Run verified = run("verify " + path("gains.yaml"));
+  const ToolRun verified = run("verify " + path("gains.yaml"));
   EXPECT_EQ(verified.status, 0) << verified.output;
   EXPECT_TRUE(verified.says("holds"));
-  const Run proved = run("verify --rigorous " + path("gains.yaml"));
+  const ToolRun proved = run("verify --rigorous " + path("gains.yaml"));
   EXPECT_EQ(proved.status, 0) << proved.output;
   EXPECT_TRUE(proved.says("proved    M(T2) <= 0"));
 }
@@ -129,42 +129,42 @@ TEST_F(DesignTool, DisprovesAGainFileWithAnotherGain) {
   const std::size_t at = gains.find("L: [[") + 5;
   gains.replace(at, gains.find(']', at) - at, "-100");
   write("gains.yaml", gains);
-  const Run checked = run("verify " + path("gains.yaml"));
+  const ToolRun checked = run("verify " + path("gains.yaml"));
   EXPECT_EQ(checked.status, 2) << checked.output;
   EXPECT_TRUE(checked.says("VIOLATED"));
-  const Run disproved = run("verify --rigorous " + path("gains.yaml"));
+  const ToolRun disproved = run("verify --rigorous " + path("gains.yaml"));
   EXPECT_EQ(disproved.status, 2) << disproved.output;
   EXPECT_TRUE(disproved.says("disproved M(0) <= 0"));
 }
 
 TEST_F(DesignTool, TellsWhatItCannotDecide) {
-  const Run undecided = run("verify --rigorous " + write_scalar_claim("2.25"));
+  const ToolRun undecided = run("verify --rigorous " + write_scalar_claim("2.25"));
   EXPECT_EQ(undecided.status, 4) << undecided.output;
   EXPECT_TRUE(undecided.says("undecided M(0) <= 0"));
   EXPECT_TRUE(undecided.says("too close to zero"));
-  const Run proved = run("verify --rigorous " + write_scalar_claim("2.5"));
+  const ToolRun proved = run("verify --rigorous " + write_scalar_claim("2.5"));
   EXPECT_EQ(proved.status, 0) << proved.output;
 }
 
 TEST_F(DesignTool, RefusesAMatrixThatIsNotSquare) {
-  const Run refused =
+  const ToolRun refused =
       synthesize(write("plant.yaml", oscillator("[[0, 1], [-4, 0]]", "[[0, 1, 0], [-4, 0, 0]]")));
   EXPECT_EQ(refused.status, 1);
   EXPECT_TRUE(refused.says("plant/A: expected a 2 x 2 matrix")) << refused.output;
 }
 
 TEST_F(DesignTool, RefusesNumbersThatAreNone) {
-  const Run in_file = synthesize(write("plant.yaml", oscillator("-4", ".nan")));
+  const ToolRun in_file = synthesize(write("plant.yaml", oscillator("-4", ".nan")));
   EXPECT_EQ(in_file.status, 1);
   EXPECT_TRUE(in_file.says("plant/A")) << in_file.output;
   EXPECT_TRUE(in_file.says("finite number")) << in_file.output;
-  const Run given = synthesize(write("plant.yaml", oscillator()), "--set delta=nan");
+  const ToolRun given = synthesize(write("plant.yaml", oscillator()), "--set delta=nan");
   EXPECT_EQ(given.status, 3);
   EXPECT_TRUE(given.says("parameter delta: expected a finite number")) << given.output;
 }
 
 TEST_F(DesignTool, NamesTheModeThatCannotBeDetected) {
-  const Run refused =
+  const ToolRun refused =
       synthesize(write("plant.yaml", oscillator("[[0, 1], [-4, 0]]", "[[0, 0], [1, 2]]")));
   EXPECT_EQ(refused.status, 3);
   EXPECT_TRUE(refused.says("not detectable")) << refused.output;
@@ -173,18 +173,18 @@ TEST_F(DesignTool, NamesTheModeThatCannotBeDetected) {
 }
 
 TEST_F(DesignTool, RefusesTimesInTheWrongOrder) {
-  const Run in_file = synthesize(write("plant.yaml", oscillator("T1: 0.1", "T1: 0.4")));
+  const ToolRun in_file = synthesize(write("plant.yaml", oscillator("T1: 0.1", "T1: 0.4")));
   EXPECT_EQ(in_file.status, 1);
   EXPECT_TRUE(in_file.says("design/sampling/T2: expected a number not less than T1"))
       << in_file.output;
-  const Run given = synthesize(write("plant.yaml", oscillator()), "--T1 0.4");
+  const ToolRun given = synthesize(write("plant.yaml", oscillator()), "--T1 0.4");
   EXPECT_EQ(given.status, 1);
   EXPECT_TRUE(given.says("T1 = 0.4 s is larger than T2 = 0.3 s")) << given.output;
   EXPECT_TRUE(synthesize(write("plant.yaml", oscillator()), "--T2 -1").says("--T2"));
 }
 
 TEST_F(DesignTool, SaysWhatToChangeWhereThereIsNoDesign) {
-  const Run none = synthesize(write("plant.yaml", oscillator()), "--set gain_bound=0.1");
+  const ToolRun none = synthesize(write("plant.yaml", oscillator()), "--set gain_bound=0.1");
   EXPECT_EQ(none.status, 3);
   EXPECT_TRUE(none.says("found no design")) << none.output;
   EXPECT_TRUE(none.says("larger bound on the gain")) << none.output;
@@ -192,61 +192,62 @@ TEST_F(DesignTool, SaysWhatToChangeWhereThereIsNoDesign) {
 }
 
 TEST_F(DesignTool, SurvivesASolverThatTakesTooLong) {
-  const Run none = synthesize(write("plant.yaml", oscillator()), "--time-limit 0");
+  const ToolRun none = synthesize(write("plant.yaml", oscillator()), "--time-limit 0");
   EXPECT_EQ(none.status, 3);
   EXPECT_TRUE(none.says("took longer than the time limit")) << none.output;
 }
 
 TEST_F(DesignTool, NamesWhatIsMissing) {
-  const Run no_times =
+  const ToolRun no_times =
       synthesize(write("plant.yaml", oscillator("  sampling: {T1: 0.1, T2: 0.3}\n", "")));
   EXPECT_EQ(no_times.status, 1);
   EXPECT_TRUE(no_times.says("design/sampling")) << no_times.output;
-  const Run no_A = synthesize(write("plant.yaml", oscillator("  A: [[0, 1], [-4, 0]]\n", "")));
+  const ToolRun no_A = synthesize(write("plant.yaml", oscillator("  A: [[0, 1], [-4, 0]]\n", "")));
   EXPECT_EQ(no_A.status, 1);
   EXPECT_TRUE(no_A.says("plant")) << no_A.output;
-  const Run no_C = synthesize(write("plant.yaml", oscillator("    C: [[1, 0]]\n", "")));
+  const ToolRun no_C = synthesize(write("plant.yaml", oscillator("    C: [[1, 0]]\n", "")));
   EXPECT_EQ(no_C.status, 1);
   EXPECT_TRUE(no_C.says("sensors/position")) << no_C.output;
-  const Run no_file = synthesize(path("nowhere.yaml"));
+  const ToolRun no_file = synthesize(path("nowhere.yaml"));
   EXPECT_EQ(no_file.status, 1);
   EXPECT_TRUE(no_file.says("nowhere.yaml")) << no_file.output;
-  const Run no_claim = run("verify --plant " + write("plant.yaml", oscillator()) + " -- " +
-                           write("bare.yaml", "gains: {L: [[1], [1]], H: [[0]]}\n"));
+  const ToolRun no_claim = run("verify --plant " + write("plant.yaml", oscillator()) + " -- " +
+                               write("bare.yaml", "gains: {L: [[1], [1]], H: [[0]]}\n"));
   EXPECT_EQ(no_claim.status, 1);
   EXPECT_TRUE(no_claim.says("certificate")) << no_claim.output;
 }
 
 TEST_F(DesignTool, RefusesParametersThatAMethodDoesNotHave) {
-  const Run refused = synthesize(write("plant.yaml", oscillator()), "--set alpha=1");
+  const ToolRun refused = synthesize(write("plant.yaml", oscillator()), "--set alpha=1");
   EXPECT_EQ(refused.status, 3);
   EXPECT_TRUE(refused.says("has no parameter 'alpha'; it has lambda_t, delta, gain_bound"))
       << refused.output;
 }
 
 TEST_F(DesignTool, SaysThatTheOutputCannotBeWritten) {
-  const Run refused = run("synthesize " + write("plant.yaml", oscillator()) +
-                          " --method ferrante2019_proposition2 -o " + path("nowhere/gains.yaml"));
+  const ToolRun refused =
+      run("synthesize " + write("plant.yaml", oscillator()) +
+          " --method ferrante2019_proposition2 -o " + path("nowhere/gains.yaml"));
   EXPECT_EQ(refused.status, 1);
   EXPECT_TRUE(refused.says("cannot write " + path("nowhere/gains.yaml"))) << refused.output;
 }
 
 TEST_F(DesignTool, ComparesWithASecondSolverOnRequest) {
   const std::string plant = write("plant.yaml", oscillator());
-  const Run missing = synthesize(plant, "--cross-check sdpa", "PATH=/nonexistent");
+  const ToolRun missing = synthesize(plant, "--cross-check sdpa", "PATH=/nonexistent");
   EXPECT_EQ(missing.status, 1);
   EXPECT_TRUE(missing.says("Debian's package sdpa")) << missing.output;
   if (std::system("command -v sdpa >/dev/null") != 0) {
     GTEST_SKIP() << "the program sdpa is not installed";
   }
-  const Run compared = synthesize(plant, "--cross-check sdpa");
+  const ToolRun compared = synthesize(plant, "--cross-check sdpa");
   EXPECT_EQ(compared.status, 0) << compared.output;
   EXPECT_TRUE(compared.says("SDPA: objective")) << compared.output;
   EXPECT_TRUE(compared.says("they differ by")) << compared.output;
 }
 
 TEST_F(DesignTool, ExplainsItsExitStatus) {
-  const Run help = run("--help");
+  const ToolRun help = run("--help");
   EXPECT_EQ(help.status, 0);
   EXPECT_TRUE(help.says("Exit status")) << help.output;
   EXPECT_GT(run("").status, 99);

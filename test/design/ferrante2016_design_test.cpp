@@ -190,19 +190,43 @@ TEST(Ferrante2016Example2, HasNoLargestT2AndSaysSo) {
   EXPECT_NE(file.str().find("max-T2  # the search ended here"), std::string::npos) << file.str();
 }
 
-TEST(Ferrante2016Corollary1, FindsTheLargestDecayOfADoubleIntegrator) {
-  // L = [1; l] sets the position and multiplies the error of the velocity by 1 - l tau: at a rate d
-  // for tau from 0.5 to 1 with (1 - l/2) e^{d/2} = (l - 1) e^d = 1, so that e^{-d/2} = sqrt(2) - 1.
+/// A position that is measured, and its velocity, every 0.5 to 1 s. L = [1; l] sets the position
+/// and multiplies the error of the velocity by 1 - l tau: at most at the rate d for which (1 - l/2)
+/// e^{d/2} = (l - 1) e^d = 1, so that e^{-d/2} = sqrt(2) - 1.
+CertificateSubject double_integrator() {
   Eigen::MatrixXd A(2, 2);
   A << 0, 1, 0, 0;
   Eigen::MatrixXd position(1, 2);
   position << 1, 0;
-  const double largest = -2.0 * std::log(std::sqrt(2.0) - 1.0);
-  const Design design =
-      design_by(kMethod, linear_subject(A, position, 0.5, 1.0), {}, Objective::kMaxDecay);
+  return linear_subject(A, position, 0.5, 1.0);
+}
+const double kLargestDecay = -2.0 * std::log(std::sqrt(2.0) - 1.0);
+
+TEST(Ferrante2016Theorem1, ProvesTheDecayOfADoubleIntegratorUpToItsLimit) {
+  Eigen::MatrixXd L(2, 1);
+  L << 1.0, 1.0 + std::exp(-kLargestDecay);
+  const auto is_proved = [&](double decay) {
+    return !certified("ferrante2016_theorem1", double_integrator(),
+                      {{"L", L}, {"decay", scalar_matrix(decay)}})
+                .empty();
+  };
+  EXPECT_TRUE(is_proved(0.99 * kLargestDecay));
+  EXPECT_FALSE(is_proved(1.01 * kLargestDecay));
+}
+
+TEST(Ferrante2016Corollary1, FindsALargeDecay) {
+  // With a decay d, the polytope is a rectangle around the curve (e^{d tau}, tau e^{d tau}): it
+  // costs a quarter of the rate.
+  const Design design = design_by(kMethod, double_integrator(), {}, Objective::kMaxDecay);
   EXPECT_TRUE(all_hold(check(design.certificate)));
   EXPECT_FALSE(design.has_no_maximum);
-  EXPECT_NEAR(scalar_value(design.certificate.values, "decay"), largest, 0.01 * largest);
+  const double decay = scalar_value(design.certificate.values, "decay");
+  EXPECT_GT(decay, 0.7 * kLargestDecay);
+  EXPECT_LT(decay, kLargestDecay);
+  // A rate of zero, given as one to begin with, is no obstacle.
+  const Design from_zero =
+      design_by(kMethod, double_integrator(), {{"decay", 0.0}}, Objective::kMaxDecay);
+  EXPECT_GT(scalar_value(from_zero.certificate.values, "decay"), 0.7 * kLargestDecay);
 }
 
 TEST(Ferrante2016Corollary1, TellsWhatItCannotDesignFor) {

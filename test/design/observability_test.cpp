@@ -73,7 +73,7 @@ TEST(PathologicalIntervals, OfTwoOscillatorsAreAlsoTheirBeats) {
 }
 
 TEST(PathologicalIntervals, OfTheAircraftBeginAt8541AndNotAt3425) {
-  // The paper's text says 3.425; errata: pi / 0.36782.
+  // The paper's text says 3.425, which does not follow from (66).
   const auto found = pathological_intervals(kAircraft, kAircraftOutput, 9.0);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_NEAR(found[0].tau, 8.541, 1e-3);

@@ -93,7 +93,7 @@ class SweepTest(ToolTest):
             process.send_signal(number)
             return process.wait(30)
 
-    def test_curve_has_the_values_of_the_errata_and_is_monotone(self):
+    def test_curve_has_the_known_values_and_is_monotone(self):
         self.sweep("out", *self.RANGE)
         curve = list(csv.DictReader(self.read("out/curve.csv").splitlines()))
         self.assertEqual([row["T2"] for row in curve], ["0.2", "0.27", "0.34", "0.41"])

@@ -157,7 +157,7 @@ TEST(Bernard2022BouncingBall, TheErrorShrinksWithEachBounce) {
 }
 
 TEST(Bernard2022Switched, ConvergesBySwitching) {
-  const ExampleRun run = Example("bernard2022_switched").from_zero().run();
+  const ExampleRun run = Example("bernard2022_switched", "gains_formula.yaml").from_zero().run();
   EXPECT_GT(run.jumps.size(), 50u);
   EXPECT_NEAR(std::sqrt(5.25), run.error.at(0.0), 1e-6);
   EXPECT_GT(run.error.at(5.0), 1.0);
@@ -167,7 +167,7 @@ TEST(Bernard2022Switched, ConvergesBySwitching) {
 }
 
 TEST(Bernard2022Switched, StaysUndeterminedWithoutSwitches) {
-  const ExampleRun run = Example("bernard2022_switched")
+  const ExampleRun run = Example("bernard2022_switched", "gains_formula.yaml")
                              .from_zero()
                              .change_scenario([](Scenario& scenario) { scenario.jumps.reset(); })
                              .run();
@@ -180,7 +180,7 @@ TEST(Bernard2022Switched, StaysUndeterminedWithoutSwitches) {
 TEST(Bernard2022Switched, NoModeAloneShowsTheState) {
   for (const int mode : {1, 2}) {
     const ExampleRun run =
-        Example("bernard2022_switched")
+        Example("bernard2022_switched", "gains_formula.yaml")
             .from_zero()
             .change_scenario([=](Scenario& scenario) { scenario.jumps->modes = {mode}; })
             .run();

@@ -29,7 +29,7 @@ class SwitchedExample : public ::testing::Test {
         std::string(SDO_SOURCE_DIR) + "/config/examples/bernard2022_switched/";
     ObserverConfig config = read_observer_config(
         std::vector<std::string>{folder + "scenario.yaml", folder + "observer.yaml",
-                                 folder + "gains.yaml"},
+                                 folder + "gains_formula.yaml"},
         no_plant_plugins);
     config.options.history = {100 * kNanosecondsPerSecond, 1000};
     return Estimator(config.law, config.options);

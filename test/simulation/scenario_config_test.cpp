@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <fstream>
 
-#include "sampled_data_observers/config/observer_config.h"
 #include "simulation/simulation_support.h"
 #include "support/config_faults.h"
 
@@ -219,30 +218,6 @@ scenario: {duration: 1, initial_state: {x: 0}, sensors: {s: {schedule: {file: ti
     EXPECT_THROW(read(wrong), ConfigError) << wrong;
   }
   std::filesystem::remove_all(folder);
-}
-
-TEST(ScenarioConfigTest, EveryShippedExampleIsValidForSimulatorAndObserver) {
-  std::size_t examples = 0;
-  for (const auto& entry :
-       std::filesystem::directory_iterator(std::string(SDO_SOURCE_DIR) + "/config/examples")) {
-    std::vector<std::string> plant;
-    if (std::filesystem::exists(entry.path() / "plant.yaml")) {
-      plant.push_back((entry.path() / "plant.yaml").string());
-    }
-    for (const auto& file : std::filesystem::directory_iterator(entry.path())) {
-      const std::string name = file.path().filename().string();
-      std::vector<std::string> files = plant;
-      files.push_back(file.path().string());
-      if (name.rfind("scenario", 0) == 0) {
-        ++examples;
-        EXPECT_NO_THROW(read_scenario(files, no_plant_plugins)) << file.path();
-      } else if (name.rfind("observer", 0) == 0) {
-        files.push_back((entry.path() / "scenario.yaml").string());
-        EXPECT_NO_THROW(read_observer_config(files, no_plant_plugins)) << file.path();
-      }
-    }
-  }
-  EXPECT_GE(examples, 2u);
 }
 
 }  // namespace

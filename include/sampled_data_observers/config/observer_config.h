@@ -39,8 +39,8 @@ struct ObserverConfig {
   std::string warning;
 };
 
-/// Reads and checks a whole configuration tree, and the certificate where it has one. The key `scenario`, which `simulate` reads, is left
-/// alone.
+/// Reads and checks a whole configuration tree, and the certificate where it has one. The key
+/// `scenario`, which `simulate` reads, is left alone.
 /// @throws ConfigError for the first fault found.
 ObserverConfig read_observer_config(const ConfigNode& root, const PlantPluginLoader& load_plugin);
 

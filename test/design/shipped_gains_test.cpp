@@ -1,0 +1,76 @@
+// Every gain file with a certificate that the package ships: proved in ball arithmetic, and
+// disproved with a gain that is changed enough.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "certificate/certified_gains.h"
+#include "sampled_data_observers/design/rigorous_check.h"
+
+namespace sampled_data_observers::test {
+namespace {
+
+/// Relative to the repository.
+std::vector<std::string> certified_files() {
+  const std::filesystem::path root = SDO_SOURCE_DIR;
+  std::vector<std::string> files;
+  for (const char* folder : {"config/examples", "test/certificate"}) {
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(root / folder)) {
+      if (entry.path().extension() != ".yaml") continue;
+      if (read_yaml_file(entry.path().string()).find("certificate") == nullptr) continue;
+      files.push_back(std::filesystem::relative(entry.path(), root).string());
+    }
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+bool any(const std::vector<ConditionProof>& proofs, ProofStatus status) {
+  return std::any_of(proofs.begin(), proofs.end(),
+                     [status](const ConditionProof& proof) { return proof.status == status; });
+}
+
+class ShippedGainsTest : public ::testing::TestWithParam<std::string> {
+ protected:
+  const Certificate certificate_ = CertifiedGains(GetParam()).certificate();
+  const std::vector<Condition> conditions_ = certificate_.theorem->conditions(certificate_.subject);
+};
+
+TEST_P(ShippedGainsTest, AreProved) {
+  for (const ConditionProof& proof : prove(conditions_, certificate_.values)) {
+    EXPECT_EQ(proof.status, ProofStatus::kProved) << proof.name << ": " << proof.reason;
+  }
+}
+
+TEST_P(ShippedGainsTest, AreDisprovedWithAChangedEntry) {
+  const NamedShape gain = certificate_.theorem->gains(certificate_.subject).front();
+  NamedMatrices values = certificate_.values;
+  double change = 1e-3;
+  for (; change < 1e4; change *= 2.0) {
+    values.at(gain.name) = certificate_.values.at(gain.name);
+    values.at(gain.name)(0, 0) -= change;
+    if (!all_hold(check(conditions_, values))) break;
+  }
+  ASSERT_FALSE(all_hold(check(conditions_, values)));
+  // Away from the edge, where nothing can be decided.
+  values.at(gain.name)(0, 0) -= change;
+  EXPECT_TRUE(any(prove(conditions_, values), ProofStatus::kDisproved));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, ShippedGainsTest, ::testing::ValuesIn(certified_files()), [](const auto& info) {
+      std::string name = info.param;
+      std::replace_if(
+          name.begin(), name.end(),
+          [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; }, '_');
+      return name;
+    });
+
+TEST(ShippedGains, AreThoseOfAllPapers) { EXPECT_GE(certified_files().size(), 16u); }
+
+}  // namespace
+}  // namespace sampled_data_observers::test
