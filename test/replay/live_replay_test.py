@@ -14,7 +14,8 @@ import recordings  # noqa: E402
 from ros_tools import PACKAGE, RosProcess, find_tool, free_port, run_tool  # noqa: E402
 ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", ".."))
 EXAMPLE = os.path.join(ROOT, "config", "examples", "ferrante2016_mass_spring")
-MASS_SPRING = [os.path.join(EXAMPLE, name) for name in ("scenario.yaml", "observer.yaml", "gains.yaml")]
+MASS_SPRING = [os.path.join(EXAMPLE, name)
+               for name in ("scenario.yaml", "observer.yaml", "gains.yaml")]
 CRAZYFLIE = os.path.join(ROOT, "config", "crazyflie_position.yaml")
 
 
@@ -78,10 +79,10 @@ class ExampleTest(ReplayTestCase):
         text = text.replace("history: {duration: 4.0,", "future_tolerance: 0\nhistory: {duration: 0.1,")
         with open(self.path("short.yaml"), "w") as short:
             short.write(text)
-        summary = self.replay(self.path("example.bag"), [MASS_SPRING[0], self.path("short.yaml")],
-                              "out.bag", "input:=/none", "--truth", "truth")
-        alone = self.replay(self.path("example.bag"), [MASS_SPRING[0], self.path("short.yaml")],
-                            "out.bag", "input:=/none")
+        configs = [MASS_SPRING[0], self.path("short.yaml"), MASS_SPRING[2]]
+        summary = self.replay(self.path("example.bag"), configs, "out.bag", "input:=/none",
+                              "--truth", "truth")
+        alone = self.replay(self.path("example.bag"), configs, "out.bag", "input:=/none")
         self.assertGreater(summary["estimates"], 1900)
         self.assertEqual(summary["estimates"], alone["estimates"])
         self.assertEqual(summary["final_state"], alone["final_state"])
