@@ -65,7 +65,7 @@ std::optional<ConfigError> objection(ConfigSection& root, const ConfigNode& tree
                                      const CertificateConfig& claim, const ObserverConfig& config) {
   const ConfigSection section = root.section("certificate");
   const Certificate& certificate = claim.certificate;
-  if (const auto error = objection_to_gains(root, certificate)) return error;
+  if (auto error = objection_to_gains(root, certificate)) return error;
   const std::string hash = plant_fingerprint(tree);
   if (claim.plant_hash != hash) {
     return section.error("plant/hash",
