@@ -3,6 +3,7 @@
 #include <rosbag/view.h>
 #include <sampled_data_observers/StateEstimate.h>
 
+#include <cmath>
 #include <cstring>
 #include <map>
 
@@ -32,9 +33,11 @@ bool rest_on_same_events(const StateEstimate& a, const StateEstimate& b) {
   return a.events == b.events && a.samples == b.samples && a.jumps == b.jumps;
 }
 
+/// NaN is as good as NaN: there is no bound.
+bool is_same_bound(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
+
 bool identical(const StateEstimate& a, const StateEstimate& b) {
-  return a.state.size() == b.state.size() &&
-         std::memcmp(&a.error_bound, &b.error_bound, sizeof(double)) == 0 &&
+  return a.state.size() == b.state.size() && is_same_bound(a.error_bound, b.error_bound) &&
          std::memcmp(a.state.data(), b.state.data(), a.state.size() * sizeof(double)) == 0;
 }
 
