@@ -86,9 +86,10 @@ class QuadraticCondition : public Theorem {
     if (in_flow_ || !subject.plant.stated.is_empty()) return nullptr;
     const ModeMatrices& plant = subject.plant.mode();
     const Eigen::MatrixXd& L_d = values.at("L_d");
+    const double a_c = scalar_value(values, "flow_growth");
+    const double a_d = -a_c * subject.T2 - 2.0 * scalar_value(values, "jump_decay");
     return jump_based_bound(subject, values.at("P"), *plant.A_d - L_d * plant.C_d, L_d,
-                            {scalar_value(values, "a_d") / 2.0, scalar_value(values, "a_c") / 2.0},
-                            assumptions);
+                            {a_d / 2.0, a_c / 2.0}, assumptions);
   }
 
  private:

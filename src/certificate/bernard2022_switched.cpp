@@ -6,18 +6,8 @@
 namespace sampled_data_observers {
 namespace {
 
-std::string of_mode(const std::string& symbol, const ModeMatrices& mode) {
-  return symbol + "/" + std::to_string(mode.label);
-}
-
 std::string between(const ModeMatrices& from, const ModeMatrices& to) {
   return " from mode " + std::to_string(from.label) + " to " + std::to_string(to.label);
-}
-
-/// The jump map of a mode without one is the identity.
-Eigen::MatrixXd jump_of(const ModeMatrices& mode) {
-  return mode.A_d ? *mode.A_d
-                  : Eigen::MatrixXd(Eigen::MatrixXd::Identity(mode.A.rows(), mode.A.rows()));
 }
 
 /// V = (x − x̂)ᵀ P_q (x − x̂) with a matrix for each mode q.

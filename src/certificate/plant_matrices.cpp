@@ -45,6 +45,15 @@ void require_one_sensor_of_each_timing(const Plant& plant) {
 
 }  // namespace
 
+std::string of_mode(const std::string& symbol, const ModeMatrices& mode) {
+  return symbol + "/" + std::to_string(mode.label);
+}
+
+Eigen::MatrixXd jump_of(const ModeMatrices& mode) {
+  return mode.A_d ? *mode.A_d
+                  : Eigen::MatrixXd(Eigen::MatrixXd::Identity(mode.A.rows(), mode.A.rows()));
+}
+
 bool PlantMatrices::jumps() const {
   return std::any_of(modes.begin(), modes.end(),
                      [](const ModeMatrices& mode) { return mode.A_d.has_value(); });

@@ -32,7 +32,7 @@ std::string interval(double low, double high) {
 }
 
 std::optional<ConfigError> objection_to_gains(ConfigSection& root, const Certificate& certificate) {
-  const ConfigSection gains = root.section("gains");
+  ConfigSection gains = root.section("gains");
   const std::vector<NamedShape> known = certificate.theorem->gains(certificate.subject);
   for (const std::string& key : gains.keys()) {
     const bool is_known = std::any_of(known.begin(), known.end(), [&](const NamedShape& shape) {
@@ -44,6 +44,13 @@ std::optional<ConfigError> objection_to_gains(ConfigSection& root, const Certifi
     return gains.error(key,
                        "only gains that " + certificate.theorem->name() + " is about" + kRemedy,
                        "another gain");
+  }
+  if (gains.has("output_injection") && !certificate.subject.plant.stated.A) {
+    return gains.error("output_injection",
+                       "certificate/A, the flow of the error under the injection (design again "
+                       "with design/A), or no output injection" +
+                           std::string(kRemedy),
+                       "a certificate about the plant's own flow");
   }
   return std::nullopt;
 }

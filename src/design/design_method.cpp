@@ -55,7 +55,7 @@ DesignCandidate LmiDesignMethod::solve(const CertificateSubject& subject,
 
 DesignCandidate LmiDesignMethod::attempt(const CertificateSubject& subject,
                                          const Parameters& parameters, Objective objective) const {
-  const DesignCandidate solved = solve(subject, parameters, objective);
+  DesignCandidate solved = solve(subject, parameters, objective);
   if (solved.values.empty()) return solved;
   NamedMatrices fixed;
   for (const NamedShape& shape : theorem().gains(subject)) {

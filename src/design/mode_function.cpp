@@ -55,8 +55,9 @@ ModeFunction::Extrema ModeFunction::extrema(double low, double high) const {
   const double first = turn_before(low) + 1.0;
   const double last = turn_before(high);
   const double at_peak = turn_before(peak);
-  for (double n = std::max(first, at_peak - 1.0); n <= std::min(last, at_peak + 2.0); n += 1.0) {
-    include(time_of_phase(*this, (n + 0.5) * kPi, low, high));
+  const double first_near_peak = std::max(first, at_peak - 1.0);
+  for (int i = 0; i < 4 && first_near_peak + i <= std::min(last, at_peak + 2.0); ++i) {
+    include(time_of_phase(*this, (first_near_peak + i + 0.5) * kPi, low, high));
   }
   return result;
 }

@@ -14,7 +14,7 @@ StandardForm standard_form(const LmiProgram& program, const SolverOptions& optio
   const auto objective = program.compile_objective();
   // Without objective: maximize t, so that strict blocks are >= t I and t <= 1.
   const int t = objective ? -1 : variables;
-  form.objective.assign(static_cast<std::size_t>(variables + (objective ? 0 : 1)), 0.0);
+  form.objective.assign(static_cast<std::size_t>(variables) + (objective ? 0U : 1U), 0.0);
   for (LmiProgram::Block& block : program.compile()) {
     AffineMatrix& matrix = block.matrix;
     // No variable changes it, and it would only bound t.

@@ -20,7 +20,7 @@
 namespace sampled_data_observers {
 namespace {
 
-struct Arguments {
+struct AnalyzeArguments {
   std::string gains;
   std::vector<std::string> plant;
   std::string theorem;
@@ -74,7 +74,7 @@ Parameters claimed(const Certificate& certificate) {
   return parameters;
 }
 
-AnalysisProblem read_problem(const Arguments& arguments, const DesignConfig& config) {
+AnalysisProblem read_problem(const AnalyzeArguments& arguments, const DesignConfig& config) {
   const ConfigNode tree = read_yaml_file(arguments.gains);
   ConfigSection root(tree, "");
   AnalysisProblem problem;
@@ -116,7 +116,7 @@ void print_result(Objective objective, const Design& design) {
   std::printf("%sT2 = %.6g s\n", separator, certificate.subject.T2);
 }
 
-void analyze_command(const Arguments& arguments, const std::string& command_line) {
+void analyze_command(const AnalyzeArguments& arguments, const std::string& command_line) {
   const std::vector<std::string> files = plant_files_of(arguments.gains, arguments.plant);
   const DesignConfig config = read_design_config(files, load_plant_plugin);
   AnalysisProblem problem = read_problem(arguments, config);
@@ -156,7 +156,7 @@ void analyze_command(const Arguments& arguments, const std::string& command_line
 void add_analyze(CLI::App& app, const std::string& command_line) {
   CLI::App* command = app.add_subcommand(
       "analyze", "Find what can be proved of given gains: least gain, fastest rate, largest T2");
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<AnalyzeArguments>();
   std::vector<std::string> names;
   for (const Theorem* theorem : theorems()) names.push_back(theorem->name());
   command->add_option("gains", arguments->gains, "Gain file, with or without certificate")

@@ -17,14 +17,14 @@
 namespace sampled_data_observers {
 namespace {
 
-struct Arguments {
+struct ExplainArguments {
   std::vector<std::string> files;
   double T1 = 0.0;
   double T2 = 0.0;
   std::string plot;
 };
 
-void draw(const CertificateSubject& subject, const Arguments& arguments) {
+void draw(const CertificateSubject& subject, const ExplainArguments& arguments) {
   const std::vector<ObservabilityCurve> curves = observability_curves(subject);
   if (curves.empty()) {
     throw DesignError(arguments.plot +
@@ -51,7 +51,7 @@ void draw(const CertificateSubject& subject, const Arguments& arguments) {
   run_plot_program("plot_curves", json.dump(), arguments.plot);
 }
 
-void explain_command(const Arguments& arguments) {
+void explain_command(const ExplainArguments& arguments) {
   CertificateSubject subject = read_design_config(arguments.files, load_plant_plugin).subject;
   if (arguments.T2 > 0.0) {
     subject.T2 = arguments.T2;
@@ -67,7 +67,7 @@ void explain_command(const Arguments& arguments) {
 
 void add_explain(CLI::App& app) {
   CLI::App* command = app.add_subcommand("explain", "Why designs for a plant can or can't exist");
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<ExplainArguments>();
   command->add_option("plant", arguments->files, "Files with plant, sensors and design")
       ->required()
       ->type_name("PLANT");

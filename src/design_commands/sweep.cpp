@@ -30,7 +30,7 @@ constexpr double kShortest = 0.1;
 /// From this ratio of values on, they are drawn on a logarithmic axis.
 constexpr double kLogarithmicFrom = 8.0;
 
-struct Arguments {
+struct SweepArguments {
   std::vector<std::string> files;
   std::vector<std::string> methods;
   std::string objective;
@@ -54,13 +54,13 @@ void note_interruptions() {
   ::sigaction(SIGTERM, &action, nullptr);
 }
 
-Objective objective_for(const Arguments& arguments, const CertificateSubject& subject) {
+Objective objective_for(const SweepArguments& arguments, const CertificateSubject& subject) {
   if (!arguments.objective.empty()) return objective_of(arguments.objective);
   return methods_for(subject, Objective::kMinGamma).empty() ? Objective::kMaxDecay
                                                             : Objective::kMinGamma;
 }
 
-SweepRequest request_of(const Arguments& arguments, const DesignConfig& config) {
+SweepRequest request_of(const SweepArguments& arguments, const DesignConfig& config) {
   SweepRequest request;
   request.subject = config.subject;
   double low = 0.0;
@@ -108,7 +108,7 @@ const char* axis_label(Objective objective) {
 }
 
 void draw(const SweepRequest& request, const std::vector<CurvePoint>& curves,
-          const Arguments& arguments) {
+          const SweepArguments& arguments) {
   nlohmann::json json;
   json["title"] = arguments.files.front();
   for (const auto& [name, value] : request.given) {
@@ -165,7 +165,7 @@ void print_summary(const SweepRequest& request, const std::vector<CurvePoint>& c
   }
 }
 
-void sweep_command(const Arguments& arguments, const std::string& command_line) {
+void sweep_command(const SweepArguments& arguments, const std::string& command_line) {
   const DesignConfig config = read_design_config(arguments.files, load_plant_plugin);
   const SweepRequest request = request_of(arguments, config);
   SweepFolder folder(arguments.output, request, config.plant_hash);
@@ -215,7 +215,7 @@ void sweep_command(const Arguments& arguments, const std::string& command_line) 
 void add_sweep(CLI::App& app, const std::string& command_line) {
   CLI::App* command = app.add_subcommand(
       "sweep", "Trade-off curves: the best designs over the longest time between samples");
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<SweepArguments>();
   std::vector<std::string> names;
   for (const DesignMethod* method : design_methods()) names.push_back(method->name());
   command->add_option("plant", arguments->files, "Files with plant, sensors and design")

@@ -16,7 +16,7 @@
 namespace sampled_data_observers {
 namespace {
 
-struct Arguments {
+struct SynthesizeArguments {
   std::vector<std::string> files;
   std::string method;
   std::string objective = "feasible";
@@ -30,7 +30,7 @@ struct Arguments {
   std::string cross_check;
 };
 
-void synthesize_command(const Arguments& arguments, const std::string& command_line) {
+void synthesize_command(const SynthesizeArguments& arguments, const std::string& command_line) {
   const DesignConfig config = read_design_config(arguments.files, load_plant_plugin);
   DesignProblem problem;
   problem.subject = config.subject;
@@ -74,7 +74,7 @@ void synthesize_command(const Arguments& arguments, const std::string& command_l
 
 void add_synthesize(CLI::App& app, const std::string& command_line) {
   CLI::App* command = app.add_subcommand("synthesize", "Find gains for a plant, with their proof");
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<SynthesizeArguments>();
   std::vector<std::string> methods;
   std::string help = "How to design:";
   for (const DesignMethod* method : design_methods()) {

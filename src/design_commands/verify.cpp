@@ -17,14 +17,14 @@
 namespace sampled_data_observers {
 namespace {
 
-struct Arguments {
+struct VerifyArguments {
   std::string gains;
   std::vector<std::string> plant;
   bool is_rigorous = false;
 };
 
 /// The claim of a gain file together with its plant: the one named, or the one given.
-CertificateConfig read_claim(const Arguments& arguments) {
+CertificateConfig read_claim(const VerifyArguments& arguments) {
   const ConfigNode gains = read_yaml_file(arguments.gains);
   const std::vector<std::string> files = plant_files_of(arguments.gains, arguments.plant);
   std::vector<ConfigNode> trees;
@@ -81,7 +81,7 @@ void verify_rigorously(const Certificate& certificate) {
   if (is_undecided) throw ExitStatus{kUndecided};
 }
 
-void verify_command(const Arguments& arguments) {
+void verify_command(const VerifyArguments& arguments) {
   const CertificateConfig config = read_claim(arguments);
   const Certificate& certificate = config.certificate;
   std::printf("%s: %s\n", certificate.theorem->name().c_str(),
@@ -98,7 +98,7 @@ void verify_command(const Arguments& arguments) {
 void add_verify(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("verify", "Check the original inequalities of a gain file's theorem");
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<VerifyArguments>();
   command->add_option("gains", arguments->gains, "Gain file")->required()->type_name("GAINS");
   command
       ->add_option("--plant", arguments->plant,

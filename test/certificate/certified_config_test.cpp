@@ -145,6 +145,15 @@ TEST(CertifiedConfigTest, RefusesWhatIsNotProved) {
   }
 }
 
+TEST(CertifiedConfigTest, RefusesAnOutputInjectionThatTheProofDoesNotKnow) {
+  const std::string message =
+      fault(CertifiedGains("config/examples/bernard2022_bouncing_ball/gains.yaml")
+                .with("sensors: {level: {C: [[1, 0]], measured: continuous, "
+                      "source: {topic: level}}}")
+                .with("gains: {output_injection: {theta: level}}"));
+  expect_parts(message, {"gains/output_injection", "certificate/A", "design/A"});
+}
+
 TEST(CertifiedConfigTest, LoadsItWithAWarningAndWithoutBoundWhereThatIsAllowed) {
   for (const Change& change : kUnproved) {
     SCOPED_TRACE(change.yaml);

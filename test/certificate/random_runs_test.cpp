@@ -236,6 +236,7 @@ const Claim kClaims[] = {
     {"config/examples/etienne2019_dc_drive/gains.yaml", {1.0, 0.1, 0.0}},
     {"config/examples/bernard2022_impulsive/gains.yaml", {1.0, 0.0, 0.0}},
     {"config/examples/bernard2022_bouncing_ball/gains.yaml", {1.0, 0.0, 0.0}},
+    {"test/certificate/bernard2022_bouncing_ball_equation26.yaml", {1.0, 0.0, 0.0}},
 };
 
 std::string assumptions_text(const ErrorAssumptions& assumptions) {

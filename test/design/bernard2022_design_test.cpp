@@ -214,7 +214,12 @@ TEST(Bernard2022, FlowBasedGainsForASwitchedPlantWithObservableModes) {
     mode.C_c(0, 0) = 1.0;
     mode.C_c(1, 2) = 1.0;
   }
-  designed("bernard2022_example7_1", subject);
+  const Design design = designed("bernard2022_example7_1", subject);
+  for (const ModeMatrices& mode : subject.plant.modes) {
+    const Eigen::MatrixXd closed =
+        mode.A - design.certificate.values.at(of_mode("L_c", mode)) * mode.C_c;
+    EXPECT_LT(eigenvalues_of(closed).real().maxCoeff(), 0.0) << mode.label;
+  }
 }
 
 TEST(Bernard2022, FasterDesignsFallFasterFromJumpToJump) {

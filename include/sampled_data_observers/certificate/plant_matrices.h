@@ -19,6 +19,12 @@ struct ModeMatrices {
   std::optional<Eigen::MatrixXd> A_d;  ///< n x n: x⁺ = A_d x + b_d at jumps
 };
 
+/// The symbol of one mode of a switched plant: `L_d/2`.
+std::string of_mode(const std::string& symbol, const ModeMatrices& mode);
+
+/// n x n: A_d, or the identity for a mode without jump map.
+Eigen::MatrixXd jump_of(const ModeMatrices& mode);
+
 /// Maps of the observer's error e = x − x̂ that a design states, ė = A e in flow and e⁺ = A_d e at
 /// jumps before any innovation, each n x n. They stand for maps of the plant that are no matrices:
 /// where the observer takes what is nonlinear from measured outputs (output injection), it cancels

@@ -9,15 +9,6 @@
 namespace sampled_data_observers {
 namespace {
 
-std::string of_mode(const std::string& symbol, const ModeMatrices& mode) {
-  return symbol + "/" + std::to_string(mode.label);
-}
-
-Eigen::MatrixXd jump_of(const ModeMatrices& mode) {
-  return mode.A_d ? *mode.A_d
-                  : Eigen::MatrixXd(Eigen::MatrixXd::Identity(mode.A.rows(), mode.A.rows()));
-}
-
 /// bernard2022, example 7.1: with L̃_q = P_q L_q the conditions of all modes are linear.
 class SwitchedFlowBased : public LmiDesignMethod {
  public:
