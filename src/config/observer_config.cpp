@@ -58,6 +58,17 @@ TopicSource read_jumps(ConfigSection& root, const Plant& plant,
   return source;
 }
 
+RealTimeOptions read_real_time(ConfigSection& root) {
+  ConfigSection section = root.section_or_empty("real_time");
+  RealTimeOptions options;
+  if (section.has("priority")) {
+    options.priority = static_cast<int>(section.count("priority", 1, 99, 1));
+  }
+  options.lock_memory = section.flag("lock_memory", false);
+  section.finish();
+  return options;
+}
+
 Eigen::VectorXd read_named_values(ConfigSection& root, const std::string& key,
                                   const std::vector<std::string>& names) {
   Eigen::VectorXd values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(names.size()));
@@ -110,6 +121,7 @@ ObserverConfig read_observer_config(const ConfigNode& tree, const PlantPluginLoa
   config.period = from_seconds(1.0 / root.number_in("rate", 1e-3, 1e5, 100.0));
   config.publish_delay = from_seconds(root.number_in("publish_delay", 0.0, kLongest, 0.0));
   config.frame_id = root.text("frame_id", "");
+  config.real_time = read_real_time(root);
   // Otherwise stamps would leave the window before they are due, or an event from the tolerated
   // future would push all present ones out of it.
   if (config.publish_delay >= config.options.history.history) {

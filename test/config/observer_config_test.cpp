@@ -33,6 +33,7 @@ publish_delay: 0.01
 history: {duration: 3, max_events: 70}
 future_tolerance: 0.25
 frame_id: map
+real_time: {priority: 50, lock_memory: true}
 )";
 
 using test::Fault;
@@ -65,6 +66,8 @@ TEST(ObserverConfigTest, ReadsEveryKey) {
   EXPECT_EQ(50000000, config.options.sampling.T1);
   EXPECT_EQ(250000000, config.options.future_tolerance);
   EXPECT_EQ("map", config.frame_id);
+  EXPECT_EQ(50, config.real_time.priority);
+  EXPECT_TRUE(config.real_time.lock_memory);
   Eigen::VectorXd state(config.law->state_size());
   config.law->initialize(state.data());
   EXPECT_EQ(Eigen::Vector3d(1.0, -2.0, 3.0), state.head(3));

@@ -11,6 +11,7 @@
 #include "sampled_data_observers/observer/estimator.h"
 #include "sampled_data_observers/observer/observer_law.h"
 #include "sampled_data_observers/plant/plant.h"
+#include "sampled_data_observers/real_time/real_time_options.h"
 
 namespace sampled_data_observers {
 
@@ -25,6 +26,7 @@ struct ObserverConfig {
   Duration period = 0;
   Duration publish_delay = 0;
   std::string frame_id;
+  RealTimeOptions real_time;
   /// One per sensor, in the order of the plant's sensors. Empty for a sensor that measures at jumps
   /// and whose outputs the jump events carry.
   std::vector<std::optional<TopicSource>> sensors;

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <pthread.h>
+
+namespace sampled_data_observers {
+
+/// A mutex whose holder runs at the priority of the most urgent thread that waits for it, so that a
+/// thread of real-time priority waits no longer than the work done under it. Lockable by
+/// std::lock_guard and std::unique_lock. Where the system has no such mutexes it is a plain one.
+class PriorityInheritanceMutex {
+ public:
+  PriorityInheritanceMutex();
+  ~PriorityInheritanceMutex();
+  PriorityInheritanceMutex(const PriorityInheritanceMutex&) = delete;
+  PriorityInheritanceMutex& operator=(const PriorityInheritanceMutex&) = delete;
+
+  void lock() { pthread_mutex_lock(&mutex_); }
+  bool try_lock() { return pthread_mutex_trylock(&mutex_) == 0; }
+  void unlock() { pthread_mutex_unlock(&mutex_); }
+
+  pthread_mutex_t* native_handle() { return &mutex_; }
+
+ private:
+  pthread_mutex_t mutex_;
+};
+
+}  // namespace sampled_data_observers

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+#include <ros/timer.h>
+#include <sampled_data_observers/StateEstimate.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "sampled_data_observers/real_time/deadline_thread.h"
+#include "sampled_data_observers/ros/message_pool.h"
+#include "sampled_data_observers/ros/shared_runtime.h"
+
+namespace sampled_data_observers {
+
+/// Publishes the estimates when they are due. Under wall time a thread of its own does it, and
+/// nobody else; under simulated time the callback queue of the handle: a timer, and each event.
+class EstimatePublication {
+ public:
+  /// Advertises; publishes nothing before start().
+  EstimatePublication(const ros::NodeHandle& handle, SharedRuntime& runtime);
+
+  /// @param name  of the nodelet, for its log
+  void start(const RealTimeOptions& options, const std::string& name);
+
+  /// To be called after each event, by the callback queue.
+  void notice_event();
+
+  std::string topic() const { return publisher_.getTopic(); }
+
+ private:
+  DeadlineThread::Clock::time_point publish_by_thread();
+  void publish_by_queue();
+  std::optional<Duration> publish_next();
+
+  ros::NodeHandle handle_;
+  SharedRuntime& runtime_;
+  std::unique_ptr<MessagePool<StateEstimate>> messages_;
+  ros::Publisher publisher_;
+  ros::Timer timer_;
+  std::unique_ptr<DeadlineThread> thread_;
+};
+
+}  // namespace sampled_data_observers

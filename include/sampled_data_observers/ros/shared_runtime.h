@@ -1,0 +1,49 @@
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "sampled_data_observers/real_time/priority_inheritance_mutex.h"
+#include "sampled_data_observers/ros/observer_runtime.h"
+
+namespace sampled_data_observers {
+
+/// The runtime of a live observer, which several threads use: one at a time, and each for the
+/// bounded time of one event or one estimate only.
+class SharedRuntime {
+ public:
+  /// Exclusive use of the runtime, at one instant of ROS time, as long as it lives.
+  class Access {
+   public:
+    explicit Access(SharedRuntime& shared);
+    ~Access();
+    Access(const Access&) = delete;
+    Access& operator=(const Access&) = delete;
+
+    Stamp now() const { return now_; }
+    ObserverRuntime* operator->() const { return shared_.runtime_.get(); }
+
+   private:
+    SharedRuntime& shared_;
+    std::unique_lock<PriorityInheritanceMutex> lock_;
+    Stamp now_;
+    /// How far time went back since the use before.
+    Duration went_back_ = 0;
+  };
+
+  /// @param name           of the nodelet, for its log
+  /// @param reset_service  to be called when time went back
+  SharedRuntime(const ObserverConfig& config, std::string name, std::string reset_service);
+
+  Access access() { return Access(*this); }
+
+ private:
+  PriorityInheritanceMutex mutex_;
+  std::unique_ptr<ObserverRuntime> runtime_;
+  Stamp last_now_ = 0;
+  const std::string name_;
+  const std::string reset_service_;
+};
+
+}  // namespace sampled_data_observers

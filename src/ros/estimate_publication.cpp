@@ -1,0 +1,90 @@
+#include "sampled_data_observers/ros/estimate_publication.h"
+
+#include <ros/console.h>
+
+#include "sampled_data_observers/real_time/memory_lock.h"
+#include "sampled_data_observers/real_time/steady_deadline.h"
+#include "sampled_data_observers/ros/queue_length.h"
+
+namespace sampled_data_observers {
+namespace {
+
+constexpr std::size_t kEstimatesHeld = 16;
+
+void apply(const RealTimeOptions& options, DeadlineThread& thread, const std::string& name) {
+  if (options.lock_memory) {
+    const std::string objection = lock_memory();
+    if (!objection.empty()) {
+      ROS_WARN_NAMED(name, "real_time/lock_memory: not possible, going on without: %s",
+                     objection.c_str());
+    }
+  }
+  if (options.priority) {
+    const std::string objection = thread.set_real_time_priority(*options.priority);
+    if (!objection.empty()) {
+      ROS_WARN_NAMED(name,
+                     "real_time/priority: not possible, going on without: %s (is there a line "
+                     "'rtprio' for this user in /etc/security/limits.conf?)",
+                     objection.c_str());
+    }
+  }
+}
+
+}  // namespace
+
+EstimatePublication::EstimatePublication(const ros::NodeHandle& handle, SharedRuntime& runtime)
+    : handle_(handle), runtime_(runtime) {
+  StateEstimate prototype;
+  {
+    const SharedRuntime::Access access = runtime_.access();
+    access->write(access->estimator().make_estimate(), prototype);
+  }
+  messages_ = std::make_unique<MessagePool<StateEstimate>>(prototype, kEstimatesHeld);
+  publisher_ = handle_.advertise<StateEstimate>("estimate", kQueueLength);
+}
+
+void EstimatePublication::start(const RealTimeOptions& options, const std::string& name) {
+  if (ros::Time::isSimTime()) {
+    timer_ = handle_.createTimer(ros::Duration(1e-3),
+                                 [this](const ros::TimerEvent&) { publish_by_queue(); });
+  } else {
+    thread_ = std::make_unique<DeadlineThread>([this] { return publish_by_thread(); }, "estimates");
+    apply(options, *thread_, name);
+  }
+}
+
+void EstimatePublication::notice_event() {
+  if (!thread_) publish_by_queue();
+}
+
+DeadlineThread::Clock::time_point EstimatePublication::publish_by_thread() {
+  while (true) {
+    const DeadlineThread::Clock::time_point steady_now = DeadlineThread::Clock::now();
+    const std::optional<Duration> wait = publish_next();
+    if (wait) return steady_deadline(*wait, steady_now);
+  }
+}
+
+void EstimatePublication::publish_by_queue() {
+  std::optional<Duration> wait;
+  while (!wait) wait = publish_next();
+  // From now on, whatever roscpp had planned: it would wait until time is where it was before it
+  // went back.
+  const bool from_now = true;
+  timer_.setPeriod(ros::Duration().fromNSec(*wait), from_now);
+}
+
+/// Publishes the next estimate that is due; where there is none, returns how long until then.
+std::optional<Duration> EstimatePublication::publish_next() {
+  const boost::shared_ptr<StateEstimate> message = messages_->take();
+  {
+    const SharedRuntime::Access access = runtime_.access();
+    const Estimate* estimate = access->next_due(access.now());
+    if (estimate == nullptr) return access->next_due_time(access.now()) - access.now();
+    access->write(*estimate, *message);
+  }
+  publisher_.publish(message);
+  return std::nullopt;
+}
+
+}  // namespace sampled_data_observers
