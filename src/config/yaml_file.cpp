@@ -12,49 +12,66 @@ std::string place(const std::string& name, const YAML::Mark& mark) {
   return mark.is_null() ? name : name + ":" + std::to_string(mark.line + 1);
 }
 
-// Deeper than any configuration; a file that nests further is not one, and would exhaust the stack.
+// More than any configuration has. A file that nests further would exhaust the stack, and one of a
+// few aliases of aliases the memory.
 constexpr int kMaxDepth = 16;
+constexpr std::size_t kMaxNodes = 200000;
 
-ConfigNode convert(const YAML::Node& yaml, const std::string& name, const std::string& path,
-                   int depth) {
-  ConfigNode node;
-  node.origin = place(name, yaml.Mark());
-  if (depth > kMaxDepth) {
-    throw ConfigError(node.origin, path, "at most " + std::to_string(kMaxDepth) + " levels",
-                      "more");
-  }
-  switch (yaml.Type()) {
-    case YAML::NodeType::Undefined:
-    case YAML::NodeType::Null:
-      break;
-    case YAML::NodeType::Scalar:
-      node.kind = ConfigNode::Kind::kScalar;
-      node.scalar = yaml.Scalar();
-      break;
-    case YAML::NodeType::Sequence:
-      node.kind = ConfigNode::Kind::kSequence;
-      for (const YAML::Node& item : yaml) {
-        const std::string item_path = path + "[" + std::to_string(node.items.size()) + "]";
-        node.items.push_back(convert(item, name, item_path, depth + 1));
-      }
-      break;
-    case YAML::NodeType::Map:
-      node.kind = ConfigNode::Kind::kMap;
-      for (const auto& entry : yaml) {
-        const std::string origin = place(name, entry.first.Mark());
-        if (!entry.first.IsScalar())
-          throw ConfigError(origin, path, "a name as key", "a structure");
-        const std::string& key = entry.first.Scalar();
-        const std::string key_path = path.empty() ? key : path + "/" + key;
-        if (const ConfigNode* first = node.find(key)) {
-          throw ConfigError(origin, key_path, "each key once", "it at " + first->origin + " too");
+class Converter {
+ public:
+  explicit Converter(const std::string& name) : name_(name) {}
+
+  ConfigNode convert(const YAML::Node& yaml, const std::string& path, int depth) {
+    ConfigNode node;
+    node.origin = place(name_, yaml.Mark());
+    if (depth > kMaxDepth) {
+      throw ConfigError(node.origin, path, "at most " + std::to_string(kMaxDepth) + " levels",
+                        "more");
+    }
+    if (++nodes_ > kMaxNodes) {
+      throw ConfigError(node.origin, path,
+                        "at most " + std::to_string(kMaxNodes) + " values, aliases written out",
+                        "more");
+    }
+    switch (yaml.Type()) {
+      case YAML::NodeType::Undefined:
+      case YAML::NodeType::Null:
+        break;
+      case YAML::NodeType::Scalar:
+        node.kind = ConfigNode::Kind::kScalar;
+        node.scalar = yaml.Scalar();
+        break;
+      case YAML::NodeType::Sequence:
+        node.kind = ConfigNode::Kind::kSequence;
+        for (const YAML::Node& item : yaml) {
+          const std::string item_path = path + "[" + std::to_string(node.items.size()) + "]";
+          node.items.push_back(convert(item, item_path, depth + 1));
         }
-        node.entries.emplace_back(key, convert(entry.second, name, key_path, depth + 1));
-      }
-      break;
+        break;
+      case YAML::NodeType::Map:
+        node.kind = ConfigNode::Kind::kMap;
+        for (const auto& entry : yaml) add_entry(entry.first, entry.second, path, depth, node);
+        break;
+    }
+    return node;
   }
-  return node;
-}
+
+ private:
+  void add_entry(const YAML::Node& key, const YAML::Node& value, const std::string& path, int depth,
+                 ConfigNode& map) {
+    const std::string origin = place(name_, key.Mark());
+    if (!key.IsScalar()) throw ConfigError(origin, path, "a name as key", "a structure");
+    const std::string& name = key.Scalar();
+    const std::string key_path = path.empty() ? name : path + "/" + name;
+    if (const ConfigNode* first = map.find(name)) {
+      throw ConfigError(origin, key_path, "each key once", "it at " + first->origin + " too");
+    }
+    map.entries.emplace_back(name, convert(value, key_path, depth + 1));
+  }
+
+  const std::string& name_;
+  std::size_t nodes_ = 0;
+};
 
 }  // namespace
 
@@ -63,7 +80,7 @@ ConfigNode read_yaml_text(const std::string& text, const std::string& name) {
   try {
     const std::vector<YAML::Node> documents = YAML::LoadAll(text);
     if (documents.size() > 1) throw ConfigError(name, "", "one YAML document", "several");
-    if (!documents.empty()) root = convert(documents.front(), name, "", 0);
+    if (!documents.empty()) root = Converter(name).convert(documents.front(), "", 0);
   } catch (const YAML::Exception& error) {
     throw ConfigError(place(name, error.mark), "", "valid YAML", error.msg);
   }
