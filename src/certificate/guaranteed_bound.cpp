@@ -86,8 +86,9 @@ void GuaranteedBound::flow(Duration duration, double* state, double* workspace) 
   }
 }
 
-bool GuaranteedBound::reset(const Event& event, double* state, double* workspace) const {
-  if (!law().reset(event, state, workspace)) return false;
+Effect GuaranteedBound::reset(const Event& event, double* state, double* workspace) const {
+  const Effect effect = law().reset(event, state, workspace);
+  if (!took_effect(effect)) return effect;
   double& awaiting = own(state)[kAwaiting];
   const bool comes_to_jump =
       event.kind == EventKind::kJumpOutput && awaiting != 0.0 && own(state)[kSince] == 0.0;
@@ -105,7 +106,7 @@ bool GuaranteedBound::reset(const Event& event, double* state, double* workspace
     bound_->jump(then(state) + kState);
     end_reset(state);
   }
-  return true;
+  return effect;
 }
 
 void GuaranteedBound::begin_reset(double* state) const {

@@ -5,6 +5,7 @@
 
 #include "sampled_data_observers/certificate/guaranteed_bound.h"
 #include "sampled_data_observers/config/config_section.h"
+#include "sampled_data_observers/config/gate_config.h"
 #include "sampled_data_observers/config/guarantee_config.h"
 #include "sampled_data_observers/config/law_registry.h"
 #include "sampled_data_observers/config/plant_config.h"
@@ -115,6 +116,8 @@ ObserverConfig read_observer_config(const ConfigNode& tree, const PlantPluginLoa
     config.law = std::make_shared<const GuaranteedBound>(config.law, std::move(guarantee.bound),
                                                          guarantee.error_limit);
   }
+  // Around the error bound, which must not see what a gate keeps out.
+  config.law = read_gates(root, plant, config.law);
   config.options.history = read_history(root);
   config.options.future_tolerance =
       from_seconds(root.number_in("future_tolerance", 0.0, kLongest, 0.5));

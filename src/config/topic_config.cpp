@@ -41,7 +41,9 @@ std::vector<std::optional<TopicSource>> read_sensor_sources(ConfigSection& root,
   ConfigSection sensors = root.section("sensors");
   for (const Sensor& sensor : plant.sensors()) {
     ConfigSection section = sensors.section(sensor.name);
-    for (const char* key : {"C", "h", "output", "measured", "angular", "bias"}) section.has(key);
+    for (const char* key : {"C", "h", "output", "measured", "angular", "bias", "gate"}) {
+      section.has(key);
+    }
     const bool in_jump_events = sensor.timing == SensorTiming::kAtJumps && !section.has("source");
     sources.push_back(in_jump_events ? std::nullopt
                                      : std::optional<TopicSource>(read_sensor_source(

@@ -58,7 +58,8 @@ Timeline::InsertReport Timeline::insert(const Event& event) {
   report.rewound = size_ - position;
   report.insertion = report.rewound == 0 ? Insertion::kAppended : Insertion::kRewound;
   open_position(position, event);
-  report.effect = apply(position);
+  apply(position);
+  report.effect = slot(position).effect;
   for (std::size_t later = position + 1; later < size_; ++later) apply(later);
 
   const Stamp horizon = slot(size_ - 1).event.stamp - limits_.history;
@@ -158,13 +159,27 @@ void Timeline::flow_from(std::size_t origin, Duration duration, StateRef state) 
   system_->flow(duration - whole, state.data(), workspace_.data());
 }
 
-/// Computes the state after the event at `position` from what stands before it.
-Timeline::Effect Timeline::apply(std::size_t position) {
+/// Computes the state after the event at `position`, and what it rests on, from what stands before
+/// it.
+void Timeline::apply(std::size_t position) {
   Slot& current = slots_[order(position)];
+  current.counts = position == 0 ? base_counts_ : slot(position - 1).counts;
+  ++current.counts.events;
+  current.effect = reset(position);
+  if (!took_effect(current.effect)) return;
+  if (current.event.kind == EventKind::kJump) ++current.counts.jumps;
+  if (current.event.kind == EventKind::kSample) {
+    ++current.counts.samples;
+    current.counts.last_sample = current.event.stamp;
+  }
+}
+
+Effect Timeline::reset(std::size_t position) {
+  const Event& event = slot(position).event;
   if (cursor_.origin == order(position)) cursor_.origin.reset();
   auto state = state_after(position);
   const bool is_first = position == 0;
-  const Stamp now = current.event.stamp;
+  const Stamp now = event.stamp;
   const auto restore = [&] {
     if (is_first) {
       state = base_state_;
@@ -179,9 +194,6 @@ Timeline::Effect Timeline::apply(std::size_t position) {
       flow_from(base_origin(), now - *base_stamp_, state);
     }
   };
-  current.counts = is_first ? base_counts_ : slot(position - 1).counts;
-  ++current.counts.events;
-
   const auto hold = [&] {
     restore();
     system_->hold(state.data());
@@ -190,27 +202,20 @@ Timeline::Effect Timeline::apply(std::size_t position) {
   flow();
   const bool flow_is_finite = is_usable(state);
   if (!flow_is_finite) hold();
-  if (!system_->reset(current.event, state.data(), workspace_.data())) return Effect::kRefused;
-  if (!is_usable(state)) {
-    if (flow_is_finite) {
-      restore();
-      flow();
-    } else {
-      hold();
-    }
-    return Effect::kNotFinite;
+  const Effect effect = system_->reset(event, state.data(), workspace_.data());
+  if (!took_effect(effect) || is_usable(state)) return effect;
+  if (flow_is_finite) {
+    restore();
+    flow();
+  } else {
+    hold();
   }
-  if (current.event.kind == EventKind::kJump) ++current.counts.jumps;
-  if (current.event.kind == EventKind::kSample) {
-    ++current.counts.samples;
-    current.counts.last_sample = now;
-  }
-  return Effect::kApplied;
+  return Effect::kNotFinite;
 }
 
 void Timeline::forget_oldest() {
   const Event& oldest = slot(0).event;
-  if (oldest.kind == EventKind::kSample) {
+  if (oldest.kind == EventKind::kSample && took_effect(slot(0).effect)) {
     base_samples_[static_cast<std::size_t>(oldest.channel)] = oldest.stamp;
   }
   if (cursor_.origin == base_origin()) cursor_.origin.reset();
@@ -227,7 +232,7 @@ std::optional<Stamp> Timeline::previous_sample(std::size_t position, const Event
   while (position > 0) {
     const Event& earlier = slot(--position).event;
     if (earlier.kind == EventKind::kSample && earlier.channel == event.channel &&
-        earlier.stamp < event.stamp) {
+        earlier.stamp < event.stamp && took_effect(slot(position).effect)) {
       return earlier.stamp;
     }
   }

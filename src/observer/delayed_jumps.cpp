@@ -35,14 +35,16 @@ void DelayedJumps::flow(Duration duration, double* state, double* workspace) con
   own(state)[kSinceJump] += static_cast<double>(duration);
 }
 
-bool DelayedJumps::reset(const Event& event, double* state, double* workspace) const {
+Effect DelayedJumps::reset(const Event& event, double* state, double* workspace) const {
   double* numbers = own(state);
   double* mu = numbers + kMu;
   const bool pending = numbers[kPending] != 0.0;
   if (event.kind == EventKind::kRelease) {
-    if (!pending || numbers[kSinceJump] != event.values[0]) return false;
+    if (!pending || numbers[kSinceJump] != event.values[0]) {
+      return Effect::kRefused;
+    }
     release(state);
-    return true;
+    return Effect::kApplied;
   }
   if (event.kind == EventKind::kJump) {
     if (pending) release(state);

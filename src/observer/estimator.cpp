@@ -24,11 +24,15 @@ EventOutcome outcome_of(const Timeline::InsertReport& report) {
       break;
   }
   switch (report.effect) {
-    case Timeline::Effect::kNotFinite:
+    case Effect::kNotFinite:
       return EventOutcome::kWouldOverflow;
-    case Timeline::Effect::kRefused:
+    case Effect::kRefused:
       return EventOutcome::kTooFrequent;
-    case Timeline::Effect::kApplied:
+    case Effect::kGated:
+      return EventOutcome::kGated;
+    case Effect::kApplied:
+    case Effect::kPastGate:
+    case Effect::kRestarted:
       break;
   }
   return report.insertion == Timeline::Insertion::kAppended ? EventOutcome::kUsed
@@ -76,6 +80,7 @@ EventReport Estimator::submit(const Event& event, Stamp now) {
   const Timeline::InsertReport inserted = timeline_.insert(event);
   report.outcome = outcome_of(inserted);
   report.rewound = inserted.rewound;
+  report.effect = inserted.effect;
   // Even where the jump has no effect now: whether it has is known for sure only when all events
   // are.
   const bool is_in_log = inserted.insertion == Timeline::Insertion::kAppended ||

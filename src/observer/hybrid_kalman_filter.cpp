@@ -1,6 +1,8 @@
 #include "sampled_data_observers/observer/hybrid_kalman_filter.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "sampled_data_observers/observer/definite_matrix.h"
@@ -12,8 +14,10 @@ PlantObserver::Extras HybridKalmanFilter::extras(const Plant& plant) {
   const Eigen::Index n = plant.states();
   Extras result;
   result.constants = n * n;
-  // An update takes an innovation and four vectors of n; a flow or a jump n² and, of x̂, n.
-  result.workspace = std::max(plant.max_outputs() + 4 * n, n * n + n);
+  const Eigen::Index m = plant.max_outputs();
+  // An update takes an innovation and four vectors of n; a flow or a jump n² and, of x̂, n; a
+  // distance an innovation, its covariance, and P Cᵀ.
+  result.workspace = std::max({m + 4 * n, n * n + n, m + m * m + n * m});
   return result;
 }
 
@@ -51,6 +55,28 @@ HybridKalmanFilter::HybridKalmanFilter(const ObserverContext& context,
 void HybridKalmanFilter::start_from(const double* estimate, double* state) const {
   PlantObserver::start_from(estimate, state);
   std::copy_n(P0_.data(), n() * n(), constants(state));
+}
+
+double HybridKalmanFilter::mahalanobis_distance(const Event& sample, const double* state,
+                                                double* workspace) const {
+  const auto sensor = static_cast<std::size_t>(sample.channel);
+  const Eigen::Index m = sample.size;
+  double* nu = workspace;
+  double* S = nu + m;
+  double* PC = S + m * m;
+  innovation(sample, state, nu);
+  // Where the noise has variance 1, S = I + C P Cᵀ.
+  solve_lower(noise_roots_[sensor].data(), m, m, nu, 1);
+  const double* C = outputs_[held(state).mode][sensor].data();
+  multiply(covariance(state), n(), n(), C, m, PC);
+  for (Eigen::Index j = 0; j < m; ++j) {
+    for (Eigen::Index i = 0; i < m; ++i) {
+      S[j * m + i] = (i == j ? 1.0 : 0.0) + dot(C + i * n(), PC + j * n(), n());
+    }
+  }
+  if (!factor_cholesky(S, m)) return std::numeric_limits<double>::quiet_NaN();
+  solve_lower(S, m, m, nu, 1);
+  return std::sqrt(dot(nu, nu, m));
 }
 
 void HybridKalmanFilter::flow_constants(Duration duration, const Held& held, double* state,

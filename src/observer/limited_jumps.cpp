@@ -39,17 +39,19 @@ void LimitedJumps::flow(Duration duration, double* state, double* workspace) con
   numbers[kSince] = std::min(kLongAgo, numbers[kSince] + static_cast<double>(duration));
 }
 
-bool LimitedJumps::reset(const Event& event, double* state, double* workspace) const {
+Effect LimitedJumps::reset(const Event& event, double* state, double* workspace) const {
   if (event.kind != EventKind::kJump) return law().reset(event, state, workspace);
   double* numbers = own(state);
-  if (numbers[kSince] < static_cast<double>(limits_.min_separation)) return false;
+  if (numbers[kSince] < static_cast<double>(limits_.min_separation)) return Effect::kRefused;
   // Filled up at jumps only, so that the number depends on the jumps alone.
   const double tokens = std::min(
       limits_.max_per_second, numbers[kTokens] + numbers[kSince] * 1e-9 * limits_.max_per_second);
-  if (tokens < 1.0 || !law().reset(event, state, workspace)) return false;
+  if (tokens < 1.0) return Effect::kRefused;
+  const Effect effect = law().reset(event, state, workspace);
+  if (!took_effect(effect)) return effect;
   numbers[kTokens] = tokens - 1.0;
   numbers[kSince] = 0.0;
-  return true;
+  return effect;
 }
 
 }  // namespace sampled_data_observers

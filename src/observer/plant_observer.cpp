@@ -166,6 +166,12 @@ void PlantObserver::start_from(const double* estimate, double* state) const {
   std::copy_n(estimate, n(), state);
 }
 
+void PlantObserver::innovation(const Event& sample, const double* state, double* innovation) const {
+  const Held now = held(state);
+  compute_innovation(*plant_, now.mode, static_cast<std::size_t>(sample.channel), sample.values,
+                     state, now.u, innovation);
+}
+
 PlantObserver::Held PlantObserver::held(const double* state) const {
   Held result;
   result.mode = static_cast<std::size_t>(state[layout_.mode]);
@@ -200,7 +206,7 @@ void PlantObserver::flow(Duration duration, double* state, double* workspace) co
   complete(now, state, workspace);
 }
 
-bool PlantObserver::reset(const Event& event, double* state, double* workspace) const {
+Effect PlantObserver::reset(const Event& event, double* state, double* workspace) const {
   const auto sensor = static_cast<std::size_t>(event.channel);
   switch (event.kind) {
     case EventKind::kInput:
@@ -220,13 +226,13 @@ bool PlantObserver::reset(const Event& event, double* state, double* workspace) 
       const Held now = held(state);
       sample(sensor, event.values, now, state, workspace);
       complete(now, state, workspace);
-      return true;
+      return Effect::kApplied;
     }
     case EventKind::kRelease:
-      return false;
+      return Effect::kRefused;
   }
   complete(held(state), state, workspace);
-  return true;
+  return Effect::kApplied;
 }
 
 void PlantObserver::begin_jump(const Event& event, double* state, double* workspace) const {

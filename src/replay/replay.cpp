@@ -149,7 +149,7 @@ class Replay {
   void count(const Event& event, const EventReport& report) {
     const bool is_sample = event.kind == EventKind::kSample;
     if (!report.used()) {
-      ++summary_.rejected[describe(report.outcome)];
+      ++summary_.rejected[describe(report)];
       if (is_sample) ++summary_.samples_rejected;
       return;
     }
@@ -159,6 +159,7 @@ class Replay {
     if (!is_sample) return;
     ++summary_.samples_used;
     if (report.outcome == EventOutcome::kUsedLate) ++summary_.samples_late;
+    if (report.recovers()) ++summary_.recovered[describe(report)];
     used_stamps_[static_cast<std::size_t>(event.channel)].push_back(event.stamp);
   }
 

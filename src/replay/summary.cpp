@@ -67,6 +67,9 @@ void print_table(const ReplaySummary& summary, std::ostream& out) {
   for (const auto& [reason, count] : summary.rejected) {
     out << "            " << count << " x " << reason << "\n";
   }
+  for (const auto& [what, count] : summary.recovered) {
+    out << "gates       " << count << " x " << what << "\n";
+  }
   if (summary.intervals > 0) {
     out << "intervals   " << shown(summary.interval_min) << " to " << shown(summary.interval_max)
         << " s, mean " << shown(summary.interval_mean) << " s; " << summary.intervals_short
@@ -88,6 +91,7 @@ void write_json(const ReplaySummary& summary, const std::string& path) {
   json["samples_rejected"] = summary.samples_rejected;
   json["samples_withheld"] = summary.samples_withheld;
   json["rejected"] = summary.rejected;
+  json["recovered"] = summary.recovered;
   json["events_used"] = summary.events_used;
   json["outputs_used"] = summary.outputs_used;
   json["jumps_used"] = summary.jumps_used;

@@ -105,8 +105,12 @@ void EventSubscriptions::receive(const EventChannel& channel, const Event& event
   }
   if (!report.used()) {
     ROS_WARN_THROTTLE_NAMED(5.0, name_, "event from %s rejected: %s (stamp %.9f s, latency %.9f s)",
-                            channel.name.c_str(), describe(report.outcome), to_seconds(event.stamp),
+                            channel.name.c_str(), describe(report), to_seconds(event.stamp),
                             status->latency);
+  }
+  if (report.recovers()) {
+    ROS_WARN_THROTTLE_NAMED(5.0, name_, "sample of %s %s (stamp %.9f s)", channel.name.c_str(),
+                            describe(report), to_seconds(event.stamp));
   }
   status_publisher_.publish(status);
   publication_.notice_event();

@@ -28,13 +28,22 @@ static_assert(EventStatus::NOT_FINITE == static_cast<int>(EventOutcome::kNotFini
 static_assert(EventStatus::WOULD_OVERFLOW == static_cast<int>(EventOutcome::kWouldOverflow));
 static_assert(EventStatus::UNKNOWN_MODE == static_cast<int>(EventOutcome::kUnknownMode));
 static_assert(EventStatus::TOO_FREQUENT == static_cast<int>(EventOutcome::kTooFrequent));
+static_assert(EventStatus::GATED == static_cast<int>(EventOutcome::kGated));
 static_assert(EventStatus::INTERVAL_NONE == static_cast<int>(IntervalCheck::kNone));
 static_assert(EventStatus::INTERVAL_WITHIN == static_cast<int>(IntervalCheck::kWithin));
 static_assert(EventStatus::INTERVAL_SHORT == static_cast<int>(IntervalCheck::kShort));
 static_assert(EventStatus::INTERVAL_LONG == static_cast<int>(IntervalCheck::kLong));
 
-const char* describe(EventOutcome outcome) {
-  switch (outcome) {
+const char* describe(const EventReport& report) {
+  switch (report.effect) {
+    case Effect::kPastGate:
+      return "used though outside the gate: all were for recovery/after";
+    case Effect::kRestarted:
+      return "used after a reset: all were outside for recovery/after";
+    default:
+      break;
+  }
+  switch (report.outcome) {
     case EventOutcome::kUsed:
       return "used";
     case EventOutcome::kUsedLate:
@@ -57,6 +66,8 @@ const char* describe(EventOutcome outcome) {
       return "a mode that the plant does not have";
     case EventOutcome::kTooFrequent:
       return "jumps faster than jumps/min_separation or max_per_second allow";
+    case EventOutcome::kGated:
+      return "the innovation lies outside the gate";
   }
   return "";
 }
@@ -99,7 +110,7 @@ EventReport ObserverRuntime::receive(const EventChannel& channel, const Event& e
   status.source = channel.name;
   status.kind = static_cast<std::uint8_t>(event.kind);
   status.outcome = static_cast<std::uint8_t>(report.outcome);
-  status.reason = describe(report.outcome);
+  status.reason = describe(report);
   status.latency = to_seconds(now - event.stamp);
   status.rewound = static_cast<std::uint32_t>(report.rewound);
   status.interval = report.interval ? to_seconds(*report.interval) : kNone;

@@ -11,6 +11,7 @@
 #include <limits>
 
 #include "certificate/certified_gains.h"
+#include "sampled_data_observers/observer/gated_samples.h"
 #include "support/allocation_counter.h"
 #include "support/law_runner.h"
 #include "support/random_events.h"
@@ -56,6 +57,26 @@ std::shared_ptr<const GuaranteedBound> bounded(const std::shared_ptr<const Obser
 
 std::shared_ptr<const GuaranteedBound> bounded_example(const std::string& type) {
   return bounded(read_example(type).law);
+}
+
+TEST(GuaranteedBoundTest, AGatedSampleDoesNotShortenItAndARecoveryByResetLosesIt) {
+  Gate gate;
+  gate.innovation = Eigen::VectorXd::Constant(1, 1.0);
+  gate.recover_after = 2 * kSecond;
+  gate.recovery = Gate::Recovery::kReset;
+  const auto law = std::make_shared<const GatedSamples>(
+      bounded(example_law()), std::vector<std::optional<Gate>>{gate, std::nullopt});
+  LawRunner runner(law);
+  const auto bound = [&] { return law->error_bound(runner.state().data()); };
+  EXPECT_TRUE(runner.sample(0, {runner.estimate()(0)}));
+  EXPECT_EQ(4.0, bound());
+  runner.flow(kSecond);
+  EXPECT_FALSE(runner.sample(0, {9.0}));
+  EXPECT_EQ(5.0, bound());
+  runner.flow(2 * kSecond);
+  EXPECT_EQ(7.0, bound());
+  EXPECT_TRUE(runner.sample(0, {9.0}));
+  EXPECT_EQ(kInfinity, bound());
 }
 
 TEST(GuaranteedBoundTest, FollowsFlowSamplesAndJumps) {

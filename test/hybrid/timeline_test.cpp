@@ -240,7 +240,7 @@ TEST_F(TimelineTest, WhatWouldOverflowIsSkippedAndTheEstimateStaysFinite) {
   const OwnedEvent bad{kStart + kSecond, EventKind::kSample, 1, {kHuge, -kHuge}};
   const OwnedEvent worse{kStart + kSecond + 1, EventKind::kSample, 0, {-kHuge}};
   timeline.insert(bad.view());
-  EXPECT_EQ(Timeline::Effect::kNotFinite, timeline.insert(worse.view()).effect);
+  EXPECT_EQ(Effect::kNotFinite, timeline.insert(worse.view()).effect);
   const Snapshot after = snapshot(timeline, *law_, kStart + kSecond + 1);
   for (const double value : after.state) EXPECT_TRUE(std::isfinite(value));
   EXPECT_EQ(before.events + 2, after.events);
@@ -261,8 +261,7 @@ TEST_F(TimelineTest, AnOverflowingFlowHoldsTheLastFiniteState) {
   const Snapshot held = snapshot(timeline, *law, kStart + 100 * kSecond);
   EXPECT_EQ(Timeline::Query::kHeld, held.query);
   EXPECT_EQ(2.0, held.state.front());
-  EXPECT_EQ(Timeline::Effect::kApplied,
-            timeline.insert(sample(kStart + 100 * kSecond, 3.0).view()).effect);
+  EXPECT_EQ(Effect::kApplied, timeline.insert(sample(kStart + 100 * kSecond, 3.0).view()).effect);
   const Snapshot recovered = snapshot(timeline, *law, kStart + 100 * kSecond);
   EXPECT_EQ(Timeline::Query::kOk, recovered.query);
   EXPECT_EQ(3.0, recovered.state.front());

@@ -71,7 +71,7 @@ struct Body {
   }
   void take(EventKind kind, int channel, std::vector<double> values) {
     const OwnedEvent event{kStart, kind, channel, std::move(values)};
-    EXPECT_TRUE(law->reset(event.view(), state.data(), workspace.data()));
+    EXPECT_EQ(Effect::kApplied, law->reset(event.view(), state.data(), workspace.data()));
   }
   void flow(double seconds) { law->flow(from_seconds(seconds), state.data(), workspace.data()); }
   Eigen::Vector2d x() const { return state.head(2); }

@@ -134,6 +134,41 @@ frame_id: map
   EventStatus status_;
 };
 
+TEST(GateStatusTest, SaysWhatAGateKeptOutAndThatItRecovered) {
+  const char kText[] = R"(
+observer: ConstantGainObserver
+plant: {states: [p], A: [[0]]}
+sensors: {s: {C: [[1]], gate: {innovation: 1, recovery: {after: 2, action: accept}}, source: {topic: s}}}
+sampling: {T1: 0.5, T2: 2}
+gains: {L: [[1]]}
+)";
+  const auto replace = [](std::string text, const std::string& from, const std::string& to) {
+    return text.replace(text.find(from), from.size(), to);
+  };
+  for (const std::string& text : {std::string(kText), replace(kText, "accept", "reset")}) {
+    const ObserverConfig config =
+        read_observer_config(read_yaml_text(text, "test.yaml"), no_plant_plugins);
+    const std::vector<EventChannel> channels = event_channels(config);
+    ObserverRuntime runtime(config);
+    EventStatus status;
+    const auto send = [&](Stamp seconds, double value) {
+      const Stamp stamp = seconds * kNanosecondsPerSecond;
+      return runtime.receive(channels[0], {stamp, EventKind::kSample, 0, &value, 1}, stamp, status);
+    };
+    send(1, 0.0);
+    send(2, 9.0);
+    EXPECT_EQ(EventStatus::GATED, status.outcome);
+    EXPECT_NE(std::string::npos, status.reason.find("outside the gate"));
+    EXPECT_TRUE(std::isnan(status.interval));
+    EXPECT_TRUE(send(4, 9.0).recovers());
+    EXPECT_EQ(EventStatus::USED, status.outcome);
+    EXPECT_NE(std::string::npos, status.reason.find("recovery/after")) << status.reason;
+    EXPECT_EQ(text == kText ? std::string::npos : 5, status.reason.find("after a reset"));
+    EXPECT_LE(status.reason.size(), 64u);
+    EXPECT_EQ(3.0, status.interval);
+  }
+}
+
 TEST_F(ObserverRuntimeTest, WritesStatusAndEstimate) {
   receive(1'000'000'000, 2.0);
   receive(1'100'000'000, 3.0);

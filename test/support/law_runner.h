@@ -39,7 +39,7 @@ class LawRunner {
   bool reset(EventKind kind, int channel, const std::vector<double>& values) {
     EXPECT_EQ(static_cast<Eigen::Index>(values.size()), law_->event_size(kind, channel));
     const Event event{1, kind, channel, values.data(), static_cast<Eigen::Index>(values.size()), 0};
-    return law_->reset(event, state_.data(), workspace_.data());
+    return took_effect(law_->reset(event, state_.data(), workspace_.data()));
   }
 
   std::shared_ptr<const ObserverLaw> law_;

@@ -26,7 +26,7 @@ class GuaranteedBound : public LawDecorator {
 
   void initialize(double* state) const override;
   void flow(Duration duration, double* state, double* workspace) const override;
-  bool reset(const Event& event, double* state, double* workspace) const override;
+  Effect reset(const Event& event, double* state, double* workspace) const override;
   void hold(double* state) const override;
   double error_bound(const double* state) const override;
 

@@ -1,12 +1,27 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <limits>
 
 #include "sampled_data_observers/hybrid/event.h"
 #include "sampled_data_observers/hybrid/time.h"
 
 namespace sampled_data_observers {
+
+/// What an event did to the state.
+enum class Effect : std::uint8_t {
+  kApplied,
+  kRefused,    ///< nothing: a jump that comes too soon after others
+  kGated,      ///< nothing: a sample whose innovation lies outside its gate
+  kPastGate,   ///< applied although it lies outside its gate: so did all others for too long
+  kRestarted,  ///< the same, to an estimate that began anew
+  kNotFinite   ///< nothing: the result would not have been finite
+};
+
+constexpr bool took_effect(Effect effect) {
+  return effect == Effect::kApplied || effect == Effect::kPastGate || effect == Effect::kRestarted;
+}
 
 /// A hybrid system whose jumps are driven by events: it flows between them and is reset at them.
 ///
@@ -52,9 +67,9 @@ class HybridSystem {
   /// keep what must not outlive such a gap.
   virtual void hold(double* state) const { static_cast<void>(state); }
 
-  /// Reset map of an event that event_size() accepts. Returns false, and leaves the state alone,
-  /// where the event must not take effect: a jump that comes too soon after others.
-  virtual bool reset(const Event& event, double* state, double* workspace) const = 0;
+  /// Reset map of an event that event_size() accepts. Where the event must not take effect, nothing
+  /// changes but what the system remembers of such events. Never returns kNotFinite.
+  virtual Effect reset(const Event& event, double* state, double* workspace) const = 0;
 };
 
 }  // namespace sampled_data_observers

@@ -32,8 +32,8 @@ struct EventCounts {
 /// event, or less when more than `max_events` events lie in it.
 ///
 /// A flow or reset whose result is not finite, or beyond 1e150, is skipped: the last good state is
-/// held. That, too, is a function of the events alone. A sample or jump whose reset is skipped, or
-/// refused by the system, counts as an event only.
+/// held. That, too, is a function of the events alone. A sample or jump without effect counts as an
+/// event only.
 ///
 /// Everything is allocated by the constructor; afterwards nothing is.
 class Timeline {
@@ -55,17 +55,11 @@ class Timeline {
     kBeforeWindow,  ///< older than the history window; nothing changed
   };
 
-  enum class Effect {
-    kApplied,
-    kNotFinite,  ///< its reset was skipped: the result is not finite
-    kRefused     ///< HybridSystem::reset() returned false
-  };
-
   struct InsertReport {
     Insertion insertion = Insertion::kAppended;
     std::size_t rewound = 0;
     Effect effect = Effect::kApplied;
-    /// For a sample: stamp of the newest one of the same channel before it.
+    /// For a sample: stamp of the newest one of the same channel before it that took effect.
     std::optional<Stamp> previous_sample;
   };
 
@@ -107,6 +101,7 @@ class Timeline {
   struct Slot {
     Event event;
     EventCounts counts;
+    Effect effect = Effect::kApplied;
   };
 
   std::size_t ring_index(std::size_t position) const {
@@ -120,7 +115,8 @@ class Timeline {
   std::size_t position_after(const Event& event) const;
   bool is_before_window(Stamp stamp) const;
   void open_position(std::size_t position, const Event& event);
-  Effect apply(std::size_t position);
+  void apply(std::size_t position);
+  Effect reset(std::size_t position);
   void flow_from(std::size_t origin, Duration duration, StateRef state) const;
   std::size_t base_origin() const { return slots_.size(); }
   void forget_oldest();
@@ -149,7 +145,8 @@ class Timeline {
   bool base_is_restart_ = false;
   EventCounts base_counts_;
   Eigen::VectorXd base_state_;
-  /// Stamp of the newest sample of each channel before the oldest event of the log.
+  /// Stamp of the newest sample of each channel that took effect before the oldest event of the
+  /// log.
   std::vector<std::optional<Stamp>> base_samples_;
 
   /// Scratch of the maps; it makes even queries a matter of one thread at a time.

@@ -22,7 +22,7 @@ class DelayedJumps : public LawDecorator {
   Eigen::Index max_event_size() const override;
   void initialize(double* state) const override;
   void flow(Duration duration, double* state, double* workspace) const override;
-  bool reset(const Event& event, double* state, double* workspace) const override;
+  Effect reset(const Event& event, double* state, double* workspace) const override;
   bool delays_jumps() const override { return true; }
 
  private:

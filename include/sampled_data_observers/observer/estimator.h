@@ -29,7 +29,8 @@ enum class EventOutcome : std::uint8_t {
   kNotFinite = 7,      ///< a value is NaN, infinite or beyond kLargestValue
   kWouldOverflow = 8,  ///< taken in, but its effect is not finite and was skipped
   kUnknownMode = 9,    ///< a jump into a mode that the plant does not have
-  kTooFrequent = 10    ///< taken in without effect: jumps come faster than the limits allow
+  kTooFrequent = 10,   ///< taken in without effect: jumps come faster than the limits allow
+  kGated = 11          ///< taken in without effect: the innovation lies outside the gate
 };
 
 /// How the time since the previous sample compares with the configured bounds.
@@ -44,11 +45,16 @@ struct EventReport {
   EventOutcome outcome = EventOutcome::kUsed;
   /// Number of later events that were applied again.
   std::size_t rewound = 0;
-  /// Time since the newest sample of the same sensor with an earlier stamp; used samples only.
+  /// What the event did, where it was taken in.
+  Effect effect = Effect::kApplied;
+  /// Time since the newest sample of the same sensor that was used and has an earlier stamp; used
+  /// samples only.
   std::optional<Duration> interval;
   IntervalCheck interval_check = IntervalCheck::kNone;
 
   bool used() const { return outcome == EventOutcome::kUsed || outcome == EventOutcome::kUsedLate; }
+  /// Whether the sample was used since its gate had kept out all others for too long.
+  bool recovers() const { return effect == Effect::kPastGate || effect == Effect::kRestarted; }
 };
 
 /// The bounds T1 <= T2 on the time between samples for which the gains were designed [ns].

@@ -39,6 +39,8 @@ class HybridKalmanFilter : public PlantObserver {
   /// P, n x n.
   const double* covariance(const double* state) const override { return constants(state); }
   void start_from(const double* estimate, double* state) const override;
+  double mahalanobis_distance(const Event& sample, const double* state,
+                              double* workspace) const override;
 
  protected:
   void sample(std::size_t sensor, const double* y, const Held& held, double* state,

@@ -30,6 +30,13 @@ class LawDecorator : public ObserverLaw {
     law_->start_from(estimate, state);
   }
   const double* covariance(const double* state) const override { return law_->covariance(state); }
+  void innovation(const Event& sample, const double* state, double* innovation) const override {
+    law_->innovation(sample, state, innovation);
+  }
+  double mahalanobis_distance(const Event& sample, const double* state,
+                              double* workspace) const override {
+    return law_->mahalanobis_distance(sample, state, workspace);
+  }
   double error_bound(const double* state) const override { return law_->error_bound(state); }
   void hold(double* state) const override { law_->hold(state); }
   bool delays_jumps() const override { return law_->delays_jumps(); }

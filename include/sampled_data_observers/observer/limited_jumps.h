@@ -25,7 +25,7 @@ class LimitedJumps : public LawDecorator {
 
   void initialize(double* state) const override;
   void flow(Duration duration, double* state, double* workspace) const override;
-  bool reset(const Event& event, double* state, double* workspace) const override;
+  Effect reset(const Event& event, double* state, double* workspace) const override;
 
  private:
   JumpLimits limits_;

@@ -42,6 +42,19 @@ class ObserverLaw : public HybridSystem {
     return nullptr;
   }
 
+  /// The innovation y − h(x̂, u) of a sample, angles wrapped: event.size entries.
+  virtual void innovation(const Event& sample, const double* state, double* innovation) const = 0;
+
+  /// The Mahalanobis distance √(νᵀ S⁻¹ ν) of a sample's innovation ν, whose covariance is S; NaN
+  /// where the law has no covariance.
+  virtual double mahalanobis_distance(const Event& sample, const double* state,
+                                      double* workspace) const {
+    static_cast<void>(sample);
+    static_cast<void>(state);
+    static_cast<void>(workspace);
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+
   /// A guaranteed bound on the norm |x − x̂| of the estimate's error in a state, units of the state:
   /// infinite where what it rests on did not hold, NaN where the law gives none.
   virtual double error_bound(const double* state) const {

@@ -48,11 +48,12 @@ class PlantObserver : public ObserverLaw {
   void flow(Duration duration, double* state, double* workspace) const override;
   Duration flow_step() const override;
   Duration flow_horizon() const override;
-  bool reset(const Event& event, double* state, double* workspace) const override;
+  Effect reset(const Event& event, double* state, double* workspace) const override;
   bool knows_mode(const Event& event) const override;
   void keep_held(const double* from, double* state) const override;
   void keep_mode(const double* from, double* state) const override;
   void start_from(const double* estimate, double* state) const override;
+  void innovation(const Event& sample, const double* state, double* innovation) const override;
 
  protected:
   /// What a law keeps beside x̂.

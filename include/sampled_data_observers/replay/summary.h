@@ -35,6 +35,8 @@ struct ReplaySummary {
   /// Number of rejected events by reason; samples alone and all events.
   std::map<std::string, std::size_t> rejected;
   std::size_t samples_rejected = 0;
+  /// Number of samples used since a gate recovered, by what it did.
+  std::map<std::string, std::size_t> recovered;
   std::size_t events_used = 0;
   std::size_t outputs_used = 0;  ///< of these: values of continuous outputs
   std::size_t jumps_used = 0;    ///< and jumps

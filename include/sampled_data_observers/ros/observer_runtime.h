@@ -64,7 +64,7 @@ class ObserverRuntime {
   Estimate estimate_;
 };
 
-/// The outcome in a few words.
-const char* describe(EventOutcome outcome);
+/// The outcome in a few words, and whether a gate recovered.
+const char* describe(const EventReport& report);
 
 }  // namespace sampled_data_observers
