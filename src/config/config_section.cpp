@@ -102,6 +102,10 @@ bool ConfigSection::is_list(const std::string& key) {
   return has(key) && node_.find(key)->kind == ConfigNode::Kind::kSequence;
 }
 
+bool ConfigSection::is_number(const std::string& key) {
+  return has(key) && as_number(*node_.find(key)).has_value();
+}
+
 double ConfigSection::number(const std::string& key) {
   const ConfigNode& node = required(key, "a finite number");
   const std::optional<double> value = as_number(node);

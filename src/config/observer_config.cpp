@@ -125,6 +125,7 @@ ObserverConfig read_observer_config(const ConfigNode& tree, const PlantPluginLoa
   config.publish_delay = from_seconds(root.number_in("publish_delay", 0.0, kLongest, 0.0));
   config.frame_id = root.text("frame_id", "");
   config.real_time = read_real_time(root);
+  config.outputs = read_outputs(root, config.law->estimate_names(), config.frame_id);
   // Otherwise stamps would leave the window before they are due, or an event from the tolerated
   // future would push all present ones out of it.
   if (config.publish_delay >= config.options.history.history) {

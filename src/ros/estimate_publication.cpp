@@ -2,8 +2,11 @@
 
 #include <ros/console.h>
 
+#include <utility>
+
 #include "sampled_data_observers/real_time/memory_lock.h"
 #include "sampled_data_observers/real_time/steady_deadline.h"
+#include "sampled_data_observers/real_time/thread_cpu_time.h"
 #include "sampled_data_observers/ros/queue_length.h"
 
 namespace sampled_data_observers {
@@ -32,8 +35,9 @@ void apply(const RealTimeOptions& options, DeadlineThread& thread, const std::st
 
 }  // namespace
 
-EstimatePublication::EstimatePublication(const ros::NodeHandle& handle, SharedRuntime& runtime)
-    : handle_(handle), runtime_(runtime) {
+EstimatePublication::EstimatePublication(const ros::NodeHandle& handle, SharedRuntime& runtime,
+                                         std::unique_ptr<EstimateOutputs> outputs)
+    : handle_(handle), runtime_(runtime), outputs_(std::move(outputs)) {
   StateEstimate prototype;
   {
     const SharedRuntime::Access access = runtime_.access();
@@ -76,14 +80,21 @@ void EstimatePublication::publish_by_queue() {
 
 /// Publishes the next estimate that is due; where there is none, returns how long until then.
 std::optional<Duration> EstimatePublication::publish_next() {
+  const Duration cpu_time = thread_cpu_time();
   const boost::shared_ptr<StateEstimate> message = messages_->take();
   {
     const SharedRuntime::Access access = runtime_.access();
     const Estimate* estimate = access->next_due(access.now());
     if (estimate == nullptr) return access->next_due_time(access.now()) - access.now();
     access->write(*estimate, *message);
+    const ObserverLaw& law = access->estimator().law();
+    if (outputs_) outputs_->take(law, *estimate);
+    runtime_.statistics().record_estimate(law, *estimate,
+                                          access->lateness(estimate->stamp, access.now()));
   }
   publisher_.publish(message);
+  if (outputs_) outputs_->publish();
+  runtime_.statistics().record_tick(thread_cpu_time() - cpu_time);
   return std::nullopt;
 }
 

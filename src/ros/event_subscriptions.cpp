@@ -102,6 +102,7 @@ void EventSubscriptions::receive(const EventChannel& channel, const Event& event
   {
     const SharedRuntime::Access access = runtime_.access();
     report = access->receive(channel, event, access.now(), *status);
+    runtime_.statistics().record_event(channel.index, event, report, access.now() - event.stamp);
   }
   if (!report.used()) {
     ROS_WARN_THROTTLE_NAMED(5.0, name_, "event from %s rejected: %s (stamp %.9f s, latency %.9f s)",

@@ -1,5 +1,7 @@
 #include "sampled_data_observers/ros/observer_nodelet.h"
 
+#include <utility>
+
 #include "sampled_data_observers/ros/parameter_tree.h"
 #include "sampled_data_observers/ros/plant_plugins.h"
 
@@ -26,6 +28,7 @@ void ObserverNodelet::onInit() {
 }
 
 void ObserverNodelet::stop() {
+  diagnostics_.reset();
   services_.reset();
   subscriptions_.reset();
   publication_.reset();
@@ -36,11 +39,18 @@ void ObserverNodelet::start(const ObserverConfig& config) {
   // Callbacks run as soon as there is something to call: all is made before anything starts.
   const ros::NodeHandle& handle = getNodeHandle();
   runtime_ = std::make_unique<SharedRuntime>(config, getName(), handle.resolveName("reset"));
-  publication_ = std::make_unique<EstimatePublication>(handle, *runtime_);
+  std::unique_ptr<EstimateOutputs> outputs;
+  if (config.outputs) {
+    outputs = std::make_unique<EstimateOutputs>(handle, *config.outputs, config.period);
+  }
+  publication_ = std::make_unique<EstimatePublication>(handle, *runtime_, std::move(outputs));
   subscriptions_ = std::make_unique<EventSubscriptions>(handle, event_channels(config), *runtime_,
                                                         *publication_, getName());
   // Their queue has threads of its own, so that events go on while a service works.
   services_ = std::make_unique<ObserverServices>(getMTNodeHandle(), *runtime_);
+  diagnostics_ =
+      std::make_unique<DiagnosticsReporter>(getMTNodeHandle(), getMTPrivateNodeHandle(), getName(),
+                                            diagnosis_subject(config), runtime_->statistics());
   publication_->start(config.real_time, getName());
   subscriptions_->start();
   NODELET_INFO("%s: %zu states, estimates at %.6g Hz on %s", type_.c_str(),

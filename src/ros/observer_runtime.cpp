@@ -94,6 +94,7 @@ std::vector<EventChannel> event_channels(const ObserverConfig& config) {
   }
   if (config.input) channels.push_back({EventKind::kInput, 0, "input", *config.input});
   if (config.jumps) channels.push_back({EventKind::kJump, 0, "jumps", *config.jumps});
+  for (std::size_t i = 0; i < channels.size(); ++i) channels[i].index = i;
   return channels;
 }
 

@@ -12,6 +12,7 @@ namespace sampled_data_observers {
 SharedRuntime::SharedRuntime(const ObserverConfig& config, std::string name,
                              std::string reset_service)
     : runtime_(std::make_unique<ObserverRuntime>(config)),
+      statistics_(event_channels(config).size()),
       name_(std::move(name)),
       reset_service_(std::move(reset_service)) {}
 

@@ -58,6 +58,8 @@ class ConfigSection {
   std::vector<std::string> keys() const;
   bool is_map(const std::string& key);
   bool is_list(const std::string& key);
+  /// Whether the key has a finite number.
+  bool is_number(const std::string& key);
   /// A section that has no keys where the key is missing.
   ConfigSection section_or_empty(const std::string& key);
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sampled_data_observers/config/config_node.h"
+#include "sampled_data_observers/config/outputs_config.h"
 #include "sampled_data_observers/config/plant_config.h"
 #include "sampled_data_observers/config/topic_config.h"
 #include "sampled_data_observers/observer/estimator.h"
@@ -34,6 +35,8 @@ struct ObserverConfig {
   std::optional<TopicSource> input;
   /// Set when the plant jumps; its size is the number of outputs measured at jumps.
   std::optional<TopicSource> jumps;
+  /// Set where the estimate is also given in standard messages.
+  std::optional<OutputsConfig> outputs;
   /// Name of the theorem that guarantees something for these gains, and what; empty without a
   /// certificate that holds.
   std::string guarantee;

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "sampled_data_observers/real_time/deadline_thread.h"
+#include "sampled_data_observers/ros/estimate_outputs.h"
 #include "sampled_data_observers/ros/message_pool.h"
 #include "sampled_data_observers/ros/shared_runtime.h"
 
@@ -20,7 +21,9 @@ namespace sampled_data_observers {
 class EstimatePublication {
  public:
   /// Advertises; publishes nothing before start().
-  EstimatePublication(const ros::NodeHandle& handle, SharedRuntime& runtime);
+  /// @param outputs  what else is to publish the estimates; may be null
+  EstimatePublication(const ros::NodeHandle& handle, SharedRuntime& runtime,
+                      std::unique_ptr<EstimateOutputs> outputs);
 
   /// @param name  of the nodelet, for its log
   void start(const RealTimeOptions& options, const std::string& name);
@@ -39,6 +42,7 @@ class EstimatePublication {
   SharedRuntime& runtime_;
   std::unique_ptr<MessagePool<StateEstimate>> messages_;
   ros::Publisher publisher_;
+  std::unique_ptr<EstimateOutputs> outputs_;
   ros::Timer timer_;
   std::unique_ptr<DeadlineThread> thread_;
 };

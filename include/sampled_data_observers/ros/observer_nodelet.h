@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "sampled_data_observers/ros/diagnostics_reporter.h"
 #include "sampled_data_observers/ros/estimate_publication.h"
 #include "sampled_data_observers/ros/event_subscriptions.h"
 #include "sampled_data_observers/ros/observer_services.h"
@@ -34,6 +35,7 @@ class ObserverNodelet : public nodelet::Nodelet {
   std::unique_ptr<EstimatePublication> publication_;
   std::unique_ptr<EventSubscriptions> subscriptions_;
   std::unique_ptr<ObserverServices> services_;
+  std::unique_ptr<DiagnosticsReporter> diagnostics_;
 };
 
 }  // namespace sampled_data_observers

@@ -20,6 +20,8 @@ struct EventChannel {
   /// Name in EventStatus: the sensor's, "input" or "jumps".
   std::string name;
   TopicSource source;
+  /// Place among all channels of the configuration.
+  std::size_t index = 0;
 };
 
 /// What the values of a sensor are as events.
@@ -44,6 +46,9 @@ class ObserverRuntime {
 
   /// The time at which the estimate after those due at `now` becomes due.
   Stamp next_due_time(Stamp now) const { return grid_.next_due_time(now); }
+
+  /// How long the estimate of a stamp is overdue at `now` [ns].
+  Duration lateness(Stamp stamp, Stamp now) const { return now - stamp - config_.publish_delay; }
 
   /// The estimate at any stamp; nothing, and why in `reason`, where there is none.
   const Estimate* estimate_at(Stamp stamp, std::string& reason);

@@ -4,6 +4,7 @@
 #include <mutex>
 #include <string>
 
+#include "sampled_data_observers/observer/run_statistics.h"
 #include "sampled_data_observers/real_time/priority_inheritance_mutex.h"
 #include "sampled_data_observers/ros/observer_runtime.h"
 
@@ -38,9 +39,13 @@ class SharedRuntime {
 
   Access access() { return Access(*this); }
 
+  /// For any thread, at any time.
+  StatisticsRecorder& statistics() { return statistics_; }
+
  private:
   PriorityInheritanceMutex mutex_;
   std::unique_ptr<ObserverRuntime> runtime_;
+  StatisticsRecorder statistics_;
   Stamp last_now_ = 0;
   const std::string name_;
   const std::string reset_service_;

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sampled_data_observers/config/config_section.h"
+#include "sampled_data_observers/hybrid/time.h"
+#include "sampled_data_observers/observer/body_estimate.h"
+
+namespace sampled_data_observers {
+
+/// How tf is told where the body is.
+struct TransformOutput {
+  /// Empty: the body's pose itself, world frame → base frame. Otherwise the frame of an odometry
+  /// that publishes odom frame → base frame itself: what is published is world frame → odom frame.
+  std::string odom_frame;
+  /// Added to the stamp of the estimate [ns]; may be negative.
+  Duration time_offset = 0;
+  /// How long an estimate waits for the transform odom frame → base frame of its stamp [ns].
+  Duration timeout = 0;
+};
+
+/// The estimate in standard messages: that of a rigid body. doc/configuration.md describes the
+/// keys.
+struct OutputsConfig {
+  BodyStates body;
+  std::string world_frame;
+  /// Empty where no output needs it.
+  std::string base_frame;
+  /// Topics.
+  std::optional<std::string> odometry;
+  std::optional<std::string> pose;
+  std::optional<std::string> twist;
+  std::optional<TransformOutput> transform;
+};
+
+/// Reads the section `outputs`; nothing where there is none.
+/// @param states       names of the estimated states
+/// @param world_frame  the key `frame_id`
+/// @throws ConfigError for the first fault: a state that does not exist, a frame that is missing.
+std::optional<OutputsConfig> read_outputs(ConfigSection& root,
+                                          const std::vector<std::string>& states,
+                                          const std::string& world_frame);
+
+}  // namespace sampled_data_observers

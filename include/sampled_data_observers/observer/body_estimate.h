@@ -1,0 +1,78 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <array>
+#include <optional>
+
+namespace sampled_data_observers {
+
+/// Pose and velocity of a rigid body, with their covariances in the order of ROS: x, y, z, then the
+/// rotations about x, y, z.
+struct BodyEstimate {
+  using Covariance = Eigen::Matrix<double, 6, 6>;
+
+  /// Of the body in the world frame [m].
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  /// From the body frame to the world frame.
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
+  /// In the body frame [m/s, rad/s].
+  Eigen::Vector3d linear_velocity = Eigen::Vector3d::Zero();
+  Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();
+  /// Of position and of small rotations about the axes of the world frame.
+  Covariance pose_covariance = Covariance::Zero();
+  /// Of the velocities in the body frame.
+  Covariance twist_covariance = Covariance::Zero();
+};
+
+/// One number of a body's pose or velocity: an estimated state or, without one, a constant.
+struct BodyNumber {
+  std::optional<Eigen::Index> state;
+  double constant = 0.0;
+};
+
+/// Which states of a plant are the pose and the velocity of a rigid body.
+struct BodyStates {
+  std::array<BodyNumber, 3> position;
+  /// Roll, pitch and yaw: the body is rotated about the fixed axes x, y, z of the world, in this
+  /// order.
+  std::array<BodyNumber, 3> roll_pitch_yaw;
+  /// x, y, z, w; instead of roll, pitch and yaw where present.
+  std::optional<std::array<BodyNumber, 4>> quaternion;
+  std::array<BodyNumber, 3> linear_velocity;
+  std::array<BodyNumber, 3> angular_velocity;
+  /// Whether the velocities are those along the axes of the world frame instead of the body's.
+  bool velocity_in_world = false;
+  /// Variances of what the observer has no covariance of, in the order of BodyEstimate.
+  std::array<double, 6> pose_variances{};
+  std::array<double, 6> twist_variances{};
+};
+
+/// Reads a body's pose and velocity off an estimate. Allocates nothing.
+class BodyReader {
+ public:
+  /// @pre every state is an index of the estimates to be read
+  explicit BodyReader(const BodyStates& states);
+
+  /// @param estimate    n states
+  /// @param covariance  n x n, symmetric; null where the observer has none
+  ///
+  /// A quaternion is normalized, and is the identity where it is too short for that. Covariances
+  /// are carried over to first order; the uncertainty of the orientation is left out of those of
+  /// velocities given in the world frame.
+  void read(const double* estimate, const double* covariance, Eigen::Index n,
+            BodyEstimate& body) const;
+
+ private:
+  using Numbers = std::array<BodyNumber, 7>;
+
+  void read_orientation(const double* estimate, BodyEstimate& body,
+                        Eigen::Matrix<double, 3, 4>& jacobian) const;
+
+  BodyStates states_;
+  /// Position and orientation, and the two velocities: what the covariances are of.
+  Numbers pose_;
+  std::array<BodyNumber, 6> twist_;
+};
+
+}  // namespace sampled_data_observers

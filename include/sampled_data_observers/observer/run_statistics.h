@@ -1,0 +1,104 @@
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "sampled_data_observers/observer/estimator.h"
+#include "sampled_data_observers/observer/range_recorder.h"
+
+namespace sampled_data_observers {
+
+/// Codes of EventOutcome lie below.
+constexpr std::size_t kOutcomeCodes = 16;
+
+/// What became of the events of one channel.
+struct ChannelStatistics {
+  /// By the codes of EventOutcome.
+  std::array<std::uint64_t, kOutcomeCodes> outcomes{};
+  /// Time of arrival minus stamp [ns].
+  Range latency;
+  /// Time between used samples of this sensor [ns], and how many were outside of [T1, T2].
+  Range interval;
+  std::uint64_t short_intervals = 0;
+  std::uint64_t long_intervals = 0;
+  /// Stamps of the first and last samples whose interval was outside.
+  Range violations;
+  /// Numbers of later events that were applied again, for each late event.
+  Range rewound;
+
+  std::uint64_t received() const;
+  std::uint64_t count(EventOutcome outcome) const {
+    return outcomes[static_cast<std::size_t>(outcome)];
+  }
+  std::uint64_t used() const { return count(EventOutcome::kUsed) + count(EventOutcome::kUsedLate); }
+
+  void add(const ChannelStatistics& other);
+};
+
+/// What an observer did in some time.
+struct RunStatistics {
+  explicit RunStatistics(std::size_t channels) : channels(channels) {}
+
+  std::vector<ChannelStatistics> channels;
+  /// Of each estimate published: how long after it was due [ns].
+  Range lateness;
+  /// How many of them were held.
+  std::uint64_t held = 0;
+  /// CPU time that each tick of the publishing thread took [ns].
+  Range tick_cpu_time;
+  /// Of the newest estimate.
+  std::optional<Stamp> newest_estimate;
+  double error_bound = 0.0;
+  /// Stamp of the first estimate without finite error bound since the last one that had one.
+  std::optional<Stamp> bound_lost_since;
+
+  /// @pre as many channels
+  void add(const RunStatistics& later);
+};
+
+/// Records what an observer does. Any thread may record, without lock, allocation or waiting; one
+/// thread at a time may take.
+class StatisticsRecorder {
+ public:
+  explicit StatisticsRecorder(std::size_t channels) : channels_(channels) {}
+
+  /// @param latency  time of arrival minus stamp [ns]
+  void record_event(std::size_t channel, const Event& event, const EventReport& report,
+                    Duration latency) noexcept;
+
+  /// An estimate that was published.
+  /// @param lateness  how long after it was due [ns]
+  void record_estimate(const ObserverLaw& law, const Estimate& estimate,
+                       Duration lateness) noexcept;
+
+  /// @param cpu_time  of the thread, in one tick [ns]
+  void record_tick(Duration cpu_time) noexcept { tick_cpu_time_.record(cpu_time); }
+
+  /// What was recorded since the last call. @pre as many channels
+  void take(RunStatistics& statistics) noexcept;
+
+ private:
+  struct Channel {
+    std::array<std::atomic<std::uint64_t>, kOutcomeCodes> outcomes{};
+    RangeRecorder latency;
+    RangeRecorder interval;
+    std::atomic<std::uint64_t> short_intervals{0};
+    std::atomic<std::uint64_t> long_intervals{0};
+    RangeRecorder violations;
+    RangeRecorder rewound;
+  };
+
+  std::vector<Channel> channels_;
+  RangeRecorder lateness_;
+  RangeRecorder tick_cpu_time_;
+  std::atomic<std::uint64_t> held_{0};
+  /// 0 where there is none.
+  std::atomic<Stamp> newest_estimate_{0};
+  std::atomic<Stamp> bound_lost_since_{0};
+  std::atomic<double> error_bound_{0.0};
+};
+
+}  // namespace sampled_data_observers

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sampled_data_observers/hybrid/event.h"
+#include "sampled_data_observers/observer/run_statistics.h"
+
+namespace sampled_data_observers {
+
+/// The levels of diagnostic_msgs/DiagnosticStatus.
+enum class HealthLevel : std::uint8_t { kOk = 0, kWarn = 1, kError = 2, kStale = 3 };
+
+/// One line of diagnostics: what is the matter and what to do, and the figures behind it.
+struct Finding {
+  HealthLevel level = HealthLevel::kOk;
+  std::string message;
+  std::vector<std::pair<std::string, std::string>> values;
+};
+
+/// What an observer is configured to do, as far as diagnostics compare it with what it does.
+struct DiagnosisSubject {
+  struct Channel {
+    /// As in EventStatus.
+    std::string name;
+    std::string topic;
+    EventKind kind = EventKind::kSample;
+  };
+
+  std::vector<Channel> channels;
+  /// Of the estimates [ns].
+  Duration period = 0;
+  SamplingBounds sampling;
+  /// As in ObserverConfig.
+  std::string guarantee;
+  std::string warning;
+};
+
+/// Judges what an observer did in a time, for people who ask why there is no estimate, or why a
+/// measurement was not used. It keeps what it needs to tell since when something is so.
+class Diagnosis {
+ public:
+  explicit Diagnosis(DiagnosisSubject subject);
+
+  /// Takes in what was recorded since the last call.
+  /// @param now      ROS time; 0 while there is none
+  /// @param elapsed  ROS time since the last call [ns]; 0 where time stands still
+  void update(const RunStatistics& window, Stamp now, Duration elapsed);
+
+  /// "estimates": whether they come at their rate and in time.
+  Finding estimates() const;
+  /// What becomes of the messages of one channel.
+  Finding channel(std::size_t index) const;
+  /// Whether what the certificate rests on holds.
+  Finding certificate() const;
+
+  const DiagnosisSubject& subject() const { return subject_; }
+
+ private:
+  struct ChannelMemory {
+    /// When the last window with a message, and the last with a used one, ended; 0: never.
+    Stamp received = 0;
+    Stamp used = 0;
+  };
+  /// What the certificate rests on and does not hold.
+  struct Suspension {
+    Stamp since = 0;
+    std::string reason;
+  };
+
+  std::optional<Suspension> find_suspension() const;
+  std::string why_bound_is_lost() const;
+  std::string why_no_estimate() const;
+  std::string rejections(const ChannelStatistics& statistics) const;
+
+  const DiagnosisSubject subject_;
+  RunStatistics window_;
+  RunStatistics totals_;
+  std::vector<ChannelMemory> memory_;
+  Stamp now_ = 0;
+  Duration elapsed_ = 0;
+  std::optional<Suspension> suspension_;
+  /// When the last suspension ended, and what it was.
+  Stamp restored_ = 0;
+  Suspension last_suspension_;
+};
+
+/// What a person can do about events with this outcome; empty where nothing need be done.
+const char* remedy(EventOutcome outcome);
+
+}  // namespace sampled_data_observers

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/node_handle.h>
+#include <ros/steady_timer.h>
+
+#include <string>
+
+#include "sampled_data_observers/config/observer_config.h"
+#include "sampled_data_observers/observer/run_statistics.h"
+#include "sampled_data_observers/ros/diagnosis.h"
+
+namespace sampled_data_observers {
+
+/// What the diagnostics of an observer compare it with.
+DiagnosisSubject diagnosis_subject(const ObserverConfig& config);
+
+/// Publishes a Diagnosis on /diagnostics, once a second of wall time: also while simulated time
+/// stands still.
+class DiagnosticsReporter {
+ public:
+  /// @param handle  its callback queue reports: it must not be that of a thread in a hurry
+  /// @param name    of the node or nodelet
+  DiagnosticsReporter(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle,
+                      const std::string& name, DiagnosisSubject subject,
+                      StatisticsRecorder& recorder);
+
+ private:
+  void report(const ros::SteadyTimerEvent&);
+
+  StatisticsRecorder& recorder_;
+  Diagnosis diagnosis_;
+  RunStatistics window_;
+  Stamp last_now_ = 0;
+  diagnostic_updater::Updater updater_;
+  ros::SteadyTimer timer_;
+};
+
+}  // namespace sampled_data_observers

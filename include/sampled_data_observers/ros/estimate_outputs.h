@@ -1,0 +1,41 @@
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include <memory>
+#include <optional>
+
+#include "sampled_data_observers/config/outputs_config.h"
+#include "sampled_data_observers/observer/estimator.h"
+#include "sampled_data_observers/ros/body_output.h"
+#include "sampled_data_observers/ros/odometry_listener.h"
+#include "sampled_data_observers/ros/transform_publisher.h"
+
+namespace sampled_data_observers {
+
+/// Publishes estimates in standard messages and to tf, as the section `outputs` of the
+/// configuration says. To be used by the thread that publishes the estimates.
+class EstimateOutputs {
+ public:
+  /// @param period  of the estimates [ns]
+  EstimateOutputs(ros::NodeHandle handle, const OutputsConfig& config, Duration period);
+
+  /// Takes in an estimate of a law: nothing of either is needed afterwards.
+  void take(const ObserverLaw& law, const Estimate& estimate);
+
+  /// Publishes what was taken in last.
+  void publish();
+
+ private:
+  BodyReader reader_;
+  Stamp stamp_ = 0;
+  BodyEstimate body_;
+  std::optional<BodyOutput<nav_msgs::Odometry>> odometry_;
+  std::optional<BodyOutput<geometry_msgs::PoseWithCovarianceStamped>> pose_;
+  std::optional<BodyOutput<geometry_msgs::TwistWithCovarianceStamped>> twist_;
+  /// In the map mode of tf.
+  std::unique_ptr<OdometryListener> listener_;
+  std::optional<TransformPublisher> transform_;
+};
+
+}  // namespace sampled_data_observers

@@ -1,0 +1,167 @@
+#include "sampled_data_observers/config/outputs_config.h"
+
+#include <algorithm>
+#include <array>
+
+namespace sampled_data_observers {
+namespace {
+
+constexpr double kLongestOffset = 10.0;   // s
+constexpr double kLongestTimeout = 10.0;  // s
+
+BodyNumber read_body_number(ConfigSection& section, const std::string& key,
+                            const std::vector<std::string>& states) {
+  BodyNumber number;
+  if (!section.has(key)) return number;
+  if (section.is_number(key)) {
+    number.constant = section.number(key);
+    return number;
+  }
+  const std::string name = section.text(key);
+  const auto found = std::find(states.begin(), states.end(), name);
+  if (found == states.end()) {
+    std::string known;
+    for (const std::string& state : states) known += (known.empty() ? "" : ", ") + state;
+    throw section.error(key, "a number or the name of a state (" + known + ")", "'" + name + "'");
+  }
+  number.state = found - states.begin();
+  return number;
+}
+
+template <std::size_t N>
+std::array<BodyNumber, N> read_body_numbers(ConfigSection section,
+                                            const std::array<const char*, N>& keys,
+                                            const std::vector<std::string>& states) {
+  std::array<BodyNumber, N> numbers;
+  for (std::size_t i = 0; i < N; ++i) numbers[i] = read_body_number(section, keys[i], states);
+  section.finish();
+  return numbers;
+}
+
+void read_orientation(ConfigSection& outputs, const std::vector<std::string>& states,
+                      BodyStates& body) {
+  if (!outputs.has("orientation")) return;
+  ConfigSection section = outputs.section("orientation");
+  const std::array<const char*, 4> components = {"x", "y", "z", "w"};
+  const bool is_quaternion = std::any_of(components.begin(), components.end(),
+                                         [&](const char* key) { return section.has(key); });
+  if (!is_quaternion) {
+    const std::array<const char*, 3> angles = {"roll", "pitch", "yaw"};
+    body.roll_pitch_yaw = read_body_numbers(section, angles, states);
+    return;
+  }
+  for (const char* key : components) {
+    if (!section.has(key)) {
+      throw section.error(key, "all of x, y, z, w (a quaternion), or roll, pitch, yaw",
+                          "nothing (the key is missing)");
+    }
+  }
+  body.quaternion = read_body_numbers(section, components, states);
+}
+
+std::array<double, 6> read_variances(ConfigSection& section, const std::string& key) {
+  std::array<double, 6> variances{};
+  if (!section.has(key)) return variances;
+  const Eigen::VectorXd values = section.vector(key, 6);
+  if (values.minCoeff() < 0.0) throw section.error(key, "six variances >= 0", "a negative one");
+  std::copy_n(values.data(), variances.size(), variances.begin());
+  return variances;
+}
+
+BodyStates read_body(ConfigSection& outputs, const std::vector<std::string>& states) {
+  const std::array<const char*, 3> axes = {"x", "y", "z"};
+  BodyStates body;
+  body.position = read_body_numbers(outputs.section_or_empty("position"), axes, states);
+  read_orientation(outputs, states, body);
+  body.linear_velocity =
+      read_body_numbers(outputs.section_or_empty("linear_velocity"), axes, states);
+  body.angular_velocity =
+      read_body_numbers(outputs.section_or_empty("angular_velocity"), axes, states);
+  if (outputs.has("velocity_frame")) {
+    body.velocity_in_world = outputs.choice("velocity_frame", {"base", "world"}) == "world";
+  }
+  body.pose_variances = read_variances(outputs, "pose_covariance_diagonal");
+  body.twist_variances = read_variances(outputs, "twist_covariance_diagonal");
+  return body;
+}
+
+std::optional<std::string> read_topic(ConfigSection& outputs, const std::string& key) {
+  if (!outputs.has(key)) return std::nullopt;
+  ConfigSection section = outputs.section(key);
+  std::string topic = section.text("topic");
+  section.finish();
+  return topic;
+}
+
+TransformOutput read_transform(ConfigSection section) {
+  TransformOutput transform;
+  if (section.choice("mode", {"odom", "map"}) == "map") {
+    transform.odom_frame = section.text("odom_frame");
+    transform.timeout = from_seconds(section.number_in("timeout", 0.0, kLongestTimeout, 0.5));
+  }
+  transform.time_offset = from_seconds(
+      section.number_in("transform_time_offset", -kLongestOffset, kLongestOffset, 0.0));
+  section.finish();
+  return transform;
+}
+
+/// What the outputs need to mean anything.
+void require_frames(ConfigSection& section, const OutputsConfig& outputs) {
+  if (outputs.world_frame.empty()) {
+    throw ConfigError(section.origin(), "frame_id",
+                      "the name of the world frame, since there are outputs",
+                      "nothing (the key is missing)");
+  }
+  if (outputs.base_frame.empty() && (outputs.odometry || outputs.twist || outputs.transform)) {
+    throw section.error("base_frame", "the name of the body's frame",
+                        "nothing (the key is missing)");
+  }
+  if (outputs.base_frame == outputs.world_frame) {
+    throw section.error("base_frame", "another frame than frame_id",
+                        "'" + outputs.base_frame + "'");
+  }
+  if (!outputs.transform) return;
+  const std::string& odom_frame = outputs.transform->odom_frame;
+  if (odom_frame == outputs.world_frame || odom_frame == outputs.base_frame) {
+    throw section.error("tf", "another odom_frame than frame_id and base_frame",
+                        "'" + odom_frame + "'");
+  }
+}
+
+void require_states(ConfigSection& section, const OutputsConfig& outputs) {
+  const bool has_pose = section.has("position") || section.has("orientation");
+  const bool has_velocity = section.has("linear_velocity") || section.has("angular_velocity");
+  if (!has_pose && (outputs.odometry || outputs.pose || outputs.transform)) {
+    throw section.error("position", "the states of the body's position, or of its orientation",
+                        "neither");
+  }
+  if (!has_velocity && outputs.twist) {
+    throw section.error("linear_velocity", "the states of the body's velocity, for twist", "none");
+  }
+  if (!outputs.odometry && !outputs.pose && !outputs.twist && !outputs.transform) {
+    throw section.error("odometry", "one of odometry, pose, twist and tf", "none");
+  }
+}
+
+}  // namespace
+
+std::optional<OutputsConfig> read_outputs(ConfigSection& root,
+                                          const std::vector<std::string>& states,
+                                          const std::string& world_frame) {
+  if (!root.has("outputs")) return std::nullopt;
+  ConfigSection section = root.section("outputs");
+  OutputsConfig outputs;
+  outputs.body = read_body(section, states);
+  outputs.world_frame = world_frame;
+  outputs.base_frame = section.text("base_frame", "");
+  outputs.odometry = read_topic(section, "odometry");
+  outputs.pose = read_topic(section, "pose");
+  outputs.twist = read_topic(section, "twist");
+  if (section.has("tf")) outputs.transform = read_transform(section.section("tf"));
+  section.finish();
+  require_frames(section, outputs);
+  require_states(section, outputs);
+  return outputs;
+}
+
+}  // namespace sampled_data_observers

@@ -1,0 +1,92 @@
+#include "sampled_data_observers/observer/run_statistics.h"
+
+#include <cmath>
+#include <numeric>
+
+namespace sampled_data_observers {
+namespace {
+
+constexpr std::memory_order kRelaxed = std::memory_order_relaxed;
+
+void increment(std::atomic<std::uint64_t>& counter) { counter.fetch_add(1, kRelaxed); }
+
+std::optional<Stamp> as_stamp(Stamp stamp) {
+  return stamp == 0 ? std::nullopt : std::optional<Stamp>(stamp);
+}
+
+}  // namespace
+
+std::uint64_t ChannelStatistics::received() const {
+  return std::accumulate(outcomes.begin(), outcomes.end(), std::uint64_t{0});
+}
+
+void ChannelStatistics::add(const ChannelStatistics& other) {
+  for (std::size_t i = 0; i < outcomes.size(); ++i) outcomes[i] += other.outcomes[i];
+  latency.add(other.latency);
+  interval.add(other.interval);
+  short_intervals += other.short_intervals;
+  long_intervals += other.long_intervals;
+  violations.add(other.violations);
+  rewound.add(other.rewound);
+}
+
+void RunStatistics::add(const RunStatistics& later) {
+  for (std::size_t i = 0; i < channels.size(); ++i) channels[i].add(later.channels[i]);
+  lateness.add(later.lateness);
+  held += later.held;
+  tick_cpu_time.add(later.tick_cpu_time);
+  newest_estimate = later.newest_estimate;
+  error_bound = later.error_bound;
+  bound_lost_since = later.bound_lost_since;
+}
+
+void StatisticsRecorder::record_event(std::size_t index, const Event& event,
+                                      const EventReport& report, Duration latency) noexcept {
+  Channel& channel = channels_[index];
+  increment(channel.outcomes[static_cast<std::size_t>(report.outcome)]);
+  if (report.outcome != EventOutcome::kNoStamp) channel.latency.record(latency);
+  if (report.rewound > 0) channel.rewound.record(static_cast<std::int64_t>(report.rewound));
+  if (!report.interval) return;
+  channel.interval.record(*report.interval);
+  if (report.interval_check == IntervalCheck::kShort) increment(channel.short_intervals);
+  if (report.interval_check == IntervalCheck::kLong) increment(channel.long_intervals);
+  if (report.interval_check != IntervalCheck::kWithin) channel.violations.record(event.stamp);
+}
+
+void StatisticsRecorder::record_estimate(const ObserverLaw& law, const Estimate& estimate,
+                                         Duration lateness) noexcept {
+  lateness_.record(lateness);
+  if (estimate.held) increment(held_);
+  newest_estimate_.store(estimate.stamp, kRelaxed);
+  const double bound = law.error_bound(estimate.state.data());
+  error_bound_.store(bound, kRelaxed);
+  if (!std::isinf(bound)) {
+    bound_lost_since_.store(0, kRelaxed);
+  } else if (bound_lost_since_.load(kRelaxed) == 0) {
+    bound_lost_since_.store(estimate.stamp, kRelaxed);
+  }
+}
+
+void StatisticsRecorder::take(RunStatistics& statistics) noexcept {
+  for (std::size_t i = 0; i < channels_.size(); ++i) {
+    Channel& from = channels_[i];
+    ChannelStatistics& to = statistics.channels[i];
+    for (std::size_t code = 0; code < kOutcomeCodes; ++code) {
+      to.outcomes[code] = from.outcomes[code].exchange(0, kRelaxed);
+    }
+    to.latency = from.latency.take();
+    to.interval = from.interval.take();
+    to.short_intervals = from.short_intervals.exchange(0, kRelaxed);
+    to.long_intervals = from.long_intervals.exchange(0, kRelaxed);
+    to.violations = from.violations.take();
+    to.rewound = from.rewound.take();
+  }
+  statistics.lateness = lateness_.take();
+  statistics.held = held_.exchange(0, kRelaxed);
+  statistics.tick_cpu_time = tick_cpu_time_.take();
+  statistics.newest_estimate = as_stamp(newest_estimate_.load(kRelaxed));
+  statistics.error_bound = error_bound_.load(kRelaxed);
+  statistics.bound_lost_since = as_stamp(bound_lost_since_.load(kRelaxed));
+}
+
+}  // namespace sampled_data_observers

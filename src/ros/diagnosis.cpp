@@ -1,0 +1,331 @@
+#include "sampled_data_observers/ros/diagnosis.h"
+
+#include <algorithm>
+#include <cmath>
+#include <locale>
+#include <sstream>
+#include <utility>
+
+#include "sampled_data_observers/ros/observer_runtime.h"
+
+namespace sampled_data_observers {
+namespace {
+
+/// A sensor that was silent for longer than this, and than T2, is reported.
+constexpr Duration kSilence = 2 * kNanosecondsPerSecond;
+/// Estimates that come later than two periods and this are reported.
+constexpr Duration kLate = 20'000'000;
+/// Less than this part of the rate is reported.
+constexpr double kLowestRate = 0.9;
+
+std::string shown(double value) {
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out.precision(6);
+  out << value;
+  return out.str();
+}
+
+std::string seconds(Duration duration) { return shown(to_seconds(duration)) + " s"; }
+
+/// All digits that matter: six would not do for the seconds since 1970.
+std::string instant(Stamp stamp) {
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out.precision(3);
+  out << std::fixed << to_seconds(stamp) << " s";
+  return out.str();
+}
+
+std::string in_milliseconds(double nanoseconds) { return shown(nanoseconds * 1e-6) + " ms"; }
+
+std::string in_milliseconds(std::int64_t nanoseconds) {
+  return in_milliseconds(static_cast<double>(nanoseconds));
+}
+
+/// "smallest … largest", empty where nothing was recorded.
+std::string extremes(const Range& range) {
+  if (range.count == 0) return "none";
+  return in_milliseconds(range.smallest) + " to " + in_milliseconds(range.largest);
+}
+
+bool is_rejection(std::size_t code) {
+  const auto outcome = static_cast<EventOutcome>(code);
+  return outcome != EventOutcome::kUsed && outcome != EventOutcome::kUsedLate &&
+         outcome != EventOutcome::kDuplicate;
+}
+
+std::uint64_t rejected(const ChannelStatistics& statistics) {
+  std::uint64_t sum = 0;
+  for (std::size_t code = 0; code < kOutcomeCodes; ++code) {
+    if (is_rejection(code)) sum += statistics.outcomes[code];
+  }
+  return sum;
+}
+
+std::string in_words(EventOutcome outcome) {
+  EventReport report;
+  report.outcome = outcome;
+  return describe(report);
+}
+
+std::string with_remedy(EventOutcome outcome) {
+  const std::string advice = remedy(outcome);
+  return in_words(outcome) + (advice.empty() ? "" : " (" + advice + ")");
+}
+
+}  // namespace
+
+const char* remedy(EventOutcome outcome) {
+  switch (outcome) {
+    case EventOutcome::kUsed:
+    case EventOutcome::kUsedLate:
+    case EventOutcome::kDuplicate:
+      return "";
+    case EventOutcome::kTooOld:
+      return "compare the clocks of the hosts, and the latency with history/duration";
+    case EventOutcome::kInFuture:
+      return "compare the clocks of the hosts, or raise future_tolerance";
+    case EventOutcome::kNoStamp:
+      return "its publisher must set header.stamp";
+    case EventOutcome::kWrongSize:
+      return "compare the messages with what is configured";
+    case EventOutcome::kNotFinite:
+      return "see what its publisher sends, with rostopic echo";
+    case EventOutcome::kWouldOverflow:
+      return "the value is far off, or the estimate diverged: reset it";
+    case EventOutcome::kUnknownMode:
+      return "compare the mode in the messages with plant/modes";
+    case EventOutcome::kTooFrequent:
+      return "the detector of jumps fires again and again, or raise the limits";
+    case EventOutcome::kGated:
+      return "the value is far off, or the estimate is wrong: see gate/recovery";
+  }
+  return "";
+}
+
+Diagnosis::Diagnosis(DiagnosisSubject subject)
+    : subject_(std::move(subject)),
+      window_(subject_.channels.size()),
+      totals_(subject_.channels.size()),
+      memory_(subject_.channels.size()) {}
+
+void Diagnosis::update(const RunStatistics& window, Stamp now, Duration elapsed) {
+  if (now < now_) {  // time went back: what was in the future says nothing
+    std::fill(memory_.begin(), memory_.end(), ChannelMemory());
+    restored_ = 0;
+  }
+  window_ = window;
+  totals_.add(window);
+  now_ = now;
+  elapsed_ = elapsed;
+  for (std::size_t i = 0; i < memory_.size(); ++i) {
+    if (window.channels[i].received() > 0) memory_[i].received = now;
+    if (window.channels[i].used() > 0) memory_[i].used = now;
+  }
+  const std::optional<Suspension> found = find_suspension();
+  if (found && !suspension_) {
+    suspension_ = found;
+  } else if (!found && suspension_) {
+    last_suspension_ = *suspension_;
+    restored_ = now;
+    suspension_.reset();
+  }
+}
+
+std::optional<Diagnosis::Suspension> Diagnosis::find_suspension() const {
+  if (subject_.guarantee.empty()) return std::nullopt;
+  if (window_.bound_lost_since) return Suspension{*window_.bound_lost_since, why_bound_is_lost()};
+  for (std::size_t i = 0; i < subject_.channels.size(); ++i) {
+    const ChannelStatistics& statistics = window_.channels[i];
+    if (statistics.violations.count > 0) {
+      const bool is_long = statistics.long_intervals > 0;
+      return Suspension{
+          statistics.violations.smallest,
+          "a time between samples of " + subject_.channels[i].name + " of " +
+              seconds(is_long ? statistics.interval.largest : statistics.interval.smallest) +
+              (is_long ? ", above T2 = " + seconds(subject_.sampling.T2)
+                       : ", below T1 = " + seconds(subject_.sampling.T1))};
+    }
+    const bool is_silent = subject_.channels[i].kind == EventKind::kSample && memory_[i].used > 0 &&
+                           now_ - memory_[i].used > std::max(subject_.sampling.T2, kSilence);
+    if (is_silent) {
+      return Suspension{memory_[i].used,
+                        "no sample of " + subject_.channels[i].name +
+                            " for longer than T2 = " + seconds(subject_.sampling.T2)};
+    }
+  }
+  return std::nullopt;
+}
+
+std::string Diagnosis::why_bound_is_lost() const {
+  for (std::size_t i = 0; i < subject_.channels.size(); ++i) {
+    const ChannelStatistics& statistics = window_.channels[i];
+    if (statistics.short_intervals == 0 && statistics.long_intervals == 0) continue;
+    return "times between samples of " + subject_.channels[i].name + " from " +
+           extremes(statistics.interval) + " left [T1, T2]";
+  }
+  if (window_.held > 0) return "the model's flow is not finite";
+  return "a time without samples above T2, a jump without its outputs, or a bound too large for "
+         "the theorem";
+}
+
+std::string Diagnosis::rejections(const ChannelStatistics& statistics) const {
+  std::size_t commonest = kOutcomeCodes;
+  for (std::size_t code = 0; code < kOutcomeCodes; ++code) {
+    if (!is_rejection(code) || statistics.outcomes[code] == 0) continue;
+    if (commonest == kOutcomeCodes || statistics.outcomes[code] > statistics.outcomes[commonest]) {
+      commonest = code;
+    }
+  }
+  return commonest == kOutcomeCodes ? "" : with_remedy(static_cast<EventOutcome>(commonest));
+}
+
+std::string Diagnosis::why_no_estimate() const {
+  std::string silent;
+  for (std::size_t i = 0; i < subject_.channels.size(); ++i) {
+    const ChannelStatistics& statistics = totals_.channels[i];
+    const std::string reason = rejections(statistics);
+    if (!reason.empty())
+      return "messages on " + subject_.channels[i].topic + " rejected: " + reason;
+    silent += " " + subject_.channels[i].topic;
+  }
+  return "nothing was received on" + silent + ": are their publishers running (rostopic info)?";
+}
+
+Finding Diagnosis::estimates() const {
+  Finding finding;
+  const double rate = 1.0 / to_seconds(subject_.period);
+  const double published = static_cast<double>(window_.lateness.count);
+  const double expected = rate * to_seconds(elapsed_);
+  const Duration latest = window_.lateness.count > 0 ? window_.lateness.largest : 0;
+  if (now_ == 0) {
+    finding = {HealthLevel::kStale, "no time yet: nothing came on /clock", {}};
+  } else if (!window_.newest_estimate) {
+    const bool received = std::any_of(memory_.begin(), memory_.end(),
+                                      [](const ChannelMemory& m) { return m.received > 0; });
+    finding = {received ? HealthLevel::kError : HealthLevel::kStale,
+               "no estimate yet: " + why_no_estimate(),
+               {}};
+  } else if (elapsed_ <= 0) {
+    finding = {HealthLevel::kStale, "time stands still: nothing comes on /clock", {}};
+  } else if (expected >= 2.0 && published == 0.0) {
+    finding = {HealthLevel::kError,
+               "no estimate since " + instant(*window_.newest_estimate) +
+                   ": is the observer switched off, or time before its history?",
+               {}};
+  } else if (window_.held > 0) {
+    finding = {HealthLevel::kWarn,
+               "the model's flow is not finite: the last estimate is held until the next sample",
+               {}};
+  } else if (published < kLowestRate * expected - 1.0) {
+    finding = {HealthLevel::kWarn,
+               shown(published / to_seconds(elapsed_)) + " Hz instead of " + shown(rate) +
+                   " Hz: the host is too busy, or the clock too coarse",
+               {}};
+  } else if (latest > std::max(2 * subject_.period, kLate)) {
+    finding = {
+        HealthLevel::kWarn, "up to " + in_milliseconds(latest) + " late: the host is too busy", {}};
+  } else {
+    finding.message = "published at their rate";
+  }
+  const Range& cpu = window_.tick_cpu_time;
+  finding.values = {
+      {"rate [Hz]", elapsed_ > 0 ? shown(published / to_seconds(elapsed_)) : "unknown"},
+      {"rate asked [Hz]", shown(rate)},
+      {"lateness", extremes(window_.lateness)},
+      {"jitter", window_.lateness.count > 0
+                     ? in_milliseconds(window_.lateness.largest - window_.lateness.smallest)
+                     : "none"},
+      {"published in all", std::to_string(totals_.lateness.count)},
+      {"held", std::to_string(window_.held)},
+      {"CPU time per tick, mean", in_milliseconds(cpu.mean())},
+      {"CPU time per tick, most", in_milliseconds(cpu.count > 0 ? cpu.largest : 0)},
+  };
+  return finding;
+}
+
+Finding Diagnosis::channel(std::size_t index) const {
+  const DiagnosisSubject::Channel& channel = subject_.channels[index];
+  const ChannelStatistics& statistics = window_.channels[index];
+  const ChannelStatistics& total = totals_.channels[index];
+  const Stamp received = memory_[index].received;
+  const bool is_measured = channel.kind == EventKind::kSample || channel.kind == EventKind::kOutput;
+  Finding finding;
+  if (total.received() == 0) {
+    finding.message = "nothing received on " + channel.topic;
+    if (channel.kind != EventKind::kJump && channel.kind != EventKind::kJumpOutput) {
+      finding.level = is_measured ? HealthLevel::kStale : HealthLevel::kWarn;
+      finding.message += ": is its publisher running (rostopic info)?";
+    }
+  } else if (statistics.received() > 0 && statistics.used() == 0 && rejected(statistics) > 0) {
+    finding.level = HealthLevel::kError;
+    finding.message = "all rejected: " + rejections(statistics);
+  } else if (rejected(statistics) > 0) {
+    finding.level = HealthLevel::kWarn;
+    finding.message = std::to_string(rejected(statistics)) + " of " +
+                      std::to_string(statistics.received()) +
+                      " rejected: " + rejections(statistics);
+  } else if (is_measured && now_ - received > std::max(subject_.sampling.T2, kSilence)) {
+    finding.level = HealthLevel::kStale;
+    finding.message = "nothing for " + seconds(now_ - received) + " on " + channel.topic +
+                      ": has its publisher stopped (rostopic hz)?";
+  } else if (statistics.short_intervals + statistics.long_intervals > 0) {
+    finding.level = HealthLevel::kWarn;
+    finding.message = "used, but " +
+                      std::to_string(statistics.short_intervals + statistics.long_intervals) +
+                      " times between samples are outside of [" + seconds(subject_.sampling.T1) +
+                      ", " + seconds(subject_.sampling.T2) + "]";
+  } else {
+    finding.message = statistics.received() > 0 ? "used" : "nothing lately";
+  }
+  finding.values = {{"topic", channel.topic},
+                    {"received", std::to_string(statistics.received())},
+                    {"used", std::to_string(statistics.used())},
+                    {"latency", extremes(statistics.latency)},
+                    {"rewinds", std::to_string(statistics.rewound.count)},
+                    {"events applied again, most",
+                     std::to_string(statistics.rewound.count > 0 ? statistics.rewound.largest : 0)},
+                    {"received in all", std::to_string(total.received())},
+                    {"used in all", std::to_string(total.used())}};
+  if (channel.kind == EventKind::kSample) {
+    finding.values.emplace_back("time between samples", extremes(statistics.interval));
+    finding.values.emplace_back("below T1 in all", std::to_string(total.short_intervals));
+    finding.values.emplace_back("above T2 in all", std::to_string(total.long_intervals));
+  }
+  for (std::size_t code = 0; code < kOutcomeCodes; ++code) {
+    const auto outcome = static_cast<EventOutcome>(code);
+    const bool counts = is_rejection(code) || outcome == EventOutcome::kDuplicate;
+    if (!counts || total.outcomes[code] == 0) continue;
+    finding.values.emplace_back("in all: " + in_words(outcome),
+                                std::to_string(total.outcomes[code]));
+  }
+  return finding;
+}
+
+Finding Diagnosis::certificate() const {
+  Finding finding;
+  if (!subject_.warning.empty()) {
+    finding = {HealthLevel::kWarn, "no guarantee: " + subject_.warning, {}};
+  } else if (subject_.guarantee.empty()) {
+    finding.message = "none configured";
+  } else if (suspension_) {
+    finding.level = HealthLevel::kWarn;
+    finding.message = "suspended since " + instant(suspension_->since) + ": " + suspension_->reason;
+    if (window_.bound_lost_since) {
+      finding.message += "; the error bound stays infinite until the service reset is called";
+    }
+  } else if (restored_ > 0) {
+    finding.message = "restored at " + instant(restored_) + ", suspended since " +
+                      instant(last_suspension_.since) + ": " + last_suspension_.reason;
+  } else {
+    finding.message = "valid";
+  }
+  finding.values = {{"guarantee", subject_.guarantee.empty() ? "none" : subject_.guarantee},
+                    {"T1", seconds(subject_.sampling.T1)},
+                    {"T2", seconds(subject_.sampling.T2)},
+                    {"error bound", shown(window_.error_bound)}};
+  return finding;
+}
+
+}  // namespace sampled_data_observers

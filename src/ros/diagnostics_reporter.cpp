@@ -1,0 +1,63 @@
+#include "sampled_data_observers/ros/diagnostics_reporter.h"
+
+#include <utility>
+
+#include "sampled_data_observers/ros/observer_runtime.h"
+#include "sampled_data_observers/ros/time_conversion.h"
+
+namespace sampled_data_observers {
+namespace {
+
+constexpr double kReportPeriod = 1.0;  // s
+
+void copy(const Finding& finding, diagnostic_updater::DiagnosticStatusWrapper& status) {
+  status.summary(static_cast<std::uint8_t>(finding.level), finding.message);
+  for (const auto& [key, value] : finding.values) status.add(key, value);
+}
+
+}  // namespace
+
+DiagnosisSubject diagnosis_subject(const ObserverConfig& config) {
+  DiagnosisSubject subject;
+  for (const EventChannel& channel : event_channels(config)) {
+    subject.channels.push_back({channel.name, channel.source.topic, channel.kind});
+  }
+  subject.period = config.period;
+  subject.sampling = config.options.sampling;
+  subject.guarantee = config.guarantee;
+  subject.warning = config.warning;
+  return subject;
+}
+
+DiagnosticsReporter::DiagnosticsReporter(const ros::NodeHandle& handle,
+                                         const ros::NodeHandle& private_handle,
+                                         const std::string& name, DiagnosisSubject subject,
+                                         StatisticsRecorder& recorder)
+    : recorder_(recorder),
+      diagnosis_(std::move(subject)),
+      window_(diagnosis_.subject().channels.size()),
+      updater_(handle, private_handle, name) {
+  updater_.setHardwareID("none");
+  updater_.add("estimates", [this](auto& status) { copy(diagnosis_.estimates(), status); });
+  updater_.add("certificate", [this](auto& status) { copy(diagnosis_.certificate(), status); });
+  for (std::size_t i = 0; i < window_.channels.size(); ++i) {
+    updater_.add("events from " + diagnosis_.subject().channels[i].name,
+                 [this, i](auto& status) { copy(diagnosis_.channel(i), status); });
+  }
+  timer_ = ros::NodeHandle(handle).createSteadyTimer(ros::WallDuration(kReportPeriod),
+                                                     &DiagnosticsReporter::report, this);
+}
+
+void DiagnosticsReporter::report(const ros::SteadyTimerEvent&) {
+  const Stamp now = to_stamp(ros::Time::now());
+  if (last_now_ == 0 && now > 0) {  // time begins: wait for the first second of it
+    last_now_ = now;
+    return;
+  }
+  recorder_.take(window_);
+  diagnosis_.update(window_, now, now - last_now_);
+  last_now_ = now;
+  updater_.force_update();
+}
+
+}  // namespace sampled_data_observers

@@ -1,0 +1,48 @@
+#include "sampled_data_observers/ros/estimate_outputs.h"
+
+#include "sampled_data_observers/ros/time_conversion.h"
+
+namespace sampled_data_observers {
+
+EstimateOutputs::EstimateOutputs(ros::NodeHandle handle, const OutputsConfig& config,
+                                 Duration period)
+    : reader_(config.body) {
+  if (config.odometry) {
+    nav_msgs::Odometry prototype;
+    prototype.header.frame_id = config.world_frame;
+    prototype.child_frame_id = config.base_frame;
+    odometry_.emplace(handle, *config.odometry, prototype);
+  }
+  if (config.pose) {
+    geometry_msgs::PoseWithCovarianceStamped prototype;
+    prototype.header.frame_id = config.world_frame;
+    pose_.emplace(handle, *config.pose, prototype);
+  }
+  if (config.twist) {
+    geometry_msgs::TwistWithCovarianceStamped prototype;
+    prototype.header.frame_id = config.base_frame;
+    twist_.emplace(handle, *config.twist, prototype);
+  }
+  if (!config.transform) return;
+  if (!config.transform->odom_frame.empty()) {
+    listener_ = std::make_unique<OdometryListener>(config.transform->odom_frame, config.base_frame);
+  }
+  transform_.emplace(handle, config, period,
+                     [this](Stamp stamp) { return listener_->find(stamp); });
+}
+
+void EstimateOutputs::take(const ObserverLaw& law, const Estimate& estimate) {
+  const double* state = estimate.state.data();
+  stamp_ = estimate.stamp;
+  reader_.read(state, law.covariance(state), law.estimate_size(), body_);
+}
+
+void EstimateOutputs::publish() {
+  const ros::Time stamp = to_ros_time(stamp_);
+  if (odometry_) odometry_->publish(stamp, body_);
+  if (pose_) pose_->publish(stamp, body_);
+  if (twist_) twist_->publish(stamp, body_);
+  if (transform_) transform_->publish(stamp_, body_);
+}
+
+}  // namespace sampled_data_observers

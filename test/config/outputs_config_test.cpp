@@ -1,0 +1,95 @@
+#include "sampled_data_observers/config/outputs_config.h"
+
+#include <gtest/gtest.h>
+
+#include "support/config_faults.h"
+
+namespace sampled_data_observers {
+namespace {
+
+const char kGood[] = R"(
+observer: ConstantGainObserver
+plant: {states: [x, v, yaw], A: [[0, 1, 0], [0, 0, 0], [0, 0, 0]]}
+sensors: {s: {C: [[1, 0, 0]], source: {topic: s}}}
+sampling: {T1: 0.1, T2: 0.1}
+gains: {L: [[0.5], [0], [0]]}
+frame_id: map
+outputs:
+  base_frame: base_link
+  position: {x: x, z: 0.25}
+  orientation: {yaw: yaw}
+  linear_velocity: {x: v}
+  velocity_frame: world
+  pose_covariance_diagonal: [1, 2, 3, 4, 5, 6]
+  odometry: {topic: odometry}
+  twist: {topic: /twist}
+  tf: {mode: map, odom_frame: odom, transform_time_offset: -0.25}
+)";
+
+TEST(OutputsConfigTest, ReadsEveryKey) {
+  const OutputsConfig outputs = *test::parse(kGood).outputs;
+  EXPECT_EQ(0, *outputs.body.position[0].state);
+  EXPECT_FALSE(outputs.body.position[1].state);
+  EXPECT_EQ(0.25, outputs.body.position[2].constant);
+  EXPECT_EQ(2, *outputs.body.roll_pitch_yaw[2].state);
+  EXPECT_FALSE(outputs.body.quaternion);
+  EXPECT_EQ(1, *outputs.body.linear_velocity[0].state);
+  EXPECT_TRUE(outputs.body.velocity_in_world);
+  EXPECT_EQ((std::array<double, 6>{1, 2, 3, 4, 5, 6}), outputs.body.pose_variances);
+  EXPECT_EQ("map", outputs.world_frame);
+  EXPECT_EQ("base_link", outputs.base_frame);
+  EXPECT_EQ("odometry", *outputs.odometry);
+  EXPECT_FALSE(outputs.pose);
+  EXPECT_EQ("/twist", *outputs.twist);
+  EXPECT_EQ("odom", outputs.transform->odom_frame);
+  EXPECT_EQ(-250'000'000, outputs.transform->time_offset);
+  EXPECT_EQ(500'000'000, outputs.transform->timeout);
+}
+
+TEST(OutputsConfigTest, ReadsAQuaternion) {
+  const OutputsConfig outputs =
+      *test::parse(test::replaced(kGood, "orientation: {yaw: yaw}",
+                                  "orientation: {x: 0, y: 0, z: v, w: x}"))
+           .outputs;
+  ASSERT_TRUE(outputs.body.quaternion);
+  EXPECT_EQ(1, *(*outputs.body.quaternion)[2].state);
+  EXPECT_EQ(0, *(*outputs.body.quaternion)[3].state);
+}
+
+TEST(OutputsConfigTest, RefusesFaultsAndSaysWhatExists) {
+  const std::vector<test::Fault> faults = {
+      {"{x: x, z: 0.25}", "{x: x1}", {"test.yaml:", "outputs/position/x", "x, v, yaw", "'x1'"}},
+      {"{yaw: yaw}", "{heading: yaw}", {"outputs/orientation/heading", "pitch, roll, w, x, y"}},
+      {"{yaw: yaw}", "{z: yaw, w: v}", {"outputs/orientation/x", "quaternion"}},
+      {"[1, 2, 3, 4, 5, 6]", "[1, 2]", {"outputs/pose_covariance_diagonal", "6"}},
+      {"[1, 2, 3, 4, 5, 6]", "[1, 2, 3, 4, 5, -6]", {"pose_covariance_diagonal", "negative"}},
+      {"velocity_frame: world", "velocity_frame: map", {"outputs/velocity_frame", "base, world"}},
+      {"mode: map, odom_frame: odom", "mode: both", {"outputs/tf/mode", "odom, map", "'both'"}},
+      {"mode: map, odom_frame: odom", "mode: map", {"outputs/tf/odom_frame", "missing"}},
+      {"odom_frame: odom", "odom_frame: map", {"outputs/tf", "another odom_frame", "'map'"}},
+      {"frame_id: map", "rate: 10", {"frame_id", "world frame"}},
+      {"base_frame: base_link", "", {"outputs/base_frame", "missing"}},
+      {"base_frame: base_link", "base_frame: map", {"outputs/base_frame", "another", "'map'"}},
+      {"linear_velocity: {x: v}", "", {"outputs/linear_velocity", "twist"}},
+      {"odometry: {topic: odometry}", "odometry: {}", {"outputs/odometry/topic", "missing"}},
+  };
+  for (const test::Fault& fault : faults) {
+    const std::string message = test::fault(test::replaced(kGood, fault.from, fault.to));
+    EXPECT_EQ("", test::missing_parts(fault, message)) << message;
+  }
+}
+
+TEST(OutputsConfigTest, NeedsAnOutputAndAPose) {
+  const char kStart[] = "rate: 10\nframe_id: map\noutputs:\n  base_frame: b\n";
+  const std::string plant = test::replaced(kGood, "frame_id: map", "#");
+  const std::string without_outputs = plant.substr(0, plant.find("outputs:"));
+  EXPECT_FALSE(test::parse(without_outputs).outputs);
+  EXPECT_NE(std::string::npos, test::fault(without_outputs + kStart + "  position: {x: x}\n")
+                                   .find("one of odometry, pose, twist and tf"));
+  EXPECT_NE(
+      std::string::npos,
+      test::fault(without_outputs + kStart + "  pose: {topic: pose}\n").find("outputs/position"));
+}
+
+}  // namespace
+}  // namespace sampled_data_observers
