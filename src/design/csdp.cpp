@@ -133,7 +133,7 @@ LmiSolution solve_with_csdp(const LmiProgram& program, const SolverOptions& opti
   const std::vector<double> x(y + 1, y + 1 + variables);
   free_prob(n, variables, C, a, constraints, X, y, Z);
 
-  take_variables(program, x, solution);  // NOLINT(clang-analyzer-unix.Malloc): free_prob() frees
+  take_variables(program, x, solution);
   solution.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return solution;

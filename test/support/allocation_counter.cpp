@@ -4,9 +4,16 @@
 #include <cerrno>
 #include <cstdlib>
 
+// Sanitizers replace the allocator themselves; clang and gcc each say in their own way that one is
+// on.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define SDO_COUNT_ALLOCATIONS 0
-#else
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define SDO_COUNT_ALLOCATIONS 0
+#endif
+#endif
+#ifndef SDO_COUNT_ALLOCATIONS
 #define SDO_COUNT_ALLOCATIONS 1
 #endif
 
