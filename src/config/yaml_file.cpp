@@ -1,5 +1,6 @@
 #include "sampled_data_observers/config/yaml_file.h"
 
+#include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
 #include <fstream>
@@ -10,6 +11,31 @@ namespace {
 
 std::string place(const std::string& name, const YAML::Mark& mark) {
   return mark.is_null() ? name : name + ":" + std::to_string(mark.line + 1);
+}
+
+/// Sees a document go by.
+class Bystander : public YAML::EventHandler {
+ public:
+  void OnDocumentStart(const YAML::Mark&) override {}
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                const std::string&) override {}
+  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                       YAML::EmitterStyle::value) override {}
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                  YAML::EmitterStyle::value) override {}
+  void OnMapEnd() override {}
+};
+
+/// YAML::LoadAll() would tell as well, but never ends where a token belongs to no document.
+bool has_several_documents(const std::string& text) {
+  std::istringstream in(text);
+  YAML::Parser parser(in);
+  Bystander bystander;
+  return parser.HandleNextDocument(bystander) && parser.HandleNextDocument(bystander);
 }
 
 // More than any configuration has. A file that nests further would exhaust the stack, and one of a
@@ -78,9 +104,8 @@ class Converter {
 ConfigNode read_yaml_text(const std::string& text, const std::string& name) {
   ConfigNode root;
   try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
-    if (documents.size() > 1) throw ConfigError(name, "", "one YAML document", "several");
-    if (!documents.empty()) root = Converter(name).convert(documents.front(), "", 0);
+    if (has_several_documents(text)) throw ConfigError(name, "", "one YAML document", "several");
+    root = Converter(name).convert(YAML::Load(text), "", 0);
   } catch (const YAML::Exception& error) {
     throw ConfigError(place(name, error.mark), "", "valid YAML", error.msg);
   }

@@ -34,5 +34,11 @@ TEST(YamlFileTest, AFewAliasesOfAliasesDoNotFillTheMemory) {
   }
 }
 
+TEST(YamlFileTest, ATokenThatBelongsToNoDocumentIsRefused) {
+  for (const char* text : {",a: 1", "]", "}", "a: 1\n]", "a: 1\n--- \nb: 2"}) {
+    EXPECT_NE("no fault", fault(text)) << text;
+  }
+}
+
 }  // namespace
 }  // namespace sampled_data_observers
