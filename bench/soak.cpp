@@ -117,7 +117,7 @@ class Soak {
     event.stamp = message.stamp;
     event.values = &message.value;
     event.size = 1;
-    ++outcomes_[describe(runtime_.receive(channel, event, now, status_).outcome)];
+    ++outcomes_[describe(runtime_.receive(channel, event, now, status_))];
   }
 
   void publish(Stamp now) {
