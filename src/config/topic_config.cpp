@@ -7,29 +7,36 @@ const char kMeasurementType[] = "sampled_data_observers/Measurement";
 const char kInputType[] = "sampled_data_observers/Input";
 const char kJumpType[] = "sampled_data_observers/JumpEvent";
 
-TopicSource read_sensor_source(ConfigSection section, std::size_t size) {
+constexpr double kLongest = 1e6;  // s
+
+/// What all sources have in common.
+/// @param topic  the default; empty: the key is required
+/// @param type  the package's own for this use, the default
+TopicSource read_source(ConfigSection& section, const std::string& topic, const std::string& type) {
   TopicSource source;
-  source.topic = section.text("topic");
-  source.type = section.text("type", kMeasurementType);
-  if (source.type == kInputType || source.type == kJumpType) {
-    throw section.error("type", "a type that holds a sample", "'" + source.type + "'");
+  source.topic = topic.empty() ? section.text("topic") : section.text("topic", topic);
+  source.type = section.text("type", type);
+  for (const char* own : {kMeasurementType, kInputType, kJumpType}) {
+    if (source.type == own && source.type != type) {
+      throw section.error("type", type + " or a standard message type", "'" + source.type + "'");
+    }
   }
-  if (section.has("fields")) source.fields = section.texts("fields", size);
-  source.size = size;
+  if (section.has("stamp")) {
+    source.stamped_on_receipt = section.choice("stamp", {"header", "receipt"}) == "receipt";
+  }
   source.origin = section.origin();
   source.path = section.path();
-  section.finish();
   return source;
 }
 
-TopicSource read_message_source(const ConfigSection& root, ConfigSection& section,
-                                const std::string& key, std::size_t size, const std::string& type) {
-  TopicSource source;
-  source.topic = section.text("topic", key);
-  source.type = type;
+/// The source of values that are always there.
+TopicSource read_value_source(ConfigSection& section, const std::string& topic,
+                              const std::string& type, std::size_t size) {
+  TopicSource source = read_source(section, topic, type);
   source.size = size;
-  source.origin = root.origin();
-  source.path = key;
+  if (section.has("fields")) source.fields = section.texts("fields", size);
+  source.min_interval = from_seconds(section.number_in("min_interval", 0.0, kLongest, 0.0));
+  section.finish();
   return source;
 }
 
@@ -45,10 +52,12 @@ std::vector<std::optional<TopicSource>> read_sensor_sources(ConfigSection& root,
       section.has(key);
     }
     const bool in_jump_events = sensor.timing == SensorTiming::kAtJumps && !section.has("source");
-    sources.push_back(in_jump_events ? std::nullopt
-                                     : std::optional<TopicSource>(read_sensor_source(
-                                           section.section("source"),
-                                           static_cast<std::size_t>(sensor.outputs()))));
+    sources.emplace_back();
+    if (!in_jump_events) {
+      ConfigSection source = section.section("source");
+      sources.back() = read_value_source(source, "", kMeasurementType,
+                                         static_cast<std::size_t>(sensor.outputs()));
+    }
     section.finish();
   }
   return sources;
@@ -56,18 +65,20 @@ std::vector<std::optional<TopicSource>> read_sensor_sources(ConfigSection& root,
 
 TopicSource read_input_source(ConfigSection& root, const Plant& plant) {
   ConfigSection section = root.section_or_empty("input");
-  TopicSource source =
-      read_message_source(root, section, "input", plant.input_names().size(), kInputType);
-  section.finish();
+  TopicSource source = read_value_source(section, "input", kInputType, plant.input_names().size());
+  if (source.origin.empty()) source.origin = root.origin();  // there is no such section
   return source;
 }
 
 TopicSource read_jump_source(const ConfigSection& root, ConfigSection& section,
                              const Plant& plant) {
-  TopicSource source = read_message_source(
-      root, section, "jumps", static_cast<std::size_t>(plant.outputs(SensorTiming::kAtJumps)),
-      kJumpType);
+  TopicSource source = read_source(section, "jumps", kJumpType);
+  if (source.origin.empty()) source.origin = root.origin();  // there is no such section
+  source.of_jumps = true;
+  source.size = static_cast<std::size_t>(plant.outputs(SensorTiming::kAtJumps));
   source.has_mode = plant.switches();
+  if (section.has("fields")) source.fields = section.texts("fields", source.size);
+  if (source.has_mode) source.mode = section.text("mode", "");
   return source;
 }
 

@@ -5,10 +5,8 @@
 
 #include <algorithm>
 #include <map>
-#include <memory>
 
-#include "sampled_data_observers/ros/message_types.h"
-#include "sampled_data_observers/ros/value_reader.h"
+#include "sampled_data_observers/ros/time_conversion.h"
 
 namespace sampled_data_observers {
 namespace {
@@ -51,6 +49,18 @@ std::vector<std::pair<std::string, std::string>> bag_topics(const rosbag::Bag& b
   return {topics.begin(), topics.end()};
 }
 
+MessagePointer instantiate(const MessageSource& source, const rosbag::MessageInstance& instance) {
+  MessagePointer message = source.instantiate(instance);
+  if (message) return message;
+  throw ReplayError(instance.getTopic() + ": its " + instance.getDataType() +
+                    " was recorded with another definition than this one's");
+}
+
+Reading BagChannel::read(const rosbag::MessageInstance& instance, Event& event) {
+  message_ = instantiate(*source, instance);
+  return source->read(message_, to_stamp(instance.getTime()), event);
+}
+
 std::vector<BagChannel> bind_channels(const ObserverConfig& config, const rosbag::Bag& bag) {
   const auto topics = bag_topics(bag);
   std::vector<BagChannel> result;
@@ -58,20 +68,7 @@ std::vector<BagChannel> bind_channels(const ObserverConfig& config, const rosbag
     BagChannel bound;
     bound.channel = channel;
     bound.topic = ros::names::resolve(channel.source.topic);
-    bound.read = visit_message_type(channel.source, [&](auto tag) {
-      using M = typename decltype(tag)::type;
-      auto reader = std::make_shared<ValueReader<M>>(channel.source);
-      auto keep_alive = std::make_shared<boost::shared_ptr<const M>>();
-      return std::function<void(const rosbag::MessageInstance&, Event&)>(
-          [reader, keep_alive](const rosbag::MessageInstance& instance, Event& event) {
-            *keep_alive = instance.instantiate<M>();
-            if (!*keep_alive) {
-              throw ReplayError(instance.getTopic() + ": its " + instance.getDataType() +
-                                " was recorded with another definition than this one's");
-            }
-            reader->read(**keep_alive, event);
-          });
-    });
+    bound.source = make_message_source(channel.source);
     const auto found = std::find_if(topics.begin(), topics.end(),
                                     [&](const auto& topic) { return topic.first == bound.topic; });
     // Inputs and jumps may never have happened; a sensor without a single sample is a mistake.

@@ -83,11 +83,13 @@ class Replay {
     next_.resize(channels_.size(), 0);
     if (!options_.thinning) return;
     std::vector<std::vector<Stamp>> stamps(channels_.size());
+    // Sources remember what they read; those of the replay proper have read nothing yet.
+    std::vector<BagChannel> channels = bind_channels(config_, bag_);
     Event event;
     for (const rosbag::MessageInstance& instance : view) {
       for (std::size_t i = 0; i < channels_.size(); ++i) {
-        if (!is_thinned(i) || channels_[i].topic != instance.getTopic()) continue;
-        channels_[i].read(instance, event);
+        if (!is_thinned(i) || channels[i].topic != instance.getTopic()) continue;
+        channels[i].read(instance, event);
         stamps[i].push_back(event.stamp);
       }
     }
@@ -129,12 +131,16 @@ class Replay {
     if (instance.getTopic() == truth_.topic) compare(instance);
   }
 
-  void receive(const BagChannel& bound, const rosbag::MessageInstance& instance, Stamp now) {
+  void receive(BagChannel& bound, const rosbag::MessageInstance& instance, Stamp now) {
     Event event;
     event.kind = bound.channel.kind;
     event.channel = bound.channel.channel;
-    bound.read(instance, event);
-    const EventReport report = runtime_.receive(bound.channel, event, now, status_);
+    const Reading reading = bound.read(instance, event);
+    if (reading == Reading::kPassedOver) return;
+    const EventReport report =
+        reading == Reading::kEvent
+            ? runtime_.receive(bound.channel, event, now, status_)
+            : runtime_.reject(bound.channel, event, outcome_of(reading), now, status_);
     if (output_.isOpen()) output_.write(resolved("events"), instance.getTime(), status_);
     count(event, report);
     const bool is_measurement =

@@ -6,9 +6,7 @@
 #include <memory>
 #include <utility>
 
-#include "sampled_data_observers/ros/message_types.h"
 #include "sampled_data_observers/ros/time_conversion.h"
-#include "sampled_data_observers/ros/value_reader.h"
 
 namespace sampled_data_observers {
 namespace {
@@ -54,6 +52,23 @@ Truth truth_from_states(const Plant& plant, const std::map<std::string, std::str
   return truth;
 }
 
+/// What reads the messages of a source, all of them.
+std::function<bool(const rosbag::MessageInstance&, Stamp&, std::vector<double>&)> reader_of(
+    TopicSource config) {
+  config.min_interval = 0;
+  const std::shared_ptr<MessageSource> source = make_message_source(config);
+  return
+      [source](const rosbag::MessageInstance& instance, Stamp& stamp, std::vector<double>& values) {
+        const MessagePointer message = instantiate(*source, instance);
+        Event event;
+        if (source->read(message, to_stamp(instance.getTime()), event) != Reading::kEvent)
+          return false;
+        stamp = event.stamp;
+        values.assign(event.values, event.values + event.size);
+        return true;
+      };
+}
+
 Truth truth_from_fields(const Plant& plant, const std::string& type,
                         const std::map<std::string, std::string>& fields) {
   Truth truth;
@@ -70,20 +85,7 @@ Truth truth_from_fields(const Plant& plant, const std::string& type,
     throw ReplayError("--compare: expected STATE=FIELD for a truth of type " + type +
                       ", found nothing");
   }
-  visit_message_type(source, [&](auto tag) {
-    using M = typename decltype(tag)::type;
-    auto reader = std::make_shared<ValueReader<M>>(source);
-    truth.read = [reader](const rosbag::MessageInstance& instance, Stamp& stamp,
-                          std::vector<double>& values) {
-      const auto message = instance.instantiate<M>();
-      if (!message) throw ReplayError(instance.getTopic() + ": message of another definition");
-      Event event;
-      reader->read(*message, event);
-      stamp = event.stamp;
-      values.assign(event.values, event.values + event.size);
-      return true;
-    };
-  });
+  truth.read = reader_of(source);
   return truth;
 }
 
@@ -124,14 +126,10 @@ Truth truth_from_samples(const ObserverConfig& config, const std::vector<BagChan
     }
     truth.quantities.push_back(std::move(quantity));
   }
-  truth.read = [read = bound.read, size = truth.quantities.size()](
+  truth.read = [read = reader_of(bound.channel.source), size = truth.quantities.size()](
                    const rosbag::MessageInstance& instance, Stamp& stamp,
                    std::vector<double>& values) {
-    Event event;
-    read(instance, event);
-    stamp = event.stamp;
-    values.assign(event.values, event.values + event.size);
-    return values.size() == size;
+    return read(instance, stamp, values) && values.size() == size;
   };
   return truth;
 }

@@ -1,14 +1,12 @@
 #include "sampled_data_observers/ros/event_subscriptions.h"
 
 #include <ros/console.h>
-#include <ros/names.h>
 
+#include <memory>
 #include <utility>
 
-#include "sampled_data_observers/ros/message_types.h"
 #include "sampled_data_observers/ros/queue_length.h"
 #include "sampled_data_observers/ros/time_conversion.h"
-#include "sampled_data_observers/ros/value_reader.h"
 
 namespace sampled_data_observers {
 namespace {
@@ -45,38 +43,22 @@ void EventSubscriptions::start() {
 }
 
 std::function<void()> EventSubscriptions::subscription(const EventChannel& channel) {
-  std::string fault;
-  if (!ros::names::validate(channel.source.topic, fault)) {
-    throw ConfigError(channel.source.origin, channel.source.path + "/topic", "a name of a topic",
-                      "'" + channel.source.topic + "' (" + fault + ")");
-  }
-  return visit_message_type(channel.source, [&](auto tag) -> std::function<void()> {
-    using M = typename decltype(tag)::type;
-    auto reader = std::make_shared<ValueReader<M>>(channel.source);
-    const auto deliver = [this, reader, channel](const M& message) {
-      Event event;
-      event.kind = channel.kind;
-      event.channel = channel.channel;
-      reader->read(message, event);
-      receive(channel, event);
+  const std::shared_ptr<MessageSource> source = make_message_source(channel.source);
+  return [this, source, channel] {
+    const auto deliver = [this, source, channel](const MessagePointer& message, Stamp receipt) {
+      if (ros::Time::now().isZero()) {
+        defer([this, source, channel, message] {
+          receive(channel, *source, message, to_stamp(ros::Time::now()));
+        });
+        return;
+      }
+      run_deferred();
+      receive(channel, *source, message, receipt);
     };
-    return [this, deliver, channel] {
-      const boost::function<void(const boost::shared_ptr<const M>&)> callback =
-          [this, deliver](const boost::shared_ptr<const M>& message) {
-            if (ros::Time::now().isZero()) {
-              defer([deliver, message] { deliver(*message); });
-              return;
-            }
-            run_deferred();
-            deliver(*message);
-          };
-      subscribers_.push_back(handle_.subscribe<M>(channel.source.topic, kQueueLength, callback,
-                                                  ros::VoidConstPtr(),
-                                                  ros::TransportHints().tcpNoDelay()));
-      ROS_INFO_NAMED(name_, "%s from %s (%s)", channel.name.c_str(),
-                     subscribers_.back().getTopic().c_str(), channel.source.type.c_str());
-    };
-  });
+    subscribers_.push_back(source->subscribe(handle_, kQueueLength, deliver));
+    ROS_INFO_NAMED(name_, "%s from %s (%s)", channel.name.c_str(),
+                   subscribers_.back().getTopic().c_str(), channel.source.type.c_str());
+  };
 }
 
 /// Keeps a task until the first message of a simulated clock: before, nobody can tell the past from
@@ -96,12 +78,20 @@ void EventSubscriptions::run_deferred() {
   deferred_.clear();
 }
 
-void EventSubscriptions::receive(const EventChannel& channel, const Event& event) {
+void EventSubscriptions::receive(const EventChannel& channel, MessageSource& source,
+                                 const MessagePointer& message, Stamp receipt) {
+  Event event;
+  event.kind = channel.kind;
+  event.channel = channel.channel;
+  const Reading reading = source.read(message, receipt, event);
+  if (reading == Reading::kPassedOver) return;
   const boost::shared_ptr<EventStatus> status = statuses_.take();
   EventReport report;
   {
     const SharedRuntime::Access access = runtime_.access();
-    report = access->receive(channel, event, access.now(), *status);
+    report = reading == Reading::kEvent
+                 ? access->receive(channel, event, access.now(), *status)
+                 : access->reject(channel, event, outcome_of(reading), access.now(), *status);
     runtime_.statistics().record_event(channel.index, event, report, access.now() - event.stamp);
   }
   if (!report.used()) {

@@ -29,6 +29,7 @@ static_assert(EventStatus::WOULD_OVERFLOW == static_cast<int>(EventOutcome::kWou
 static_assert(EventStatus::UNKNOWN_MODE == static_cast<int>(EventOutcome::kUnknownMode));
 static_assert(EventStatus::TOO_FREQUENT == static_cast<int>(EventOutcome::kTooFrequent));
 static_assert(EventStatus::GATED == static_cast<int>(EventOutcome::kGated));
+static_assert(EventStatus::NO_FIELD == static_cast<int>(EventOutcome::kNoField));
 static_assert(EventStatus::INTERVAL_NONE == static_cast<int>(IntervalCheck::kNone));
 static_assert(EventStatus::INTERVAL_WITHIN == static_cast<int>(IntervalCheck::kWithin));
 static_assert(EventStatus::INTERVAL_SHORT == static_cast<int>(IntervalCheck::kShort));
@@ -68,6 +69,8 @@ const char* describe(const EventReport& report) {
       return "jumps faster than jumps/min_separation or max_per_second allow";
     case EventOutcome::kGated:
       return "the innovation lies outside the gate";
+    case EventOutcome::kNoField:
+      return "the message does not hold a configured field";
   }
   return "";
 }
@@ -107,6 +110,20 @@ ObserverRuntime::ObserverRuntime(const ObserverConfig& config)
 EventReport ObserverRuntime::receive(const EventChannel& channel, const Event& event, Stamp now,
                                      EventStatus& status) {
   const EventReport report = estimator_.submit(event, now);
+  write(channel, event, report, now, status);
+  return report;
+}
+
+EventReport ObserverRuntime::reject(const EventChannel& channel, const Event& event,
+                                    EventOutcome outcome, Stamp now, EventStatus& status) {
+  EventReport report;
+  report.outcome = outcome;
+  write(channel, event, report, now, status);
+  return report;
+}
+
+void ObserverRuntime::write(const EventChannel& channel, const Event& event,
+                            const EventReport& report, Stamp now, EventStatus& status) {
   status.header.stamp = to_ros_time(event.stamp);
   status.source = channel.name;
   status.kind = static_cast<std::uint8_t>(event.kind);
@@ -116,7 +133,6 @@ EventReport ObserverRuntime::receive(const EventChannel& channel, const Event& e
   status.rewound = static_cast<std::uint32_t>(report.rewound);
   status.interval = report.interval ? to_seconds(*report.interval) : kNone;
   status.interval_check = static_cast<std::uint8_t>(report.interval_check);
-  return report;
 }
 
 const Estimate* ObserverRuntime::next_due(Stamp now) {

@@ -15,8 +15,15 @@ namespace {
 constexpr double kLatestStart = 4e9;  // s: ros::Time ends at 2^32 s
 constexpr std::size_t kLargestSeed = std::size_t{1} << 53;
 
-const char kMeasurementType[] = "sampled_data_observers/Measurement";
 const char kTimeName[] = "t";
+
+/// The topic of a source of the package's own type.
+std::string simulated_topic(const TopicSource& source, const std::string& type) {
+  const std::string own = "sampled_data_observers/" + type;
+  if (source.type == own) return source.topic;
+  throw ConfigError(source.origin, source.path + "/type", own + " (no other type can be simulated)",
+                    "'" + source.type + "'");
+}
 
 /// What only an observer reads from the same tree.
 const char* const kObserverKeys[] = {"observer",         "gains",    "sampling",
@@ -110,7 +117,7 @@ class ScenarioReader {
   void read_input() {
     ConfigSection section = section_.section("input");
     InputScenario input;
-    input.topic = read_input_source(root_, plant()).topic;
+    input.topic = simulated_topic(read_input_source(root_, plant()), "Input");
     input.period = from_seconds(1.0 / section.number_in("rate", 1e-3, 1e5, 100.0));
     input.formulas = ExpressionReader(timed_names(section, "formulas", true))
                          .read_map(section, "formulas", plant().input_names());
@@ -135,14 +142,7 @@ class ScenarioReader {
     for (std::size_t i = 0; i < sources.size(); ++i) {
       const Sensor& sensor = plant().sensors()[i];
       SensorScenario scenario;
-      if (sources[i]) {
-        if (sources[i]->type != kMeasurementType) {
-          throw ConfigError(sources[i]->origin, sources[i]->path + "/type",
-                            std::string(kMeasurementType) + " (no other type can be simulated)",
-                            "'" + sources[i]->type + "'");
-        }
-        scenario.topic = sources[i]->topic;
-      }
+      if (sources[i]) scenario.topic = simulated_topic(*sources[i], "Measurement");
       const bool at_jumps = sensor.timing == SensorTiming::kAtJumps;
       ConfigSection section =
           at_jumps ? sensors.section_or_empty(sensor.name) : sensors.section(sensor.name);
@@ -204,7 +204,7 @@ class ScenarioReader {
       return;
     }
     ConfigSection topic = root_.section_or_empty("jumps");
-    scenario_.jumps_topic = read_jump_source(root_, topic, plant()).topic;
+    scenario_.jumps_topic = simulated_topic(read_jump_source(root_, topic, plant()), "JumpEvent");
     for (const char* key : {"late", "min_separation", "max_per_second"}) topic.has(key);
     topic.finish();
     if (!section_.has("jumps")) {

@@ -55,6 +55,7 @@ class ChannelOf : public Channel {
     Event event;
     event.kind = channel_.kind;
     event.channel = channel_.channel;
+    event.stamp = to_stamp(stamp);
     const M sent = message(stamp, values);
     reader_.read(sent, event);
     EXPECT_TRUE(reference.submit(event, to_stamp(ros::Time::now())).used());

@@ -1,5 +1,6 @@
-// What needs no roscore: values from messages, parameters as configuration, messages from results.
+// What needs no roscore: parameters as configuration, messages from results.
 #include <gtest/gtest.h>
+#include <sampled_data_observers/Measurement.h>
 #include <xmlrpcpp/XmlRpcValue.h>
 
 #include <cmath>
@@ -7,26 +8,12 @@
 #include "sampled_data_observers/config/config_section.h"
 #include "sampled_data_observers/config/yaml_file.h"
 #include "sampled_data_observers/ros/message_pool.h"
-#include "sampled_data_observers/ros/message_types.h"
 #include "sampled_data_observers/ros/observer_runtime.h"
 #include "sampled_data_observers/ros/parameter_tree.h"
-#include "sampled_data_observers/ros/value_reader.h"
 #include "support/allocation_counter.h"
 
 namespace sampled_data_observers {
 namespace {
-
-TopicSource source(const std::string& type, const std::vector<std::string>& fields,
-                   std::size_t size) {
-  TopicSource result;
-  result.topic = "topic";
-  result.type = type;
-  result.fields = fields;
-  result.size = size;
-  result.origin = "file.yaml:3";
-  result.path = "sensors/s/source";
-  return result;
-}
 
 template <class F>
 std::string fault(F&& f) {
@@ -36,49 +23,6 @@ std::string fault(F&& f) {
     return error.what();
   }
   return "no fault";
-}
-
-TEST(ValueReaderTest, TakesFieldsByTheirPaths) {
-  ValueReader<geometry_msgs::PoseStamped> reader(
-      source("geometry_msgs/PoseStamped", {"pose.position.z", "pose.orientation.w"}, 2));
-  geometry_msgs::PoseStamped message;
-  message.header.stamp = ros::Time(12, 34);
-  message.pose.position.z = 1.5;
-  message.pose.orientation.w = -0.5;
-  Event event;
-  reader.read(message, event);
-  EXPECT_EQ(12'000'000'034, event.stamp);
-  ASSERT_EQ(2, event.size);
-  EXPECT_EQ(1.5, event.values[0]);
-  EXPECT_EQ(-0.5, event.values[1]);
-}
-
-TEST(ValueReaderTest, AnUnknownFieldIsRefusedWithAListOfThoseThatExist) {
-  const std::string message = fault([] {
-    ValueReader<geometry_msgs::PointStamped> reader(
-        source("geometry_msgs/PointStamped", {"point.w"}, 1));
-  });
-  for (const char* part : {"file.yaml:3", "sensors/s/source/fields", "'point.w'", "point.z"}) {
-    EXPECT_NE(std::string::npos, message.find(part)) << message;
-  }
-}
-
-TEST(ValueReaderTest, FieldsAreNeededWhereThereAreSomeAndRefusedWhereNot) {
-  EXPECT_NE(
-      "no fault", fault([] {
-        ValueReader<geometry_msgs::PointStamped> r(source("geometry_msgs/PointStamped", {}, 1));
-      }));
-  EXPECT_NE("no fault", fault([] {
-              ValueReader<Measurement> r(source("sampled_data_observers/Measurement", {"x"}, 1));
-            }));
-}
-
-TEST(ValueReaderTest, AnUnknownTypeIsRefusedWithAListOfThoseThatExist) {
-  const std::string message =
-      fault([] { visit_message_type(source("std_msgs/String", {}, 1), [](auto) {}); });
-  for (const char* part : {"sensors/s/source/type", "'std_msgs/String'", "PoseStamped"}) {
-    EXPECT_NE(std::string::npos, message.find(part)) << message;
-  }
 }
 
 TEST(ParameterTreeTest, IsTheSameTreeAsTheFile) {
@@ -196,6 +140,16 @@ TEST_F(ObserverRuntimeTest, WritesStatusAndEstimate) {
   // First sample: (2, 10). Then p = 2 + 10 * 0.1 = 3, no innovation.
   EXPECT_NEAR(3.5, message.state[0], 1e-15);
   EXPECT_NEAR(10.0, message.state[1], 1e-15);
+}
+
+TEST_F(ObserverRuntimeTest, ReportsAMessageThatIsNoEvent) {
+  const Event event{1'000'000'000, EventKind::kSample, 0, nullptr, 0};
+  const EventReport report =
+      ObserverRuntime::reject(channels_[0], event, EventOutcome::kNoField, 1'250'000'000, status_);
+  EXPECT_FALSE(report.used());
+  EXPECT_EQ(EventStatus::NO_FIELD, status_.outcome);
+  EXPECT_EQ("the message does not hold a configured field", status_.reason);
+  EXPECT_EQ(0.25, status_.latency);
 }
 
 TEST_F(ObserverRuntimeTest, SaysWhyThereIsNoEstimate) {

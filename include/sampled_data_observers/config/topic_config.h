@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sampled_data_observers/config/config_section.h"
+#include "sampled_data_observers/hybrid/time.h"
 #include "sampled_data_observers/plant/plant.h"
 
 namespace sampled_data_observers {
@@ -17,12 +18,20 @@ struct TopicSource {
   /// Message type, such as "geometry_msgs/PoseStamped".
   std::string type;
   /// One field path per value, such as "pose.position.x"; empty for types that carry the values in
-  /// order themselves.
+  /// order themselves, and for jumps without values.
   std::vector<std::string> fields;
   /// Number of values. A jump event may also carry none.
   std::size_t size = 0;
+  /// Whether the messages are jumps.
+  bool of_jumps = false;
   /// Whether a jump event carries the mode that follows.
   bool has_mode = false;
+  /// The path of the field that holds it, for types that do not carry the mode themselves.
+  std::string mode;
+  /// Whether the stamp of an event is the time of receipt instead of the message's own.
+  bool stamped_on_receipt = false;
+  /// Events nearer to the last one kept are passed over [ns]; 0: none.
+  Duration min_interval = 0;
   /// Where the configuration says so, for messages about it.
   std::string origin;
   std::string path;

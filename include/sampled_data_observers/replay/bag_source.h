@@ -3,11 +3,12 @@
 #include <rosbag/bag.h>
 #include <rosbag/message_instance.h>
 
-#include <functional>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "sampled_data_observers/ros/message_source.h"
 #include "sampled_data_observers/ros/observer_runtime.h"
 
 namespace sampled_data_observers {
@@ -32,10 +33,20 @@ struct BagChannel {
   EventChannel channel;
   /// Absolute name of the topic in the bag.
   std::string topic;
-  /// Reads the message into the event; its values live until the next message is read.
+  std::shared_ptr<MessageSource> source;
+
+  /// Makes an event of the message that the bag holds, received when it was recorded. Its values
+  /// live until the next message is read.
   /// @throws ReplayError when the message can't be read as the configured type.
-  std::function<void(const rosbag::MessageInstance&, Event&)> read;
+  Reading read(const rosbag::MessageInstance& instance, Event& event);
+
+ private:
+  MessagePointer message_;
 };
+
+/// The message of a bag as its source's type.
+/// @throws ReplayError when the message can't be read as that.
+MessagePointer instantiate(const MessageSource& source, const rosbag::MessageInstance& instance);
 
 /// Binds all channels of a configuration. Relative topic names are resolved, and remapped, as ROS
 /// does it.

@@ -12,6 +12,7 @@
 
 #include "sampled_data_observers/ros/estimate_publication.h"
 #include "sampled_data_observers/ros/message_pool.h"
+#include "sampled_data_observers/ros/message_source.h"
 #include "sampled_data_observers/ros/shared_runtime.h"
 
 namespace sampled_data_observers {
@@ -32,7 +33,8 @@ class EventSubscriptions {
   std::function<void()> subscription(const EventChannel& channel);
   void defer(std::function<void()> task);
   void run_deferred();
-  void receive(const EventChannel& channel, const Event& event);
+  void receive(const EventChannel& channel, MessageSource& source, const MessagePointer& message,
+               Stamp receipt);
 
   ros::NodeHandle handle_;
   SharedRuntime& runtime_;

@@ -41,6 +41,10 @@ class ObserverRuntime {
   EventReport receive(const EventChannel& channel, const Event& event, Stamp now,
                       EventStatus& status);
 
+  /// Reports what can't be taken in as an event, with the stamp of `event`.
+  static EventReport reject(const EventChannel& channel, const Event& event, EventOutcome outcome,
+                            Stamp now, EventStatus& status);
+
   /// The next estimate due at `now`, if any: to be called until there is none.
   const Estimate* next_due(Stamp now);
 
@@ -63,6 +67,9 @@ class ObserverRuntime {
   const Estimator& estimator() const { return estimator_; }
 
  private:
+  static void write(const EventChannel& channel, const Event& event, const EventReport& report,
+                    Stamp now, EventStatus& status);
+
   const ObserverConfig config_;
   Estimator estimator_;
   PublicationGrid grid_;

@@ -7,11 +7,15 @@
 
 #include <limits>
 
-#include "sampled_data_observers/ros/message_types.h"
 #include "sampled_data_observers/ros/time_conversion.h"
 #include "sampled_data_observers/simulation/simulator.h"
 
 namespace sampled_data_observers {
+
+template <class M>
+struct MessageTag {
+  using type = M;
+};
 
 /// Calls `visitor` with the MessageTag of a channel's message type and returns what it returns.
 template <class Visitor>

@@ -8,52 +8,58 @@
 #include <string>
 #include <vector>
 
-#include "sampled_data_observers/config/observer_config.h"
+#include "sampled_data_observers/config/topic_config.h"
 #include "sampled_data_observers/hybrid/event.h"
 #include "sampled_data_observers/ros/message_fields.h"
 #include "sampled_data_observers/ros/time_conversion.h"
 
 namespace sampled_data_observers {
 
-/// Turns messages of type M into stamp and values of an event. This is the general case, which
-/// takes them from named fields.
+/// @throws ConfigError when `source` names fields: this type has its values in order.
+void refuse_fields(const TopicSource& source);
+
+/// Turns messages of type M into the values of an event. This is the general case, which takes them
+/// from named fields: of a jump of a switched plant, the mode first.
 template <class M>
 class ValueReader {
  public:
-  /// @throws ConfigError for a field that M does not have, or none.
-  explicit ValueReader(const TopicSource& source) : values_(source.size) {
-    std::string known;
-    for (const auto& field : message_fields<M>()) known += std::string(", ") + field.path;
-    const std::string expected = "one field of " + source.type + " per value" + known;
-    if (source.fields.size() != source.size) {
-      throw ConfigError(source.origin, source.path + "/fields", expected, "none");
-    }
-    for (const std::string& path : source.fields) {
-      const auto size = fields_.size();
-      for (const auto& field : message_fields<M>()) {
-        if (path == field.path) fields_.push_back(field);
-      }
-      if (fields_.size() == size) {
-        throw ConfigError(source.origin, source.path + "/fields", expected, "'" + path + "'");
-      }
-    }
+  /// @throws ConfigError for a field that M does not have, or too few.
+  explicit ValueReader(const TopicSource& source)
+      : jump_channel_(source.fields.empty() ? kPlainJump : kMeasuredJump) {
+    MessageFields<M> known;
+    add_fields(known);
+    const auto add = [&](const char* key, const std::string& path) {
+      fields_.push_back(known.find(path));
+      if (fields_.back()) return;
+      throw ConfigError(source.origin, source.path + "/" + key,
+                        "fields of " + source.type + ", one per value: " + known.describe(),
+                        path.empty() ? "none" : "'" + path + "'");
+    };
+    if (source.has_mode) add("mode", source.mode);
+    for (const std::string& path : source.fields) add("fields", path);
+    if (!source.of_jumps && source.fields.empty()) add("fields", "");
+    values_.resize(fields_.size());
   }
 
-  /// Sets stamp, values and size. The values live in the reader until the next call.
-  void read(const M& message, Event& event) {
-    for (std::size_t i = 0; i < fields_.size(); ++i) values_[i] = fields_[i].get(message);
-    event.stamp = to_stamp(message.header.stamp);
+  /// Sets values and size of the event, and the channel of jumps. The values live in the reader
+  /// until the next call. Returns false where the message does not hold a field.
+  bool read(const M& message, Event& event) {
+    for (std::size_t i = 0; i < fields_.size(); ++i) {
+      const std::optional<double> value = fields_[i](message);
+      if (!value) return false;
+      values_[i] = *value;
+    }
     event.values = values_.data();
     event.size = static_cast<Eigen::Index>(values_.size());
+    if (event.kind == EventKind::kJump) event.channel = jump_channel_;
+    return true;
   }
 
  private:
-  std::vector<MessageField<M>> fields_;
+  int jump_channel_;
+  std::vector<FieldGetter<M>> fields_;
   std::vector<double> values_;
 };
-
-/// @throws ConfigError when `source` names fields: this type has its values in order.
-void refuse_fields(const TopicSource& source);
 
 /// Messages that carry a list of values. The event's values are the message's own.
 template <class M>
@@ -61,10 +67,10 @@ class ListReader {
  public:
   explicit ListReader(const TopicSource& source) { refuse_fields(source); }
 
-  void read(const M& message, Event& event) {
-    event.stamp = to_stamp(message.header.stamp);
+  bool read(const M& message, Event& event) {
     event.values = message.values.data();
     event.size = static_cast<Eigen::Index>(message.values.size());
+    return true;
   }
 };
 
@@ -90,8 +96,7 @@ class ValueReader<JumpEvent> {
     refuse_fields(source);
   }
 
-  void read(const JumpEvent& message, Event& event) {
-    event.stamp = to_stamp(message.header.stamp);
+  bool read(const JumpEvent& message, Event& event) {
     event.release = to_stamp(message.release);
     const bool is_measured = !message.values.empty();
     event.channel = is_measured ? kMeasuredJump : kPlainJump;
@@ -103,6 +108,7 @@ class ValueReader<JumpEvent> {
     } else {
       std::copy(message.values.begin(), message.values.end(), values_.begin() + first_output_);
     }
+    return true;
   }
 
  private:

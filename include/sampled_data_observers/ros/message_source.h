@@ -1,0 +1,60 @@
+#pragma once
+
+#include <ros/node_handle.h>
+#include <rosbag/message_instance.h>
+
+#include <boost/shared_ptr.hpp>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "sampled_data_observers/config/topic_config.h"
+#include "sampled_data_observers/hybrid/event.h"
+#include "sampled_data_observers/observer/estimator.h"
+
+namespace sampled_data_observers {
+
+/// What a source made of a message.
+enum class Reading : std::uint8_t {
+  kEvent,       ///< an event
+  kPassedOver,  ///< nothing: the source is thinned
+  kNoField      ///< nothing: the message does not hold a field that is configured
+};
+
+/// Why there is no event in a message.
+/// @pre reading is neither kEvent nor kPassedOver
+EventOutcome outcome_of(Reading reading);
+
+/// A message of the type that its source has.
+using MessagePointer = boost::shared_ptr<const void>;
+
+/// Messages of one configured type from one topic, and the events that they are. The only
+/// place that knows their type: live observers and replay read them alike.
+class MessageSource {
+ public:
+  virtual ~MessageSource() = default;
+
+  /// Takes each message and the time of its receipt.
+  using Receiver = std::function<void(const MessagePointer&, Stamp)>;
+
+  /// Subscribes to the configured topic.
+  virtual ros::Subscriber subscribe(ros::NodeHandle& handle, std::uint32_t queue_length,
+                                    const Receiver& receive) const = 0;
+
+  /// The message in a bag; null when it was recorded with another definition of its type.
+  virtual MessagePointer instantiate(const rosbag::MessageInstance& instance) const = 0;
+
+  /// Sets stamp, values and size of an event whose kind is set, and what else the message says. The
+  /// values live until the next call, or as long as the message.
+  /// @param message  one that this source gave
+  /// @param receipt  the event's stamp where the source is configured so
+  virtual Reading read(const MessagePointer& message, Stamp receipt, Event& event) = 0;
+};
+
+/// The source that a configuration asks for.
+/// @throws ConfigError for a message type, field or stamp that does not exist; it lists those that
+/// do.
+std::unique_ptr<MessageSource> make_message_source(const TopicSource& source);
+
+}  // namespace sampled_data_observers

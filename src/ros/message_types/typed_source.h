@@ -1,0 +1,84 @@
+#pragma once
+
+#include <ros/message_event.h>
+#include <ros/message_traits.h>
+#include <ros/subscribe_options.h>
+#include <std_msgs/Header.h>
+#include <std_msgs/Time.h>
+
+#include <memory>
+
+#include "message_types.h"
+#include "sampled_data_observers/hybrid/thinned_stamps.h"
+#include "sampled_data_observers/observer/estimator.h"
+#include "sampled_data_observers/ros/message_source.h"
+#include "sampled_data_observers/ros/time_conversion.h"
+#include "sampled_data_observers/ros/value_reader.h"
+
+namespace sampled_data_observers {
+
+/// The stamp that a message carries; null for a type without.
+template <class M>
+const ros::Time* stamp_of(const M& message) {
+  return ros::message_traits::TimeStamp<M>::pointer(message);
+}
+inline const ros::Time* stamp_of(const std_msgs::Header& message) { return &message.stamp; }
+inline const ros::Time* stamp_of(const std_msgs::Time& message) { return &message.data; }
+
+template <class M>
+class TypedSource : public MessageSource {
+ public:
+  explicit TypedSource(const TopicSource& source)
+      : topic_(source.topic),
+        by_receipt_(source.stamped_on_receipt),
+        thinned_(source.min_interval),
+        reader_(source) {
+    if (!by_receipt_ && stamp_of(M()) == nullptr) {
+      throw ConfigError(source.origin, source.path + "/stamp",
+                        "receipt (" + source.type + " carries no stamp)", "none");
+    }
+  }
+
+  ros::Subscriber subscribe(ros::NodeHandle& handle, std::uint32_t queue_length,
+                            const Receiver& receive) const override {
+    using Message = const ros::MessageEvent<const M>&;
+    ros::SubscribeOptions options;
+    options.initByFullCallbackType<Message>(topic_, queue_length, [receive](Message message) {
+      receive(message.getConstMessage(), to_stamp(message.getReceiptTime()));
+    });
+    options.transport_hints.tcpNoDelay();
+    return handle.subscribe(options);
+  }
+
+  MessagePointer instantiate(const rosbag::MessageInstance& instance) const override {
+    return instance.instantiate<M>();
+  }
+
+  Reading read(const MessagePointer& message, Stamp receipt, Event& event) override {
+    const M& typed = *static_cast<const M*>(message.get());
+    event.stamp = by_receipt_ ? receipt : to_stamp(*stamp_of(typed));
+    if (!reader_.read(typed, event)) return Reading::kNoField;
+    // What will be rejected does not take the place of the next message.
+    const bool counts = event.stamp > 0 && event.size >= 0 && is_admissible(event.vector());
+    return !counts || thinned_.keep(event.stamp) ? Reading::kEvent : Reading::kPassedOver;
+  }
+
+ private:
+  std::string topic_;
+  bool by_receipt_;
+  ThinnedStamps thinned_;
+  ValueReader<M> reader_;
+};
+
+/// Adds message types by their names, "package/Type".
+template <class... Messages>
+void add_types(MessageTypes& types) {
+  const auto add = [&types](const char* name, MakeMessageSource make) { types[name] = make; };
+  (add(ros::message_traits::DataType<Messages>::value(),
+       [](const TopicSource& source) -> std::unique_ptr<MessageSource> {
+         return std::make_unique<TypedSource<Messages>>(source);
+       }),
+   ...);
+}
+
+}  // namespace sampled_data_observers

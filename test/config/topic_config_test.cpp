@@ -1,0 +1,85 @@
+// Where events come from, as configurations say it.
+#include "sampled_data_observers/config/topic_config.h"
+
+#include <gtest/gtest.h>
+
+#include "support/config_faults.h"
+
+namespace sampled_data_observers {
+namespace {
+
+const char kSources[] = R"(
+observer: ConstantGainObserver
+plant:
+  states: [p]
+  inputs: [u]
+  A: [[0]]
+  B: [[1]]
+  jump_map: {A_d: [[1]]}
+sensors:
+  wheel:
+    C: [[1]]
+    source: {topic: joints, type: sensor_msgs/JointState, fields: [position.wheel], min_interval: 0.25}
+input: {topic: force, type: std_msgs/Float64, fields: [data], stamp: receipt}
+jumps: {topic: contact, type: std_msgs/Header}
+sampling: {T1: 0.1, T2: 0.2}
+gains: {L: [[0.5]]}
+)";
+
+using test::Fault;
+using test::fault;
+using test::parse;
+using test::replaced;
+
+TEST(TopicConfigTest, ReadsSourcesOfStandardTypes) {
+  const ObserverConfig config = parse(kSources);
+  const TopicSource& sensor = *config.sensors[0];
+  EXPECT_EQ("sensor_msgs/JointState", sensor.type);
+  EXPECT_EQ(std::vector<std::string>{"position.wheel"}, sensor.fields);
+  EXPECT_EQ(250'000'000, sensor.min_interval);
+  EXPECT_FALSE(sensor.stamped_on_receipt);
+  EXPECT_FALSE(sensor.of_jumps);
+  EXPECT_EQ("force", config.input->topic);
+  EXPECT_EQ("std_msgs/Float64", config.input->type);
+  EXPECT_TRUE(config.input->stamped_on_receipt);
+  EXPECT_EQ("std_msgs/Header", config.jumps->type);
+  EXPECT_TRUE(config.jumps->of_jumps);
+  EXPECT_TRUE(config.jumps->fields.empty());
+}
+
+TEST(TopicConfigTest, SourcesHaveDefaults) {
+  const std::string text =
+      replaced(kSources, "type: std_msgs/Float64, fields: [data], stamp: receipt", "");
+  const ObserverConfig config =
+      parse(replaced(text, "jumps: {topic: contact, type: std_msgs/Header}", ""));
+  EXPECT_EQ("sampled_data_observers/Input", config.input->type);
+  EXPECT_FALSE(config.input->stamped_on_receipt);
+  EXPECT_EQ("jumps", config.jumps->topic);
+  EXPECT_EQ("sampled_data_observers/JumpEvent", config.jumps->type);
+  EXPECT_EQ("test.yaml:2", config.jumps->origin);
+}
+
+TEST(TopicConfigTest, AJumpSourceReadsTheModeOfASwitchedPlantOnly) {
+  EXPECT_NE(std::string::npos,
+            fault(replaced(kSources, "std_msgs/Header", "std_msgs/Header, mode: x"))
+                .find("jumps/mode: expected"));
+}
+
+TEST(TopicConfigTest, FaultsSayWhatIsExpected) {
+  const std::vector<Fault> faults = {
+      {"stamp: receipt", "stamp: now", {"input/stamp", "receipt", "'now'"}},
+      {"min_interval: 0.25", "min_interval: -1", {"sensors/wheel/source/min_interval", "-1"}},
+      {"std_msgs/Float64", "sampled_data_observers/Measurement", {"input/type", "Measurement"}},
+      {"std_msgs/Header", "sampled_data_observers/Input", {"jumps/type", "JumpEvent or"}},
+      {"sensor_msgs/JointState", "sampled_data_observers/Input", {"wheel/source/type", "Input"}},
+      {"std_msgs/Header", "std_msgs/Header, fields: [x]", {"jumps/fields", "list of 0"}},
+      {"std_msgs/Header", "std_msgs/Header, min_interval: 1", {"jumps/min_interval", "unknown"}},
+  };
+  for (const Fault& change : faults) {
+    const std::string message = fault(replaced(kSources, change.from, change.to));
+    EXPECT_EQ("", test::missing_parts(change, message)) << message;
+  }
+}
+
+}  // namespace
+}  // namespace sampled_data_observers
