@@ -11,14 +11,15 @@ constexpr double kLongest = 1e6;  // s
 
 /// What all sources have in common.
 /// @param topic  the default; empty: the key is required
-/// @param type  the package's own for this use, the default
+/// @param type  the package's own for this use, the default; empty: the key is required
 TopicSource read_source(ConfigSection& section, const std::string& topic, const std::string& type) {
   TopicSource source;
   source.topic = topic.empty() ? section.text("topic") : section.text("topic", topic);
-  source.type = section.text("type", type);
+  source.type = type.empty() ? section.text("type") : section.text("type", type);
   for (const char* own : {kMeasurementType, kInputType, kJumpType}) {
     if (source.type == own && source.type != type) {
-      throw section.error("type", type + " or a standard message type", "'" + source.type + "'");
+      throw section.error("type", (type.empty() ? "" : type + " or ") + "a standard message type",
+                          "'" + source.type + "'");
     }
   }
   if (section.has("stamp")) {
@@ -38,6 +39,14 @@ TopicSource read_value_source(ConfigSection& section, const std::string& topic,
   source.min_interval = from_seconds(section.number_in("min_interval", 0.0, kLongest, 0.0));
   section.finish();
   return source;
+}
+
+/// Jumps that a detector finds say nothing but their stamps.
+TopicSource read_detected_jumps(ConfigSection& section, const Plant& plant) {
+  if (plant.switches()) {
+    throw section.error("detector", "messages that hold the mode, for a switched plant", "one");
+  }
+  return read_detector_source(section.section("detector"));
 }
 
 }  // namespace
@@ -70,8 +79,23 @@ TopicSource read_input_source(ConfigSection& root, const Plant& plant) {
   return source;
 }
 
+TopicSource read_detector_source(ConfigSection section) {
+  ConfigSection messages = section.section("source");
+  TopicSource source = read_source(messages, "", "");
+  ConfigSection fields = messages.section("fields");
+  const std::vector<std::string> names = fields.keys();
+  for (const std::string& name : names) source.fields.push_back(fields.text(name));
+  source.size = names.size();
+  messages.finish();
+  source.of_jumps = true;
+  source.detector = read_detector(section, names);
+  section.finish();
+  return source;
+}
+
 TopicSource read_jump_source(const ConfigSection& root, ConfigSection& section,
                              const Plant& plant) {
+  if (section.has("detector")) return read_detected_jumps(section, plant);
   TopicSource source = read_source(section, "jumps", kJumpType);
   if (source.origin.empty()) source.origin = root.origin();  // there is no such section
   source.of_jumps = true;

@@ -71,9 +71,12 @@ std::vector<BagChannel> bind_channels(const ObserverConfig& config, const rosbag
     bound.source = make_message_source(channel.source);
     const auto found = std::find_if(topics.begin(), topics.end(),
                                     [&](const auto& topic) { return topic.first == bound.topic; });
-    // Inputs and jumps may never have happened; a sensor without a single sample is a mistake.
-    const bool is_sensor = channel.kind != EventKind::kInput && channel.kind != EventKind::kJump;
-    if (found == topics.end() && is_sensor) {
+    // Inputs and jumps may never have happened; a sensor without a single sample is a mistake, and
+    // so is the signal of a detector.
+    const bool may_be_empty =
+        (channel.kind == EventKind::kInput || channel.kind == EventKind::kJump) &&
+        !channel.source.detector;
+    if (found == topics.end() && !may_be_empty) {
       throw ReplayError(channel.source.origin + ": " + channel.source.path +
                         ": the bag has no topic " + bound.topic + "; it has" + listed(topics));
     }

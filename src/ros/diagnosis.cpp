@@ -102,6 +102,8 @@ const char* remedy(EventOutcome outcome) {
       return "the value is far off, or the estimate is wrong: see gate/recovery";
     case EventOutcome::kNoField:
       return "compare the messages with source/fields";
+    case EventOutcome::kOutOfOrder:
+      return "its publisher must send the signal in the order of stamps";
   }
   return "";
 }

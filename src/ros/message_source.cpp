@@ -2,7 +2,10 @@
 
 #include <ros/names.h>
 
+#include <utility>
+
 #include "message_types/message_types.h"
+#include "sampled_data_observers/ros/detected_jumps.h"
 
 namespace sampled_data_observers {
 namespace {
@@ -24,6 +27,10 @@ EventOutcome outcome_of(Reading reading) {
   switch (reading) {
     case Reading::kNoField:
       return EventOutcome::kNoField;
+    case Reading::kOutOfOrder:
+      return EventOutcome::kOutOfOrder;
+    case Reading::kNotFinite:
+      return EventOutcome::kNotFinite;
     case Reading::kEvent:
     case Reading::kPassedOver:
       break;
@@ -39,7 +46,11 @@ std::unique_ptr<MessageSource> make_message_source(const TopicSource& source) {
   }
   static const MessageTypes kTypes = all_types();
   const auto found = kTypes.find(source.type);
-  if (found != kTypes.end()) return found->second(source);
+  if (found != kTypes.end()) {
+    std::unique_ptr<MessageSource> messages = found->second(source);
+    if (!source.detector) return messages;
+    return std::make_unique<DetectedJumps>(std::move(messages), *source.detector);
+  }
   std::string known;
   for (const auto& [name, make] : kTypes) known += (known.empty() ? "" : ", ") + name;
   throw ConfigError(source.origin, source.path + "/type", "one of " + known,

@@ -2,6 +2,7 @@
 
 #include <pluginlib/class_list_macros.hpp>
 
+#include "sampled_data_observers/ros/jump_detector_nodelet.h"
 #include "sampled_data_observers/ros/observer_nodelet.h"
 #include "sampled_data_observers/ros/plant_simulator.h"
 
@@ -24,4 +25,5 @@ SDO_OBSERVER_NODELET(SwitchedObserver)
 SDO_OBSERVER_NODELET(SynchronizedObserver)
 SDO_OBSERVER_NODELET(TimeVaryingGainObserver)
 
+PLUGINLIB_EXPORT_CLASS(sampled_data_observers::JumpDetectorNodelet, nodelet::Nodelet)
 PLUGINLIB_EXPORT_CLASS(sampled_data_observers::PlantSimulatorNodelet, nodelet::Nodelet)

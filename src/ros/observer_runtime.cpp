@@ -30,6 +30,7 @@ static_assert(EventStatus::UNKNOWN_MODE == static_cast<int>(EventOutcome::kUnkno
 static_assert(EventStatus::TOO_FREQUENT == static_cast<int>(EventOutcome::kTooFrequent));
 static_assert(EventStatus::GATED == static_cast<int>(EventOutcome::kGated));
 static_assert(EventStatus::NO_FIELD == static_cast<int>(EventOutcome::kNoField));
+static_assert(EventStatus::OUT_OF_ORDER == static_cast<int>(EventOutcome::kOutOfOrder));
 static_assert(EventStatus::INTERVAL_NONE == static_cast<int>(IntervalCheck::kNone));
 static_assert(EventStatus::INTERVAL_WITHIN == static_cast<int>(IntervalCheck::kWithin));
 static_assert(EventStatus::INTERVAL_SHORT == static_cast<int>(IntervalCheck::kShort));
@@ -71,6 +72,8 @@ const char* describe(const EventReport& report) {
       return "the innovation lies outside the gate";
     case EventOutcome::kNoField:
       return "the message does not hold a configured field";
+    case EventOutcome::kOutOfOrder:
+      return "a detector's signal, stamped not after the one before";
   }
   return "";
 }

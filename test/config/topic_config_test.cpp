@@ -81,5 +81,71 @@ TEST(TopicConfigTest, FaultsSayWhatIsExpected) {
   }
 }
 
+const char kDetector[] = R"(
+detector:
+  source: {topic: imu, type: sensor_msgs/Imu, fields: {ax: linear_acceleration.x, w: angular_velocity.z}}
+  signal: abs(ax) + 2*w
+  threshold: 30
+  hysteresis: 10
+  direction: falling
+  refractory: 0.5
+)";
+
+std::string detector_in_observer(const std::string& text) {
+  return replaced(kSources, "{topic: contact, type: std_msgs/Header}", "\n" + text);
+}
+
+TEST(DetectorConfigTest, ReadsEveryKey) {
+  const ConfigNode tree = read_yaml_text(kDetector, "test.yaml");
+  const TopicSource source = read_detector_source(ConfigSection(tree, "").section("detector"));
+  EXPECT_EQ("imu", source.topic);
+  EXPECT_EQ("sensor_msgs/Imu", source.type);
+  EXPECT_EQ((std::vector<std::string>{"linear_acceleration.x", "angular_velocity.z"}),
+            source.fields);
+  ASSERT_TRUE(source.detector.has_value());
+  EXPECT_EQ(30.0, source.detector->options.threshold);
+  EXPECT_EQ(10.0, source.detector->options.hysteresis);
+  EXPECT_FALSE(source.detector->options.rising);
+  EXPECT_EQ(500'000'000, source.detector->options.refractory);
+  const double fields[] = {-3.0, 0.25};
+  double signal = 0.0;
+  source.detector->signal->evaluate(fields, nullptr, &signal);
+  EXPECT_EQ(3.5, signal);
+}
+
+TEST(DetectorConfigTest, TheSameSectionStandsBelowTheJumpsOfAnObserver) {
+  std::string text = kDetector;
+  for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 3) {
+    text.replace(at, 1, "\n  ");
+  }
+  const ObserverConfig config = parse(detector_in_observer(text));
+  EXPECT_EQ("imu", config.jumps->topic);
+  EXPECT_TRUE(config.jumps->of_jumps);
+  EXPECT_EQ(30.0, config.jumps->detector->options.threshold);
+}
+
+TEST(DetectorConfigTest, FaultsSayWhatIsExpected) {
+  const std::vector<Fault> faults = {
+      {"threshold: 30", "", {"detector/threshold", "missing"}},
+      {"hysteresis: 10", "hysteresis: -1", {"detector/hysteresis", "-1"}},
+      {"falling", "down", {"detector/direction", "falling", "'down'"}},
+      {"2*w", "2*v", {"detector/signal", "v"}},
+      {"refractory", "deadtime", {"detector/deadtime", "unknown key"}},
+      {", type: sensor_msgs/Imu", "", {"detector/source/type", "missing"}},
+      {"sensor_msgs/Imu", "sampled_data_observers/JumpEvent", {"source/type", "standard"}},
+  };
+  for (const Fault& change : faults) {
+    const ConfigNode tree =
+        read_yaml_text(replaced(kDetector, change.from, change.to), "test.yaml");
+    std::string message = "no fault";
+    try {
+      read_detector_source(ConfigSection(tree, "").section("detector"));
+    } catch (const ConfigError& error) {
+      message = error.what();
+    }
+    EXPECT_EQ("", test::missing_parts(change, message)) << message;
+  }
+}
+
 }  // namespace
 }  // namespace sampled_data_observers

@@ -17,6 +17,9 @@ EXAMPLE = os.path.join(ROOT, "config", "examples", "ferrante2016_mass_spring")
 MASS_SPRING = [os.path.join(EXAMPLE, name)
                for name in ("scenario.yaml", "observer.yaml", "gains.yaml")]
 CRAZYFLIE = os.path.join(ROOT, "config", "crazyflie_position.yaml")
+CRASH = [os.path.join(ROOT, "config", name)
+         for name in ("crazyflie_position.yaml", "crazyflie_crash.yaml",
+                      "crazyflie_crash_detector.yaml")]
 
 
 class ReplayTestCase(unittest.TestCase):
@@ -138,6 +141,41 @@ class CrazyflieTest(ReplayTestCase):
         self.assertGreater(summary["samples_used"], 150)
         self.assertEqual(0, summary["samples_rejected"])
         self.assertLess(summary["rmse_norm"], 0.5 * summary["hold_rmse_norm"])
+
+    def test_the_crash_is_detected_and_nothing_before(self):
+        import rosbag
+        from sampled_data_observers.msg import EventStatus
+
+        self.replay(self.bag, CRASH, "crash.bag")
+        with rosbag.Bag(self.path("crash.bag")) as replayed:
+            jumps = [message.header.stamp.to_sec()
+                     for _, message, _ in replayed.read_messages("/events")
+                     if message.kind == EventStatus.JUMP]
+        # The motion capture saw the fall end.
+        with rosbag.Bag(self.bag) as recorded:
+            start = recorded.get_start_time()
+            heights = [(message.header.stamp.to_sec(), message.pose.position.z)
+                       for _, message, _ in
+                       recorded.read_messages("/vrpn_client_node/Drone1/pose")]
+        impact = next(stamp for (stamp, height), (_, next_height) in zip(heights, heights[1:])
+                      if stamp - start > 23.7 and next_height > height)
+        print("impact at %.4f s, detected at %.4f s" % (impact - start, jumps[0] - start))
+        self.assertLess(abs(jumps[0] - impact), 0.02)
+
+    def test_with_the_crash_as_a_jump_the_position_recovers_better(self):
+        # From the impact on, for a second and to the end.
+        for end in ("24.6", "27"):
+            sums = [0.0, 0.0]
+            for seed in range(1, 11):
+                for i, configs in enumerate(([CRAZYFLIE], CRASH)):
+                    summary = self.replay(self.bag, configs, "thinned.bag", "--thin", "0.05",
+                                          "0.2", "--seed", str(seed), "--from", "23.56",
+                                          "--to", end)
+                    sums[i] += summary["rmse_norm"] ** 2 / 10
+            without, with_jump = (value ** 0.5 for value in sums)
+            print("RMSE after the crash, up to %s s: %.4f m without the jump, %.4f m with it"
+                  % (end, without, with_jump))
+            self.assertLess(with_jump, without)
 
     def test_live_is_as_replayed_and_so_is_the_past_asked_for_afterwards(self):
         import rosbag

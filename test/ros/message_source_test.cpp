@@ -441,6 +441,32 @@ TEST(JumpSourceTest, JumpEventsHaveTheirValuesInOrder) {
   expect_parts(fault([&] { make_message_source(own); }), {"source/mode", "no fields"});
 }
 
+TEST(DetectedJumpsTest, AreTheCrossingsOfTheSignal) {
+  TopicSource imu = jumps<sensor_msgs::Imu>({"linear_acceleration.x"});
+  DetectorConfig detector;
+  detector.signal = std::make_shared<const AffineMap>(Eigen::MatrixXd::Constant(1, 1, 2.0));
+  detector.options.threshold = 10.0;
+  imu.detector = detector;
+  const auto source = make_message_source(imu);
+  const auto reading = [&](Stamp stamp, double x, Stamp receipt) {
+    sensor_msgs::Imu message;
+    message.header.stamp.fromNSec(static_cast<std::uint64_t>(stamp));
+    message.linear_acceleration.x = x;
+    return read(*source, message, EventKind::kJump, receipt);
+  };
+  EXPECT_EQ(Reading::kPassedOver, reading(1000, 0.0, 2000).reading);
+  EXPECT_EQ(Reading::kOutOfOrder, reading(1000, 8.0, 2001).reading);
+  EXPECT_EQ(Reading::kNotFinite, reading(1500, std::nan(""), 2002).reading);
+  const Read jump = reading(2000, 10.0, 2003);
+  EXPECT_EQ(Reading::kEvent, jump.reading);
+  EXPECT_EQ(1500, jump.event.stamp);
+  EXPECT_EQ(0, jump.event.size);
+  EXPECT_EQ(kPlainJump, jump.event.channel);
+  // The clock is set back: what was before counts no more.
+  EXPECT_EQ(Reading::kPassedOver, reading(100, 0.0, 200).reading);
+  EXPECT_EQ(150, reading(200, 10.0, 201).event.stamp);
+}
+
 TEST(MessageSourceTest, ReadingAllocatesNothing) {
   if (!test::allocations_are_counted()) GTEST_SKIP() << "a sanitizer owns the allocator";
   const auto joint = make_message_source(

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sampled_data_observers/config/config_section.h"
+#include "sampled_data_observers/config/detector_config.h"
 #include "sampled_data_observers/hybrid/time.h"
 #include "sampled_data_observers/plant/plant.h"
 
@@ -32,6 +33,8 @@ struct TopicSource {
   bool stamped_on_receipt = false;
   /// Events nearer to the last one kept are passed over [ns]; 0: none.
   Duration min_interval = 0;
+  /// Where the messages are no jumps but show them: how to detect them.
+  std::optional<DetectorConfig> detector;
   /// Where the configuration says so, for messages about it.
   std::string origin;
   std::string path;
@@ -44,6 +47,9 @@ std::vector<std::optional<TopicSource>> read_sensor_sources(ConfigSection& root,
 
 /// Reads the source of inputs, the section `input`.
 TopicSource read_input_source(ConfigSection& root, const Plant& plant);
+
+/// Reads a section `detector`: the source whose messages show jumps, and how to detect them.
+TopicSource read_detector_source(ConfigSection section);
 
 /// Reads the source of jump events from `section`, which is the section `jumps` of `root`; other
 /// keys of it are left alone.

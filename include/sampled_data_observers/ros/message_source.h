@@ -18,8 +18,10 @@ namespace sampled_data_observers {
 /// What a source made of a message.
 enum class Reading : std::uint8_t {
   kEvent,       ///< an event
-  kPassedOver,  ///< nothing: the source is thinned
-  kNoField      ///< nothing: the message does not hold a field that is configured
+  kPassedOver,  ///< nothing: the source is thinned, or no jump is detected
+  kNoField,     ///< nothing: the message does not hold a field that is configured
+  kOutOfOrder,  ///< nothing: a detector's signal whose stamp is not after the one before
+  kNotFinite    ///< nothing: a detector's signal that is NaN or infinite
 };
 
 /// Why there is no event in a message.

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "sampled_data_observers/config/config_section.h"
+#include "sampled_data_observers/hybrid/jump_detector.h"
+#include "sampled_data_observers/plant/vector_map.h"
+
+namespace sampled_data_observers {
+
+/// How jumps are detected in the fields of messages.
+struct DetectorConfig {
+  /// From one value per field to the signal.
+  std::shared_ptr<const VectorMap> signal;
+  JumpDetector::Options options;
+};
+
+/// Reads the signal of a section `detector` and what is looked for in it; other keys of the section
+/// are left alone.
+/// @param fields  the names of the fields, which the formula of the signal may use
+/// @throws ConfigError for the first fault found.
+DetectorConfig read_detector(ConfigSection& section, const std::vector<std::string>& fields);
+
+}  // namespace sampled_data_observers

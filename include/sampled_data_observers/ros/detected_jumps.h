@@ -1,0 +1,30 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "sampled_data_observers/config/detector_config.h"
+#include "sampled_data_observers/ros/message_source.h"
+
+namespace sampled_data_observers {
+
+/// Jumps that show in a signal: reads its messages from another source, and makes an event of each
+/// crossing. When the time of receipt goes back, the clock was set: the detector starts again.
+class DetectedJumps : public MessageSource {
+ public:
+  /// @param signal  its values are those that the formula of the signal takes
+  DetectedJumps(std::unique_ptr<MessageSource> signal, const DetectorConfig& config);
+
+  ros::Subscriber subscribe(ros::NodeHandle& handle, std::uint32_t queue_length,
+                            const Receiver& receive) const override;
+  MessagePointer instantiate(const rosbag::MessageInstance& instance) const override;
+  Reading read(const MessagePointer& message, Stamp receipt, Event& event) override;
+
+ private:
+  std::unique_ptr<MessageSource> signal_;
+  std::shared_ptr<const VectorMap> formula_;
+  JumpDetector detector_;
+  Stamp last_receipt_ = 0;
+};
+
+}  // namespace sampled_data_observers

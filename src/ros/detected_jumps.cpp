@@ -1,0 +1,44 @@
+#include "sampled_data_observers/ros/detected_jumps.h"
+
+#include <utility>
+
+namespace sampled_data_observers {
+
+DetectedJumps::DetectedJumps(std::unique_ptr<MessageSource> signal, const DetectorConfig& config)
+    : signal_(std::move(signal)), formula_(config.signal), detector_(config.options) {}
+
+ros::Subscriber DetectedJumps::subscribe(ros::NodeHandle& handle, std::uint32_t queue_length,
+                                         const Receiver& receive) const {
+  return signal_->subscribe(handle, queue_length, receive);
+}
+
+MessagePointer DetectedJumps::instantiate(const rosbag::MessageInstance& instance) const {
+  return signal_->instantiate(instance);
+}
+
+Reading DetectedJumps::read(const MessagePointer& message, Stamp receipt, Event& event) {
+  if (receipt < last_receipt_) detector_.restart();
+  last_receipt_ = receipt;
+  event.size = 0;
+  event.channel = kPlainJump;
+  Event sample;
+  const Reading reading = signal_->read(message, receipt, sample);
+  event.stamp = sample.stamp;
+  if (reading != Reading::kEvent) return reading;
+  double value = 0.0;
+  formula_->evaluate(sample.values, nullptr, &value);
+  switch (detector_.add(sample.stamp, value)) {
+    case JumpDetector::Finding::kJump:
+      event.stamp = detector_.crossing();
+      return Reading::kEvent;
+    case JumpDetector::Finding::kOutOfOrder:
+      return Reading::kOutOfOrder;
+    case JumpDetector::Finding::kNotFinite:
+      return Reading::kNotFinite;
+    case JumpDetector::Finding::kNothing:
+      break;
+  }
+  return Reading::kPassedOver;
+}
+
+}  // namespace sampled_data_observers

@@ -1,0 +1,61 @@
+#include "sampled_data_observers/ros/jump_detector_nodelet.h"
+
+#include <sampled_data_observers/JumpEvent.h>
+
+#include <boost/make_shared.hpp>
+
+#include "sampled_data_observers/config/config_section.h"
+#include "sampled_data_observers/ros/observer_runtime.h"
+#include "sampled_data_observers/ros/parameter_tree.h"
+#include "sampled_data_observers/ros/time_conversion.h"
+
+namespace sampled_data_observers {
+namespace {
+
+constexpr std::uint32_t kQueueLength = 2000;
+
+}  // namespace
+
+void JumpDetectorNodelet::onInit() {
+  try {
+    const ConfigNode tree = read_parameter_tree(getPrivateNodeHandle());
+    ConfigSection root(tree, "");
+    const TopicSource config = read_detector_source(root.section("jumps").section("detector"));
+    root.finish();
+    source_ = make_message_source(config);
+    publisher_ = getNodeHandle().advertise<JumpEvent>("jumps", kQueueLength);
+    subscriber_ = source_->subscribe(
+        getNodeHandle(), kQueueLength,
+        [this](const MessagePointer& message, Stamp receipt) { receive(message, receipt); });
+    signal_topic_ = subscriber_.getTopic();
+    NODELET_INFO("jumps on %s, detected in %s (%s)", publisher_.getTopic().c_str(),
+                 signal_topic_.c_str(), config.type.c_str());
+  } catch (const std::exception& error) {
+    NODELET_FATAL("not started: %s", error.what());
+    // Now, while the callback queue still lives: roscpp crashes if that happens in the destructor.
+    subscriber_ = ros::Subscriber();
+    publisher_ = ros::Publisher();
+    throw;
+  }
+}
+
+void JumpDetectorNodelet::receive(const MessagePointer& message, Stamp receipt) {
+  Event event;
+  event.kind = EventKind::kJump;
+  const Reading reading = source_->read(message, receipt, event);
+  if (reading == Reading::kPassedOver) return;
+  if (reading != Reading::kEvent) {
+    EventReport report;
+    report.outcome = outcome_of(reading);
+    NODELET_WARN_THROTTLE(5.0, "message on %s ignored: %s (stamp %.9f s, received %.9f s)",
+                          signal_topic_.c_str(), describe(report), to_seconds(event.stamp),
+                          to_seconds(receipt));
+    return;
+  }
+  const auto jump = boost::make_shared<JumpEvent>();
+  jump->header.stamp = to_ros_time(event.stamp);
+  publisher_.publish(jump);
+  NODELET_INFO("jump at %.9f s", to_seconds(event.stamp));
+}
+
+}  // namespace sampled_data_observers
