@@ -7,7 +7,7 @@ const char kMeasurementType[] = "sampled_data_observers/Measurement";
 const char kInputType[] = "sampled_data_observers/Input";
 const char kJumpType[] = "sampled_data_observers/JumpEvent";
 
-constexpr double kLongest = 1e6;  // s
+constexpr double kLongestInterval = 1e6;  // s
 
 /// What all sources have in common.
 /// @param topic  the default; empty: the key is required
@@ -36,7 +36,7 @@ TopicSource read_value_source(ConfigSection& section, const std::string& topic,
   TopicSource source = read_source(section, topic, type);
   source.size = size;
   if (section.has("fields")) source.fields = section.texts("fields", size);
-  source.min_interval = from_seconds(section.number_in("min_interval", 0.0, kLongest, 0.0));
+  source.min_interval = from_seconds(section.number_in("min_interval", 0.0, kLongestInterval, 0.0));
   section.finish();
   return source;
 }

@@ -1,6 +1,7 @@
 #include "sampled_data_observers/replay/bag_source.h"
 
 #include <ros/names.h>
+#include <ros/serialization.h>
 #include <rosbag/view.h>
 
 #include <algorithm>
@@ -50,10 +51,15 @@ std::vector<std::pair<std::string, std::string>> bag_topics(const rosbag::Bag& b
 }
 
 MessagePointer instantiate(const MessageSource& source, const rosbag::MessageInstance& instance) {
-  MessagePointer message = source.instantiate(instance);
-  if (message) return message;
-  throw ReplayError(instance.getTopic() + ": its " + instance.getDataType() +
-                    " was recorded with another definition than this one's");
+  if (instance.getMD5Sum() != source.md5sum()) {
+    throw ReplayError(instance.getTopic() + ": its " + instance.getDataType() +
+                      " was recorded with another definition than this one's");
+  }
+  std::vector<std::uint8_t> bytes(instance.size());
+  const auto size = static_cast<std::uint32_t>(bytes.size());
+  ros::serialization::OStream stream(bytes.data(), size);
+  instance.write(stream);
+  return source.deserialize(bytes.data(), size);
 }
 
 Reading BagChannel::read(const rosbag::MessageInstance& instance, Event& event) {

@@ -12,8 +12,8 @@ ros::Subscriber DetectedJumps::subscribe(ros::NodeHandle& handle, std::uint32_t 
   return signal_->subscribe(handle, queue_length, receive);
 }
 
-MessagePointer DetectedJumps::instantiate(const rosbag::MessageInstance& instance) const {
-  return signal_->instantiate(instance);
+MessagePointer DetectedJumps::deserialize(std::uint8_t* data, std::uint32_t size) const {
+  return signal_->deserialize(data, size);
 }
 
 Reading DetectedJumps::read(const MessagePointer& message, Stamp receipt, Event& event) {

@@ -7,14 +7,10 @@
 #include "sampled_data_observers/config/config_section.h"
 #include "sampled_data_observers/ros/observer_runtime.h"
 #include "sampled_data_observers/ros/parameter_tree.h"
+#include "sampled_data_observers/ros/queue_length.h"
 #include "sampled_data_observers/ros/time_conversion.h"
 
 namespace sampled_data_observers {
-namespace {
-
-constexpr std::uint32_t kQueueLength = 2000;
-
-}  // namespace
 
 void JumpDetectorNodelet::onInit() {
   try {

@@ -1,6 +1,6 @@
 // Whatever bytes come as messages, the estimate stays finite. An input is a list of messages: the
 // channel, the length (two bytes), and the message as roscpp sends it.
-#include <ros/serialization.h>
+#include <ros/exception.h>
 
 #include <cmath>
 #include <cstdint>
@@ -13,9 +13,8 @@
 #include <vector>
 
 #include "sampled_data_observers/config/yaml_file.h"
-#include "sampled_data_observers/ros/message_types.h"
+#include "sampled_data_observers/ros/message_source.h"
 #include "sampled_data_observers/ros/observer_runtime.h"
-#include "sampled_data_observers/ros/value_reader.h"
 
 using namespace sampled_data_observers;
 
@@ -74,22 +73,17 @@ class Observer {
       : config_(
             read_observer_config(read_yaml_text(text + kCommon, "fuzz.yaml"), no_plant_plugins)) {
     for (const EventChannel& channel : event_channels(config_)) {
-      visit_message_type(channel.source, [&](auto tag) {
-        using M = typename decltype(tag)::type;
-        const auto reader = std::make_shared<ValueReader<M>>(channel.source);
-        channels_.push_back([this, channel, reader](std::uint8_t* data, std::uint32_t size) {
-          M message;
-          ros::serialization::IStream stream(data, size);
-          allocation_is_limited = true;
-          ros::serialization::deserialize(stream, message);
-          allocation_is_limited = false;
-          Event event;
-          event.kind = channel.kind;
-          event.channel = channel.channel;
-          reader->read(message, event);
-          EventStatus status;
-          runtime_->receive(channel, event, now_, status);
-        });
+      const std::shared_ptr<MessageSource> source = make_message_source(channel.source);
+      channels_.push_back([this, channel, source](std::uint8_t* data, std::uint32_t size) {
+        allocation_is_limited = true;
+        const MessagePointer message = source->deserialize(data, size);
+        allocation_is_limited = false;
+        Event event;
+        event.kind = channel.kind;
+        event.channel = channel.channel;
+        if (source->read(message, now_, event) != Reading::kEvent) return;
+        EventStatus status;
+        runtime_->receive(channel, event, now_, status);
       });
     }
   }

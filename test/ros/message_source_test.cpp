@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 #include <nav_msgs/Odometry.h>
 #include <ros/message_traits.h>
+#include <ros/serialization.h>
 #include <sampled_data_observers/JumpEvent.h>
 #include <sensor_msgs/FluidPressure.h>
 #include <sensor_msgs/Imu.h>
@@ -367,6 +368,19 @@ TEST(MessageSourceTest, ATypeWithoutStampNeedsOneByReceipt) {
   number.stamped_on_receipt = false;
   expect_parts(fault([&] { make_message_source(number); }),
                {"sensors/s/source/stamp", "receipt", "std_msgs/Float64 carries no stamp"});
+}
+
+TEST(MessageSourceTest, DeserializesWhatRoscppSends) {
+  const auto points = make_message_source(source<geometry_msgs::PointStamped>({"point.y"}));
+  EXPECT_STREQ(ros::message_traits::MD5Sum<geometry_msgs::PointStamped>::value(), points->md5sum());
+  geometry_msgs::PointStamped message;
+  message.point.y = 2.5;
+  ros::SerializedMessage sent = ros::serialization::serializeMessage(message);
+  const auto size = static_cast<std::uint32_t>(sent.num_bytes - 4);  // without the length
+  Event event;
+  points->read(points->deserialize(sent.message_start, size), kReceipt, event);
+  EXPECT_EQ(2.5, event.values[0]);
+  EXPECT_THROW(points->deserialize(sent.message_start, size - 1), ros::Exception);
 }
 
 TEST(MessageSourceTest, ReceiptReplacesAStampWhereConfigured) {

@@ -17,7 +17,8 @@ class DetectedJumps : public MessageSource {
 
   ros::Subscriber subscribe(ros::NodeHandle& handle, std::uint32_t queue_length,
                             const Receiver& receive) const override;
-  MessagePointer instantiate(const rosbag::MessageInstance& instance) const override;
+  const char* md5sum() const override { return signal_->md5sum(); }
+  MessagePointer deserialize(std::uint8_t* data, std::uint32_t size) const override;
   Reading read(const MessagePointer& message, Stamp receipt, Event& event) override;
 
  private:

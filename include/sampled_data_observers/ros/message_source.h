@@ -1,7 +1,6 @@
 #pragma once
 
 #include <ros/node_handle.h>
-#include <rosbag/message_instance.h>
 
 #include <boost/shared_ptr.hpp>
 #include <cstdint>
@@ -31,8 +30,8 @@ EventOutcome outcome_of(Reading reading);
 /// A message of the type that its source has.
 using MessagePointer = boost::shared_ptr<const void>;
 
-/// Messages of one configured type from one topic, and the events that they are. The only
-/// place that knows their type: live observers and replay read them alike.
+/// Messages of one configured type from one topic, and the events that they are. The only place
+/// that knows their type: live observers and replay read them alike.
 class MessageSource {
  public:
   virtual ~MessageSource() = default;
@@ -44,8 +43,12 @@ class MessageSource {
   virtual ros::Subscriber subscribe(ros::NodeHandle& handle, std::uint32_t queue_length,
                                     const Receiver& receive) const = 0;
 
-  /// The message in a bag; null when it was recorded with another definition of its type.
-  virtual MessagePointer instantiate(const rosbag::MessageInstance& instance) const = 0;
+  /// The checksum of the type's definition.
+  virtual const char* md5sum() const = 0;
+
+  /// The message that these bytes are, as roscpp sends it.
+  /// @throws ros::Exception, std::bad_alloc for bytes that are none
+  virtual MessagePointer deserialize(std::uint8_t* data, std::uint32_t size) const = 0;
 
   /// Sets stamp, values and size of an event whose kind is set, and what else the message says. The
   /// values live until the next call, or as long as the message.

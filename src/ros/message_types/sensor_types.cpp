@@ -10,16 +10,12 @@
 namespace sampled_data_observers {
 namespace {
 
-using sensor_msgs::Imu;
-using sensor_msgs::JointState;
-using sensor_msgs::Range;
-
 /// Finds a joint's entry in each message anew: publishers may change their order, or leave some
 /// out.
-void add_joints(MessageFields<JointState>& fields, const std::string& name,
-                std::vector<double> JointState::*entries) {
+void add_joints(MessageFields<sensor_msgs::JointState>& fields, const std::string& name,
+                std::vector<double> sensor_msgs::JointState::*entries) {
   fields.keyed(name + ".", "JOINT", [entries](const std::string& joint) {
-    return [entries, joint](const JointState& message) -> std::optional<double> {
+    return [entries, joint](const sensor_msgs::JointState& message) -> std::optional<double> {
       const auto found = std::find(message.name.begin(), message.name.end(), joint);
       const auto index = static_cast<std::size_t>(found - message.name.begin());
       const std::vector<double>& values = message.*entries;
@@ -35,7 +31,8 @@ void add_fields(MessageFields<sensor_msgs::FluidPressure>& fields) {
 }
 
 /// The first entry of a covariance is -1 where the IMU does not measure the quantity.
-void add_fields(MessageFields<Imu>& fields) {
+void add_fields(MessageFields<sensor_msgs::Imu>& fields) {
+  using Imu = sensor_msgs::Imu;
   fields
       .nested("orientation", &Imu::orientation,
               [](const Imu& imu) { return imu.orientation_covariance[0] != -1.0; })
@@ -45,10 +42,10 @@ void add_fields(MessageFields<Imu>& fields) {
               [](const Imu& imu) { return imu.linear_acceleration_covariance[0] != -1.0; });
 }
 
-void add_fields(MessageFields<JointState>& fields) {
-  add_joints(fields, "position", &JointState::position);
-  add_joints(fields, "velocity", &JointState::velocity);
-  add_joints(fields, "effort", &JointState::effort);
+void add_fields(MessageFields<sensor_msgs::JointState>& fields) {
+  add_joints(fields, "position", &sensor_msgs::JointState::position);
+  add_joints(fields, "velocity", &sensor_msgs::JointState::velocity);
+  add_joints(fields, "effort", &sensor_msgs::JointState::effort);
 }
 
 void add_fields(MessageFields<sensor_msgs::MagneticField>& fields) {
@@ -56,8 +53,8 @@ void add_fields(MessageFields<sensor_msgs::MagneticField>& fields) {
 }
 
 /// A range outside of what the sensor says that it can measure is none.
-void add_fields(MessageFields<Range>& fields) {
-  fields.computed("range", [](const Range& message) {
+void add_fields(MessageFields<sensor_msgs::Range>& fields) {
+  fields.computed("range", [](const sensor_msgs::Range& message) {
     const bool is_limited = message.min_range < message.max_range;
     const bool is_within = message.min_range <= message.range && message.range <= message.max_range;
     return !is_limited || is_within ? std::optional<double>(message.range) : std::nullopt;
@@ -65,7 +62,8 @@ void add_fields(MessageFields<Range>& fields) {
 }
 
 void add_sensor_types(MessageTypes& types) {
-  add_types<sensor_msgs::FluidPressure, Imu, JointState, sensor_msgs::MagneticField, Range>(types);
+  add_types<sensor_msgs::FluidPressure, sensor_msgs::Imu, sensor_msgs::JointState,
+            sensor_msgs::MagneticField, sensor_msgs::Range>(types);
 }
 
 }  // namespace sampled_data_observers

@@ -2,10 +2,12 @@
 
 #include <ros/message_event.h>
 #include <ros/message_traits.h>
+#include <ros/serialization.h>
 #include <ros/subscribe_options.h>
 #include <std_msgs/Header.h>
 #include <std_msgs/Time.h>
 
+#include <boost/make_shared.hpp>
 #include <memory>
 
 #include "message_types.h"
@@ -50,8 +52,13 @@ class TypedSource : public MessageSource {
     return handle.subscribe(options);
   }
 
-  MessagePointer instantiate(const rosbag::MessageInstance& instance) const override {
-    return instance.instantiate<M>();
+  const char* md5sum() const override { return ros::message_traits::MD5Sum<M>::value(); }
+
+  MessagePointer deserialize(std::uint8_t* data, std::uint32_t size) const override {
+    auto message = boost::make_shared<M>();
+    ros::serialization::IStream stream(data, size);
+    ros::serialization::deserialize(stream, *message);
+    return message;
   }
 
   Reading read(const MessagePointer& message, Stamp receipt, Event& event) override {
