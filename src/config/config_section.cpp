@@ -278,6 +278,17 @@ ConfigSection ConfigSection::section(const std::string& key) {
   return ConfigSection(required(key, "a map of keys"), path_of(key));
 }
 
+std::vector<ConfigSection> ConfigSection::sections(const std::string& key) {
+  const std::string expected = "a list of maps";
+  const ConfigNode& node = required(key, expected);
+  if (node.kind != ConfigNode::Kind::kSequence) throw error(key, expected, node.describe());
+  std::vector<ConfigSection> result;
+  for (const ConfigNode& item : node.items) {
+    result.emplace_back(item, path_of(key) + "/" + std::to_string(result.size() + 1));
+  }
+  return result;
+}
+
 ConfigSection ConfigSection::section_or_empty(const std::string& key) {
   static const ConfigNode kEmptyMap = [] {
     ConfigNode node;

@@ -108,6 +108,8 @@ ObserverConfig read_observer_config(const ConfigNode& tree, const PlantPluginLoa
   if (plant.inputs() > 0) config.input = read_input_source(root, plant);
   if (plant.jumps()) config.jumps = read_jumps(root, plant, config.law);
 
+  config.static_transforms = read_static_transforms(root);
+
   config.options.sampling = read_sampling(root, plant);
   Guarantee guarantee = read_guarantee(root, tree, config);
   config.guarantee = std::move(guarantee.text);

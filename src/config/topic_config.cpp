@@ -25,6 +25,7 @@ TopicSource read_source(ConfigSection& section, const std::string& topic, const 
   if (section.has("stamp")) {
     source.stamped_on_receipt = section.choice("stamp", {"header", "receipt"}) == "receipt";
   }
+  source.frames = read_source_frames(section);
   source.origin = section.origin();
   source.path = section.path();
   return source;

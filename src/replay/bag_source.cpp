@@ -18,6 +18,11 @@ std::string listed(const std::vector<std::pair<std::string, std::string>>& topic
   return text.empty() ? "\n  nothing" : text;
 }
 
+ReplayError other_definition(const rosbag::MessageInstance& instance) {
+  return ReplayError(instance.getTopic() + ": its " + instance.getDataType() +
+                     " was recorded with another definition than this one's");
+}
+
 }  // namespace
 
 void open_for_reading(rosbag::Bag& bag, const std::string& path) {
@@ -52,8 +57,7 @@ std::vector<std::pair<std::string, std::string>> bag_topics(const rosbag::Bag& b
 
 MessagePointer instantiate(const MessageSource& source, const rosbag::MessageInstance& instance) {
   if (instance.getMD5Sum() != source.md5sum()) {
-    throw ReplayError(instance.getTopic() + ": its " + instance.getDataType() +
-                      " was recorded with another definition than this one's");
+    throw other_definition(instance);
   }
   std::vector<std::uint8_t> bytes(instance.size());
   const auto size = static_cast<std::uint32_t>(bytes.size());
@@ -67,14 +71,15 @@ Reading BagChannel::read(const rosbag::MessageInstance& instance, Event& event) 
   return source->read(message_, to_stamp(instance.getTime()), event);
 }
 
-std::vector<BagChannel> bind_channels(const ObserverConfig& config, const rosbag::Bag& bag) {
+std::vector<BagChannel> bind_channels(const ObserverConfig& config, const rosbag::Bag& bag,
+                                      const std::shared_ptr<const TransformBuffer>& transforms) {
   const auto topics = bag_topics(bag);
   std::vector<BagChannel> result;
   for (const EventChannel& channel : event_channels(config)) {
     BagChannel bound;
     bound.channel = channel;
     bound.topic = ros::names::resolve(channel.source.topic);
-    bound.source = make_message_source(channel.source);
+    bound.source = make_message_source(channel.source, transforms);
     const auto found = std::find_if(topics.begin(), topics.end(),
                                     [&](const auto& topic) { return topic.first == bound.topic; });
     // Inputs and jumps may never have happened; a sensor without a single sample is a mistake, and
@@ -94,6 +99,16 @@ std::vector<BagChannel> bind_channels(const ObserverConfig& config, const rosbag
     result.push_back(std::move(bound));
   }
   return result;
+}
+
+std::vector<std::string> transform_topics() {
+  return {ros::names::resolve("/tf"), ros::names::resolve("/tf_static")};
+}
+
+void take_transforms(const rosbag::MessageInstance& instance, TransformBuffer& transforms) {
+  const auto message = instance.instantiate<tf2_msgs::TFMessage>();
+  if (!message) throw other_definition(instance);
+  transforms.take(*message, instance.getTopic() == transform_topics().back());
 }
 
 }  // namespace sampled_data_observers

@@ -13,6 +13,7 @@
 #include "sampled_data_observers/replay/progress_bar.h"
 #include "sampled_data_observers/replay/thinning.h"
 #include "sampled_data_observers/replay/truth.h"
+#include "sampled_data_observers/ros/event_intake.h"
 #include "sampled_data_observers/ros/time_conversion.h"
 
 namespace sampled_data_observers {
@@ -24,13 +25,22 @@ constexpr Duration kClockJump = Duration{24} * 3600 * kNanosecondsPerSecond;
 class Replay {
  public:
   Replay(const ObserverConfig& config, const ReplayOptions& options)
-      : config_(config), options_(options), runtime_(config) {
+      : config_(config),
+        options_(options),
+        runtime_(config),
+        transforms_(std::make_shared<TransformBuffer>(config.static_transforms)) {
     open_for_reading(bag_, options.bag);
-    channels_ = bind_channels(config, bag_);
+    channels_ = bind_channels(config, bag_, transforms_);
+    if (has_frames(config)) transform_topics_ = transform_topics();
+    for (const BagChannel& bound : channels_) {
+      intakes_.emplace_back(bound.channel, bound.source,
+                            [this](const EventChannel& channel, const Event& event,
+                                   Reading reading) { handle(channel, event, reading); });
+    }
     if (!options.truth_topic.empty()) {
       truth_ = truth_from_topic(config, bag_, options.truth_topic, options.truth_fields);
     } else if (options.thinning) {
-      truth_ = truth_from_samples(config, channels_);
+      truth_ = truth_from_samples(config, channels_, transforms_);
     }
     comparison_.emplace(truth_.quantities, config.plant);
     plotted_ = truth_.quantities;
@@ -47,7 +57,7 @@ class Replay {
 
   ReplaySummary run() {
     const auto start = std::chrono::steady_clock::now();
-    std::set<std::string> topics;
+    std::set<std::string> topics(transform_topics_.begin(), transform_topics_.end());
     if (!truth_.topic.empty()) topics.insert(truth_.topic);
     for (const BagChannel& bound : channels_) topics.insert(bound.topic);
     rosbag::View view(bag_,
@@ -65,6 +75,7 @@ class Replay {
     rosbag::View all(bag_);
     const Stamp end = to_stamp(all.getEndTime());
     if (clock_) publish_due(end + config_.publish_delay);
+    for (EventIntake& intake : intakes_) intake.give_up();
     output_.close();
 
     summary_.bag = options_.bag;
@@ -84,7 +95,7 @@ class Replay {
     if (!options_.thinning) return;
     std::vector<std::vector<Stamp>> stamps(channels_.size());
     // Sources remember what they read; those of the replay proper have read nothing yet.
-    std::vector<BagChannel> channels = bind_channels(config_, bag_);
+    std::vector<BagChannel> channels = bind_channels(config_, bag_, transforms_);
     Event event;
     for (const rosbag::MessageInstance& instance : view) {
       for (std::size_t i = 0; i < channels_.size(); ++i) {
@@ -114,7 +125,9 @@ class Replay {
   void take(const rosbag::MessageInstance& instance) {
     const Stamp now = to_stamp(instance.getTime());
     publish_due(now);
-    bool received = false;
+    bool received = is_transform(instance.getTopic());
+    if (received) take_transforms(instance, *transforms_);
+    for (EventIntake& intake : intakes_) intake.retry(now);
     for (std::size_t i = 0; i < channels_.size(); ++i) {
       if (channels_[i].topic != instance.getTopic()) continue;
       if (is_thinned(i) && !kept_[i][next_[i]++]) {
@@ -122,7 +135,7 @@ class Replay {
         continue;
       }
       received = true;
-      receive(channels_[i], instance, now);
+      intakes_[i].take(instantiate(*channels_[i].source, instance), now, now);
     }
     if (received && output_.isOpen()) {
       output_.write(instance.getTopic(), instance.getTime(), instance,
@@ -131,17 +144,16 @@ class Replay {
     if (instance.getTopic() == truth_.topic) compare(instance);
   }
 
-  void receive(BagChannel& bound, const rosbag::MessageInstance& instance, Stamp now) {
-    Event event;
-    event.kind = bound.channel.kind;
-    event.channel = bound.channel.channel;
-    const Reading reading = bound.read(instance, event);
-    if (reading == Reading::kPassedOver) return;
+  bool is_transform(const std::string& topic) const {
+    return std::count(transform_topics_.begin(), transform_topics_.end(), topic) > 0;
+  }
+
+  void handle(const EventChannel& channel, const Event& event, Reading reading) {
     const EventReport report =
         reading == Reading::kEvent
-            ? runtime_.receive(bound.channel, event, now, status_)
-            : runtime_.reject(bound.channel, event, outcome_of(reading), now, status_);
-    if (output_.isOpen()) output_.write(resolved("events"), instance.getTime(), status_);
+            ? runtime_.receive(channel, event, *clock_, status_)
+            : runtime_.reject(channel, event, outcome_of(reading), *clock_, status_);
+    if (output_.isOpen()) output_.write(resolved("events"), to_ros_time(*clock_), status_);
     count(event, report);
     const bool is_measurement =
         event.kind == EventKind::kSample || event.kind == EventKind::kOutput;
@@ -289,7 +301,10 @@ class Replay {
   ObserverRuntime runtime_;
   rosbag::Bag bag_;
   rosbag::Bag output_;
+  std::shared_ptr<TransformBuffer> transforms_;
+  std::vector<std::string> transform_topics_;
   std::vector<BagChannel> channels_;
+  std::vector<EventIntake> intakes_;
   std::vector<std::vector<bool>> kept_;
   std::vector<std::size_t> next_;
   Truth truth_;

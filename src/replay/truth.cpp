@@ -54,9 +54,9 @@ Truth truth_from_states(const Plant& plant, const std::map<std::string, std::str
 
 /// What reads the messages of a source, all of them.
 std::function<bool(const rosbag::MessageInstance&, Stamp&, std::vector<double>&)> reader_of(
-    TopicSource config) {
+    TopicSource config, const std::shared_ptr<const TransformBuffer>& transforms) {
   config.min_interval = 0;
-  const std::shared_ptr<MessageSource> source = make_message_source(config);
+  const std::shared_ptr<MessageSource> source = make_message_source(config, transforms);
   return
       [source](const rosbag::MessageInstance& instance, Stamp& stamp, std::vector<double>& values) {
         const MessagePointer message = instantiate(*source, instance);
@@ -85,7 +85,7 @@ Truth truth_from_fields(const Plant& plant, const std::string& type,
     throw ReplayError("--compare: expected STATE=FIELD for a truth of type " + type +
                       ", found nothing");
   }
-  truth.read = reader_of(source);
+  truth.read = reader_of(source, nullptr);
   return truth;
 }
 
@@ -106,7 +106,8 @@ Truth truth_from_topic(const ObserverConfig& config, const rosbag::Bag& bag,
   return truth;
 }
 
-Truth truth_from_samples(const ObserverConfig& config, const std::vector<BagChannel>& channels) {
+Truth truth_from_samples(const ObserverConfig& config, const std::vector<BagChannel>& channels,
+                         const std::shared_ptr<const TransformBuffer>& transforms) {
   if (config.sensors.size() != 1) {
     throw ReplayError("several sensors can't be each other's truth: name a topic with --truth");
   }
@@ -126,7 +127,7 @@ Truth truth_from_samples(const ObserverConfig& config, const std::vector<BagChan
     }
     truth.quantities.push_back(std::move(quantity));
   }
-  truth.read = [read = reader_of(bound.channel.source), size = truth.quantities.size()](
+  truth.read = [read = reader_of(bound.channel.source, transforms), size = truth.quantities.size()](
                    const rosbag::MessageInstance& instance, Stamp& stamp,
                    std::vector<double>& values) {
     return read(instance, stamp, values) && values.size() == size;

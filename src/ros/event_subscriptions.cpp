@@ -21,16 +21,17 @@ EventStatus status_prototype() {
 
 }  // namespace
 
-EventSubscriptions::EventSubscriptions(const ros::NodeHandle& handle,
-                                       const std::vector<EventChannel>& channels,
+EventSubscriptions::EventSubscriptions(const ros::NodeHandle& handle, const ObserverConfig& config,
                                        SharedRuntime& runtime, EstimatePublication& publication,
                                        std::string name)
     : handle_(handle),
       runtime_(runtime),
       publication_(publication),
       name_(std::move(name)),
-      statuses_(status_prototype(), kStatusesHeld) {
-  for (const EventChannel& channel : channels) subscribe_.push_back(subscription(channel));
+      statuses_(status_prototype(), kStatusesHeld),
+      transforms_(std::make_shared<TransformBuffer>(config.static_transforms)) {
+  for (const EventChannel& channel : event_channels(config)) add(channel);
+  if (has_frames(config)) subscribe_.push_back([this] { listen_to_transforms(); });
   status_publisher_ = handle_.advertise<EventStatus>("events", kQueueLength);
 }
 
@@ -42,23 +43,65 @@ void EventSubscriptions::start() {
       ros::Duration(1e-3), [this](const ros::TimerEvent&) { run_deferred(); }, once);
 }
 
-std::function<void()> EventSubscriptions::subscription(const EventChannel& channel) {
-  const std::shared_ptr<MessageSource> source = make_message_source(channel.source);
-  return [this, source, channel] {
-    const auto deliver = [this, source, channel](const MessagePointer& message, Stamp receipt) {
-      if (ros::Time::now().isZero()) {
-        defer([this, source, channel, message] {
-          receive(channel, *source, message, to_stamp(ros::Time::now()));
-        });
-        return;
-      }
-      run_deferred();
-      receive(channel, *source, message, receipt);
-    };
+void EventSubscriptions::add(const EventChannel& channel) {
+  const std::shared_ptr<MessageSource> source = make_message_source(channel.source, transforms_);
+  const auto intake = std::make_shared<EventIntake>(
+      channel, source, [this](const EventChannel& from, const Event& event, Reading reading) {
+        handle(from, event, reading);
+      });
+  const auto deliver = [this, intake](const MessagePointer& message, Stamp receipt) {
+    const Stamp now = to_stamp(ros::Time::now());
+    if (now == 0) {
+      defer([intake, message] {
+        const Stamp first = to_stamp(ros::Time::now());
+        intake->take(message, first, first);
+      });
+      return;
+    }
+    run_deferred();
+    watch_clock(now);
+    intake->take(message, receipt, now);
+  };
+  subscribe_.push_back([this, source, deliver, channel] {
     subscribers_.push_back(source->subscribe(handle_, kQueueLength, deliver));
     ROS_INFO_NAMED(name_, "%s from %s (%s)", channel.name.c_str(),
                    subscribers_.back().getTopic().c_str(), channel.source.type.c_str());
-  };
+  });
+  intakes_.push_back(intake);
+}
+
+/// On the same callback queue as everything else: what waits is tried again as transforms come, and
+/// nothing needs a lock.
+void EventSubscriptions::listen_to_transforms() {
+  for (const bool is_static : {false, true}) {
+    const boost::function<void(const tf2_msgs::TFMessageConstPtr&)> take =
+        [this, is_static](const tf2_msgs::TFMessageConstPtr& message) {
+          watch_clock(to_stamp(ros::Time::now()));
+          transforms_->take(*message, is_static);
+          retry_waiting();
+        };
+    subscribers_.push_back(handle_.subscribe<tf2_msgs::TFMessage>(
+        is_static ? "/tf_static" : "/tf", kQueueLength, take, ros::VoidConstPtr(),
+        ros::TransportHints().tcpNoDelay()));
+  }
+  retry_timer_ = handle_.createWallTimer(ros::WallDuration(0.1),
+                                         [this](const ros::WallTimerEvent&) { retry_waiting(); });
+}
+
+/// Forgets the transforms of a time that is yet to come again.
+void EventSubscriptions::watch_clock(Stamp now) {
+  if (now < last_now_) {
+    transforms_->clear();
+    for (const auto& intake : intakes_) intake->give_up();
+  }
+  last_now_ = now;
+}
+
+void EventSubscriptions::retry_waiting() {
+  const Stamp now = to_stamp(ros::Time::now());
+  if (now == 0) return;
+  watch_clock(now);
+  for (const auto& intake : intakes_) intake->retry(now);
 }
 
 /// Keeps a task until the first message of a simulated clock: before, nobody can tell the past from
@@ -78,13 +121,7 @@ void EventSubscriptions::run_deferred() {
   deferred_.clear();
 }
 
-void EventSubscriptions::receive(const EventChannel& channel, MessageSource& source,
-                                 const MessagePointer& message, Stamp receipt) {
-  Event event;
-  event.kind = channel.kind;
-  event.channel = channel.channel;
-  const Reading reading = source.read(message, receipt, event);
-  if (reading == Reading::kPassedOver) return;
+void EventSubscriptions::handle(const EventChannel& channel, const Event& event, Reading reading) {
   const boost::shared_ptr<EventStatus> status = statuses_.take();
   EventReport report;
   {

@@ -25,6 +25,8 @@ MessageTypes all_types() {
 
 EventOutcome outcome_of(Reading reading) {
   switch (reading) {
+    case Reading::kNoTransform:
+      return EventOutcome::kNoTransform;
     case Reading::kNoField:
       return EventOutcome::kNoField;
     case Reading::kOutOfOrder:
@@ -38,7 +40,8 @@ EventOutcome outcome_of(Reading reading) {
   return EventOutcome::kUsed;
 }
 
-std::unique_ptr<MessageSource> make_message_source(const TopicSource& source) {
+std::unique_ptr<MessageSource> make_message_source(
+    const TopicSource& source, std::shared_ptr<const TransformBuffer> transforms) {
   std::string fault;
   if (!ros::names::validate(source.topic, fault)) {
     throw ConfigError(source.origin, source.path + "/topic", "a name of a topic",
@@ -47,7 +50,7 @@ std::unique_ptr<MessageSource> make_message_source(const TopicSource& source) {
   static const MessageTypes kTypes = all_types();
   const auto found = kTypes.find(source.type);
   if (found != kTypes.end()) {
-    std::unique_ptr<MessageSource> messages = found->second(source);
+    std::unique_ptr<MessageSource> messages = found->second(source, std::move(transforms));
     if (!source.detector) return messages;
     return std::make_unique<DetectedJumps>(std::move(messages), *source.detector);
   }

@@ -44,8 +44,8 @@ void ObserverNodelet::start(const ObserverConfig& config) {
     outputs = std::make_unique<EstimateOutputs>(handle, *config.outputs, config.period);
   }
   publication_ = std::make_unique<EstimatePublication>(handle, *runtime_, std::move(outputs));
-  subscriptions_ = std::make_unique<EventSubscriptions>(handle, event_channels(config), *runtime_,
-                                                        *publication_, getName());
+  subscriptions_ =
+      std::make_unique<EventSubscriptions>(handle, config, *runtime_, *publication_, getName());
   // Their queue has threads of its own, so that events go on while a service works.
   services_ = std::make_unique<ObserverServices>(getMTNodeHandle(), *runtime_);
   diagnostics_ =

@@ -1,5 +1,6 @@
 #include "sampled_data_observers/ros/observer_runtime.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -29,6 +30,7 @@ static_assert(EventStatus::WOULD_OVERFLOW == static_cast<int>(EventOutcome::kWou
 static_assert(EventStatus::UNKNOWN_MODE == static_cast<int>(EventOutcome::kUnknownMode));
 static_assert(EventStatus::TOO_FREQUENT == static_cast<int>(EventOutcome::kTooFrequent));
 static_assert(EventStatus::GATED == static_cast<int>(EventOutcome::kGated));
+static_assert(EventStatus::NO_TRANSFORM == static_cast<int>(EventOutcome::kNoTransform));
 static_assert(EventStatus::NO_FIELD == static_cast<int>(EventOutcome::kNoField));
 static_assert(EventStatus::OUT_OF_ORDER == static_cast<int>(EventOutcome::kOutOfOrder));
 static_assert(EventStatus::INTERVAL_NONE == static_cast<int>(IntervalCheck::kNone));
@@ -70,6 +72,8 @@ const char* describe(const EventReport& report) {
       return "jumps faster than jumps/min_separation or max_per_second allow";
     case EventOutcome::kGated:
       return "the innovation lies outside the gate";
+    case EventOutcome::kNoTransform:
+      return "no transform into the configured frame came in time";
     case EventOutcome::kNoField:
       return "the message does not hold a configured field";
     case EventOutcome::kOutOfOrder:
@@ -102,6 +106,12 @@ std::vector<EventChannel> event_channels(const ObserverConfig& config) {
   if (config.jumps) channels.push_back({EventKind::kJump, 0, "jumps", *config.jumps});
   for (std::size_t i = 0; i < channels.size(); ++i) channels[i].index = i;
   return channels;
+}
+
+bool has_frames(const ObserverConfig& config) {
+  const std::vector<EventChannel> channels = event_channels(config);
+  return std::any_of(channels.begin(), channels.end(),
+                     [](const EventChannel& channel) { return channel.source.frames.any(); });
 }
 
 ObserverRuntime::ObserverRuntime(const ObserverConfig& config)

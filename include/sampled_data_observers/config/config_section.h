@@ -54,6 +54,8 @@ class ConfigSection {
   std::vector<Eigen::VectorXd> vectors(const std::string& key);
 
   ConfigSection section(const std::string& key);
+  /// A list of maps.
+  std::vector<ConfigSection> sections(const std::string& key);
   /// A map whose keys are names that the user chose.
   std::vector<std::string> keys() const;
   bool is_map(const std::string& key);

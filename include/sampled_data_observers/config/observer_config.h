@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sampled_data_observers/config/config_node.h"
+#include "sampled_data_observers/config/frame_config.h"
 #include "sampled_data_observers/config/outputs_config.h"
 #include "sampled_data_observers/config/plant_config.h"
 #include "sampled_data_observers/config/topic_config.h"
@@ -37,6 +38,7 @@ struct ObserverConfig {
   std::optional<TopicSource> jumps;
   /// Set where the estimate is also given in standard messages.
   std::optional<OutputsConfig> outputs;
+  std::vector<StaticTransform> static_transforms;
   /// Name of the theorem that guarantees something for these gains, and what; empty without a
   /// certificate that holds.
   std::string guarantee;

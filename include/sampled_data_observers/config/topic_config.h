@@ -7,6 +7,7 @@
 
 #include "sampled_data_observers/config/config_section.h"
 #include "sampled_data_observers/config/detector_config.h"
+#include "sampled_data_observers/config/frame_config.h"
 #include "sampled_data_observers/hybrid/time.h"
 #include "sampled_data_observers/plant/plant.h"
 
@@ -35,6 +36,7 @@ struct TopicSource {
   Duration min_interval = 0;
   /// Where the messages are no jumps but show them: how to detect them.
   std::optional<DetectorConfig> detector;
+  SourceFrames frames;
   /// Where the configuration says so, for messages about it.
   std::string origin;
   std::string path;

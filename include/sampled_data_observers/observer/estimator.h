@@ -31,6 +31,7 @@ enum class EventOutcome : std::uint8_t {
   kUnknownMode = 9,    ///< a jump into a mode that the plant does not have
   kTooFrequent = 10,   ///< taken in without effect: jumps come faster than the limits allow
   kGated = 11,         ///< taken in without effect: the innovation lies outside the gate
+  kNoTransform = 13,   ///< no transform into a configured frame came in time, so there is no event
   kNoField = 14,       ///< the message does not hold what is configured, so there is no event
   kOutOfOrder = 15     ///< a detector's signal, stamped not after the one before: no event
 };

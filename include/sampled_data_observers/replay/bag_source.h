@@ -52,6 +52,14 @@ MessagePointer instantiate(const MessageSource& source, const rosbag::MessageIns
 /// does it.
 /// @throws ReplayError when a sensor's topic is not in the bag, or of another type.
 /// @throws ConfigError for a source that no message type fits.
-std::vector<BagChannel> bind_channels(const ObserverConfig& config, const rosbag::Bag& bag);
+std::vector<BagChannel> bind_channels(const ObserverConfig& config, const rosbag::Bag& bag,
+                                      const std::shared_ptr<const TransformBuffer>& transforms);
+
+/// The topics of a bag that transforms come on.
+std::vector<std::string> transform_topics();
+
+/// Takes the transforms of a message on one of these.
+/// @throws ReplayError when the message can't be read as transforms.
+void take_transforms(const rosbag::MessageInstance& instance, TransformBuffer& transforms);
 
 }  // namespace sampled_data_observers

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,7 @@ Truth truth_from_topic(const ObserverConfig& config, const rosbag::Bag& bag,
 
 /// The samples themselves as truth of what they measure, for a thinned replay of one sensor.
 /// @throws ReplayError when there are several sensors: their samples have different stamps.
-Truth truth_from_samples(const ObserverConfig& config, const std::vector<BagChannel>& channels);
+Truth truth_from_samples(const ObserverConfig& config, const std::vector<BagChannel>& channels,
+                         const std::shared_ptr<const TransformBuffer>& transforms);
 
 }  // namespace sampled_data_observers

@@ -4,13 +4,16 @@
 #include <ros/publisher.h>
 #include <ros/subscriber.h>
 #include <ros/timer.h>
+#include <ros/wall_timer.h>
 #include <sampled_data_observers/EventStatus.h>
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "sampled_data_observers/ros/estimate_publication.h"
+#include "sampled_data_observers/ros/event_intake.h"
 #include "sampled_data_observers/ros/message_pool.h"
 #include "sampled_data_observers/ros/message_source.h"
 #include "sampled_data_observers/ros/shared_runtime.h"
@@ -24,17 +27,19 @@ class EventSubscriptions {
   /// Finds all faults of the channels' sources; subscribes to nothing before start().
   /// @param name  of the nodelet, for its log
   /// @throws ConfigError
-  EventSubscriptions(const ros::NodeHandle& handle, const std::vector<EventChannel>& channels,
+  EventSubscriptions(const ros::NodeHandle& handle, const ObserverConfig& config,
                      SharedRuntime& runtime, EstimatePublication& publication, std::string name);
 
   void start();
 
  private:
-  std::function<void()> subscription(const EventChannel& channel);
+  void add(const EventChannel& channel);
+  void listen_to_transforms();
   void defer(std::function<void()> task);
   void run_deferred();
-  void receive(const EventChannel& channel, MessageSource& source, const MessagePointer& message,
-               Stamp receipt);
+  void watch_clock(Stamp now);
+  void retry_waiting();
+  void handle(const EventChannel& channel, const Event& event, Reading reading);
 
   ros::NodeHandle handle_;
   SharedRuntime& runtime_;
@@ -42,8 +47,12 @@ class EventSubscriptions {
   const std::string name_;
   MessagePool<EventStatus> statuses_;
   ros::Publisher status_publisher_;
+  std::shared_ptr<TransformBuffer> transforms_;
+  std::vector<std::shared_ptr<EventIntake>> intakes_;
   std::vector<std::function<void()>> subscribe_;
   std::vector<ros::Subscriber> subscribers_;
+  Stamp last_now_ = 0;
+  ros::WallTimer retry_timer_;
   /// What came before the first time of a simulated clock, and what ends the wait for it.
   std::vector<std::function<void()>> deferred_;
   ros::Timer clock_timer_;

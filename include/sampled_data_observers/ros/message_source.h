@@ -11,6 +11,7 @@
 #include "sampled_data_observers/config/topic_config.h"
 #include "sampled_data_observers/hybrid/event.h"
 #include "sampled_data_observers/observer/estimator.h"
+#include "sampled_data_observers/ros/transform_buffer.h"
 
 namespace sampled_data_observers {
 
@@ -20,7 +21,8 @@ enum class Reading : std::uint8_t {
   kPassedOver,  ///< nothing: the source is thinned, or no jump is detected
   kNoField,     ///< nothing: the message does not hold a field that is configured
   kOutOfOrder,  ///< nothing: a detector's signal whose stamp is not after the one before
-  kNotFinite    ///< nothing: a detector's signal that is NaN or infinite
+  kNotFinite,   ///< nothing: a detector's signal that is NaN or infinite
+  kNoTransform  ///< nothing yet: the transform into a configured frame is not known; stamp is set
 };
 
 /// Why there is no event in a message.
@@ -58,8 +60,10 @@ class MessageSource {
 };
 
 /// The source that a configuration asks for.
+/// @param transforms  where a source with frames finds what it needs; else it may be null
 /// @throws ConfigError for a message type, field or stamp that does not exist; it lists those that
-/// do.
-std::unique_ptr<MessageSource> make_message_source(const TopicSource& source);
+/// do. The same for frames of a type that has none.
+std::unique_ptr<MessageSource> make_message_source(
+    const TopicSource& source, std::shared_ptr<const TransformBuffer> transforms = nullptr);
 
 }  // namespace sampled_data_observers

@@ -30,6 +30,9 @@ EventKind kind_of(SensorTiming timing);
 /// All channels of a configuration: the sensors in order, then input and jumps where there are any.
 std::vector<EventChannel> event_channels(const ObserverConfig& config);
 
+/// Whether the data of some channel are to be transformed.
+bool has_frames(const ObserverConfig& config);
+
 /// What a nodelet and a replay do alike: events in, their statuses and the estimates that are due
 /// out. Only where messages come from and go to, and what time it is, differs.
 /// To be used by one thread at a time.

@@ -8,7 +8,8 @@
 
 namespace sampled_data_observers {
 
-using MakeMessageSource = std::unique_ptr<MessageSource> (*)(const TopicSource&);
+using MakeMessageSource =
+    std::unique_ptr<MessageSource> (*)(const TopicSource&, std::shared_ptr<const TransformBuffer>);
 
 /// Message types by name.
 using MessageTypes = std::map<std::string, MakeMessageSource>;

@@ -9,11 +9,13 @@
 
 #include <boost/make_shared.hpp>
 #include <memory>
+#include <utility>
 
 #include "message_types.h"
 #include "sampled_data_observers/hybrid/thinned_stamps.h"
 #include "sampled_data_observers/observer/estimator.h"
 #include "sampled_data_observers/ros/message_source.h"
+#include "sampled_data_observers/ros/message_transformer.h"
 #include "sampled_data_observers/ros/time_conversion.h"
 #include "sampled_data_observers/ros/value_reader.h"
 
@@ -30,9 +32,11 @@ inline const ros::Time* stamp_of(const std_msgs::Time& message) { return &messag
 template <class M>
 class TypedSource : public MessageSource {
  public:
-  explicit TypedSource(const TopicSource& source)
+  TypedSource(const TopicSource& source, std::shared_ptr<const TransformBuffer> transforms)
       : topic_(source.topic),
         by_receipt_(source.stamped_on_receipt),
+        transforms_(std::move(transforms)),
+        transformer_(source),
         thinned_(source.min_interval),
         reader_(source) {
     if (!by_receipt_ && stamp_of(M()) == nullptr) {
@@ -64,15 +68,21 @@ class TypedSource : public MessageSource {
   Reading read(const MessagePointer& message, Stamp receipt, Event& event) override {
     const M& typed = *static_cast<const M*>(message.get());
     event.stamp = by_receipt_ ? receipt : to_stamp(*stamp_of(typed));
-    if (!reader_.read(typed, event)) return Reading::kNoField;
+    const bool has_stamp = event.stamp > 0;
+    const M* wanted =
+        has_stamp ? transformer_.transform(typed, event.stamp, transforms_.get()) : &typed;
+    if (wanted == nullptr) return Reading::kNoTransform;
+    if (!reader_.read(*wanted, event)) return Reading::kNoField;
     // What will be rejected does not take the place of the next message.
-    const bool counts = event.stamp > 0 && event.size >= 0 && is_admissible(event.vector());
+    const bool counts = has_stamp && event.size >= 0 && is_admissible(event.vector());
     return !counts || thinned_.keep(event.stamp) ? Reading::kEvent : Reading::kPassedOver;
   }
 
  private:
   std::string topic_;
   bool by_receipt_;
+  std::shared_ptr<const TransformBuffer> transforms_;
+  MessageTransformer<M> transformer_;
   ThinnedStamps thinned_;
   ValueReader<M> reader_;
 };
@@ -82,8 +92,9 @@ template <class... Messages>
 void add_types(MessageTypes& types) {
   const auto add = [&types](const char* name, MakeMessageSource make) { types[name] = make; };
   (add(ros::message_traits::DataType<Messages>::value(),
-       [](const TopicSource& source) -> std::unique_ptr<MessageSource> {
-         return std::make_unique<TypedSource<Messages>>(source);
+       [](const TopicSource& source,
+          std::shared_ptr<const TransformBuffer> transforms) -> std::unique_ptr<MessageSource> {
+         return std::make_unique<TypedSource<Messages>>(source, std::move(transforms));
        }),
    ...);
 }

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "sampled_data_observers/hybrid/waiting_queue.h"
+#include "sampled_data_observers/ros/message_source.h"
+#include "sampled_data_observers/ros/observer_runtime.h"
+
+namespace sampled_data_observers {
+
+/// The messages of one channel on their way to become events, live and in replay: those whose
+/// transforms are not known yet wait for them, aside, for a bounded time.
+class EventIntake {
+ public:
+  /// Takes what became of a message. The event has a stamp and, where it is one, values that live
+  /// until the handler returns.
+  using Handler = std::function<void(const EventChannel&, const Event&, Reading)>;
+
+  EventIntake(EventChannel channel, std::shared_ptr<MessageSource> source, Handler handle);
+
+  /// Takes a message of the channel's source that arrived at `now`.
+  void take(const MessagePointer& message, Stamp receipt, Stamp now);
+
+  /// Tries again those that wait: to be called when transforms came, and now and then so that those
+  /// which have waited in vain are reported.
+  void retry(Stamp now);
+
+  /// Lets nothing wait any longer.
+  void give_up();
+
+ private:
+  struct Waiting {
+    MessagePointer message;
+    Stamp receipt = 0;
+    Stamp stamp = 0;
+  };
+
+  Event make_event() const;
+  void drop(const Waiting& waiting);
+
+  EventChannel channel_;
+  std::shared_ptr<MessageSource> source_;
+  Handler handle_;
+  WaitingQueue<Waiting> waiting_;
+};
+
+}  // namespace sampled_data_observers

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <tf2/buffer_core.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "sampled_data_observers/config/frame_config.h"
+#include "sampled_data_observers/hybrid/time.h"
+
+namespace sampled_data_observers {
+
+/// The transforms that are known: those of the configuration, and what came on /tf and /tf_static,
+/// of which it keeps the last 10 s. It is filled by whoever reads these topics, live or from a bag,
+/// so that both know the same.
+class TransformBuffer {
+ public:
+  explicit TransformBuffer(const std::vector<StaticTransform>& transforms);
+
+  /// Takes in transforms. Those of children that the configuration has transforms for are left out:
+  /// it overrules the topics.
+  void take(const tf2_msgs::TFMessage& message, bool is_static);
+
+  /// The pose of frame `source` in frame `target` at a stamp; nothing where it is not known (yet).
+  /// Transforms between two stamps are interpolated, and never extrapolated.
+  /// @pre stamp > 0
+  std::optional<Eigen::Isometry3d> find(const std::string& target, const std::string& source,
+                                        Stamp stamp) const;
+
+  /// Forgets all moving transforms.
+  void clear() { buffer_.clear(); }
+
+ private:
+  tf2::BufferCore buffer_;
+  std::set<std::string> configured_children_;
+};
+
+}  // namespace sampled_data_observers
