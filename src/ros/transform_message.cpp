@@ -55,11 +55,6 @@ void transform_screw(const Eigen::Isometry3d& transform, geometry_msgs::Vector3&
          bound);
 }
 
-void transform_accel(const Eigen::Isometry3d& transform, geometry_msgs::Accel& accel) {
-  rotate(transform, accel.linear);
-  rotate(transform, accel.angular);
-}
-
 }  // namespace
 
 void to_frame(const Eigen::Isometry3d& transform, geometry_msgs::PointStamped& message) {
@@ -72,11 +67,6 @@ void to_frame(const Eigen::Isometry3d& transform, geometry_msgs::Vector3Stamped&
 
 void to_frame(const Eigen::Isometry3d& transform, sensor_msgs::MagneticField& message) {
   rotate(transform, message.magnetic_field);
-}
-
-void to_frame(const Eigen::Isometry3d& transform, geometry_msgs::QuaternionStamped& message) {
-  assign(Eigen::Quaterniond(transform.linear()) * as_quaternion(message.quaternion),
-         message.quaternion);
 }
 
 void to_frame(const Eigen::Isometry3d& transform, geometry_msgs::PoseStamped& message) {
@@ -110,12 +100,8 @@ void to_frame(const Eigen::Isometry3d& transform, geometry_msgs::WrenchStamped& 
 }
 
 void to_frame(const Eigen::Isometry3d& transform, geometry_msgs::AccelStamped& message) {
-  transform_accel(transform, message.accel);
-}
-
-void to_frame(const Eigen::Isometry3d& transform,
-              geometry_msgs::AccelWithCovarianceStamped& message) {
-  transform_accel(transform, message.accel.accel);
+  rotate(transform, message.accel.linear);
+  rotate(transform, message.accel.angular);
 }
 
 void to_frame(const Eigen::Isometry3d& transform, sensor_msgs::Imu& message) {

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Bags replayed and played live: the estimates must be the same, bit for bit, and good."""
 import json
+import math
 import os
 import subprocess
 import sys
@@ -16,6 +17,7 @@ ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.realpath(__file__))
 EXAMPLE = os.path.join(ROOT, "config", "examples", "ferrante2016_mass_spring")
 MASS_SPRING = [os.path.join(EXAMPLE, name)
                for name in ("scenario.yaml", "observer.yaml", "gains.yaml")]
+HUSKY = os.path.join(ROOT, "config", "husky_unicycle.yaml")
 CRAZYFLIE = os.path.join(ROOT, "config", "crazyflie_position.yaml")
 CRASH = [os.path.join(ROOT, "config", name)
          for name in ("crazyflie_position.yaml", "crazyflie_crash.yaml",
@@ -213,6 +215,71 @@ class CrazyflieTest(ReplayTestCase):
                 self.assertEqual(estimate.state, found.estimate.state)
         run_tool("compare_estimates", self.path("live.bag"), self.path("replayed.bag"),
                  "--at-least", "95")
+
+
+class HuskyTest(ReplayTestCase):
+    """Wheels and a tilted IMU of a real robot, which drives 359 m around a parking lot."""
+
+    # Where robot_localization's EKF ends on the same recording, and the tolerance of its own test.
+    PUBLISHED_END = (-40.0454, -76.9988)
+    TOLERANCE = 1.0452
+
+    def setUp(self):
+        super().setUp()
+        self.bag = recordings.find("husky_parking_lot.bag")
+        if self.bag is None:
+            print("SKIPPED: husky_parking_lot.bag is not there")
+            self.skipTest("husky_parking_lot.bag is not there")
+
+    def test_ends_where_the_published_estimate_does(self):
+        summary = self.replay(self.bag, [HUSKY], "replayed.bag")
+        state = summary["final_state"]
+        distance = math.hypot(state["x"] - self.PUBLISHED_END[0], state["y"] - self.PUBLISHED_END[1])
+        print("end: x = %.2f m, y = %.2f m, %.2f m from the published one" %
+              (state["x"], state["y"], distance))
+        self.assertLess(distance, self.TOLERANCE)
+        self.assertEqual({}, summary["rejected"])
+        self.assertGreaterEqual(summary["intervals"]["min"], 1.0)
+        self.assertLess(summary["intervals"]["max"], 1.05)
+
+    def test_live_is_as_replayed(self):
+        import rosbag
+        import rospy
+        from sampled_data_observers.srv import GetEstimate
+
+        self.replay(self.bag, [HUSKY], "replayed.bag")
+        port = free_port()
+        launch = self.path("observer.launch")
+        # So fast that messages come seconds of simulated time before and after the clock's.
+        with open(launch, "w") as text:
+            text.write("""<launch>
+              <param name="use_sim_time" value="true"/>
+              <include file="$(find sampled_data_observers)/launch/observer.launch">
+                <arg name="config" value="%s"/>
+              </include>
+              <param name="observer/future_tolerance" value="20"/>
+              <param name="observer/history/duration" value="60"/>
+              <param name="observer/history/max_events" value="5000"/>
+            </launch>""" % HUSKY)
+        os.environ["ROS_MASTER_URI"] = "http://localhost:%d" % port
+        with RosProcess(["roslaunch", "--port", str(port), launch], port):
+            time.sleep(3)
+            subprocess.run(["rosbag", "play", "--quiet", "--clock", "--hz=1000", "--rate=20",
+                            "--wait-for-subscribers", "--duration=120", self.bag, "--topics",
+                            "/imu/data", "/husky_velocity_controller/odom"],
+                           check=True, timeout=120)
+            rospy.wait_for_service("/get_estimate", 10)
+            get_estimate = rospy.ServiceProxy("/get_estimate", GetEstimate, persistent=True)
+            with rosbag.Bag(self.path("replayed.bag")) as replayed:
+                expected = [message for _, message, _ in replayed.read_messages("/estimate")]
+            compared = [estimate for estimate in expected
+                        if 100 < (estimate.header.stamp - expected[0].header.stamp).to_sec() < 118]
+            self.assertGreater(len(compared), 500)
+            for estimate in compared[::10]:
+                found = get_estimate(estimate.header.stamp)
+                self.assertTrue(found.success, found.message)
+                self.assertEqual(estimate.events, found.estimate.events)
+                self.assertEqual(estimate.state, found.estimate.state)
 
 
 if __name__ == "__main__":

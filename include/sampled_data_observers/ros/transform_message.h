@@ -1,11 +1,9 @@
 #pragma once
 
 #include <geometry_msgs/AccelStamped.h>
-#include <geometry_msgs/AccelWithCovarianceStamped.h>
 #include <geometry_msgs/PointStamped.h>
 #include <geometry_msgs/PoseStamped.h>
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
-#include <geometry_msgs/QuaternionStamped.h>
 #include <geometry_msgs/TransformStamped.h>
 #include <geometry_msgs/TwistStamped.h>
 #include <geometry_msgs/TwistWithCovarianceStamped.h>
@@ -29,9 +27,7 @@ void to_frame(const Eigen::Isometry3d& transform, geometry_msgs::PointStamped& m
 /// v_G = R v_F.
 void to_frame(const Eigen::Isometry3d& transform, geometry_msgs::Vector3Stamped& message);
 void to_frame(const Eigen::Isometry3d& transform, sensor_msgs::MagneticField& message);
-/// q_G = q q_F.
-void to_frame(const Eigen::Isometry3d& transform, geometry_msgs::QuaternionStamped& message);
-/// Position and orientation, as above.
+/// The position is a point; q_G = q q_F.
 void to_frame(const Eigen::Isometry3d& transform, geometry_msgs::PoseStamped& message);
 void to_frame(const Eigen::Isometry3d& transform,
               geometry_msgs::PoseWithCovarianceStamped& message);
@@ -50,8 +46,6 @@ void to_frame(const Eigen::Isometry3d& transform, geometry_msgs::WrenchStamped& 
 /// Rotates only. The acceleration of another point of the body would take the angular velocity, and
 /// the angular acceleration, which these messages' senders seldom know.
 void to_frame(const Eigen::Isometry3d& transform, geometry_msgs::AccelStamped& message);
-void to_frame(const Eigen::Isometry3d& transform,
-              geometry_msgs::AccelWithCovarianceStamped& message);
 /// F is the sensor's own frame, G one on the same body: angular velocity and acceleration are
 /// rotated, and the orientation of F in the world becomes that of G, q_WG = q_WF q⁻¹. The
 /// acceleration remains that of F's origin, for the reason above.
