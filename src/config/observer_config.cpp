@@ -126,8 +126,13 @@ ObserverConfig read_observer_config(const ConfigNode& tree, const PlantPluginLoa
   config.period = from_seconds(1.0 / root.number_in("rate", 1e-3, 1e5, 100.0));
   config.publish_delay = from_seconds(root.number_in("publish_delay", 0.0, kLongest, 0.0));
   config.frame_id = root.text("frame_id", "");
+  config.publish_on_event = root.flag("publish_on_event", false);
   config.real_time = read_real_time(root);
   config.outputs = read_outputs(root, config.law->estimate_names(), config.frame_id);
+  config.reset_on_time_jump_back = root.flag("reset_on_time_jump_back", false);
+  config.jump_back_tolerance =
+      from_seconds(root.number_in("jump_back_tolerance", 0.0, kLongest, 1.0));
+  config.gains_directory = root.text("gains_directory", "");
   // Otherwise stamps would leave the window before they are due, or an event from the tolerated
   // future would push all present ones out of it.
   if (config.publish_delay >= config.options.history.history) {
@@ -136,6 +141,9 @@ ObserverConfig read_observer_config(const ConfigNode& tree, const PlantPluginLoa
   if (config.options.future_tolerance >= config.options.history.history) {
     throw root.error("future_tolerance", "less than history/duration (it is 0.5 where not given)",
                      "as much or more");
+  }
+  if (config.publish_on_event && config.publish_delay > 0) {
+    throw root.error("publish_on_event", "false, or publish_delay: 0", "true with a delay");
   }
   root.finish();
   return config;

@@ -105,6 +105,24 @@ void Timeline::restart(Stamp stamp, ConstStateRef state) {
   std::fill(base_samples_.begin(), base_samples_.end(), std::nullopt);
 }
 
+void Timeline::rebase(Stamp stamp, ConstStateRef state) {
+  std::size_t forgotten = 0;
+  while (forgotten < size_ && slot(forgotten).event.stamp <= stamp) ++forgotten;
+  const std::size_t first = ring_index(forgotten);
+  const std::size_t kept = size_ - forgotten;
+  restart(stamp, state);
+  first_ = first;
+  size_ = kept;
+  for (std::size_t position = 0; position < size_; ++position) apply(position);
+}
+
+void Timeline::clear() {
+  system_->initialize(base_state_.data());
+  restart(0, base_state_);
+  base_stamp_.reset();
+  base_is_restart_ = false;
+}
+
 std::optional<Stamp> Timeline::earliest() const {
   if (base_stamp_) return base_stamp_;
   if (size_ > 0) return slot(0).event.stamp;

@@ -61,7 +61,7 @@ Effect DelayedJumps::reset(const Event& event, double* state, double* workspace)
 /// z⁺ = μ, but for what is held.
 void DelayedJumps::release(double* state) const {
   double* mu = own(state) + kMu;
-  law().keep_held(state, mu);
+  law().keep_held(law().held_part(state), mu);
   std::copy_n(mu, inner_size(), state);
   own(state)[kPending] = 0.0;
 }

@@ -51,7 +51,8 @@ Estimator::Estimator(std::shared_ptr<const ObserverLaw> law, const Options& opti
       options_(options),
       timeline_(law_, options.history),
       before_restart_(make_estimate()),
-      restart_state_(law_->state_size()) {
+      restart_state_(law_->state_size()),
+      workspace_(law_->workspace_size()) {
   if (options_.sampling.T1 <= 0 || options_.sampling.T1 > options_.sampling.T2) {
     throw std::invalid_argument("Estimator: 0 < T1 <= T2 must hold");
   }
@@ -77,6 +78,9 @@ EventReport Estimator::submit(const Event& event, Stamp now) {
     report.outcome = *outcome;
     return report;
   }
+  if (awaits_sample_ && event.kind == EventKind::kSample && event.stamp > *timeline_.earliest()) {
+    begin_at(event);
+  }
   const Timeline::InsertReport inserted = timeline_.insert(event);
   report.outcome = outcome_of(inserted);
   report.rewound = inserted.rewound;
@@ -101,10 +105,15 @@ void Estimator::insert_release(Stamp jump, Stamp release) {
 }
 
 Timeline::Query Estimator::estimate_at(Stamp stamp, Estimate& estimate) const {
+  if (awaits_sample_) return Timeline::Query::kNoEvent;
   const Timeline::Query query = timeline_.state_at(stamp, estimate.state, estimate.counts);
   estimate.stamp = stamp;
   estimate.held = query == Timeline::Query::kHeld;
   return query;
+}
+
+std::optional<Stamp> Estimator::earliest() const {
+  return awaits_sample_ ? std::nullopt : timeline_.earliest();
 }
 
 Estimate Estimator::make_estimate() const {
@@ -113,24 +122,64 @@ Estimate Estimator::make_estimate() const {
   return estimate;
 }
 
-void Estimator::prepare_restart(Stamp stamp) {
+/// Sets the state to start from: the configured one, with what is held and the mode of `from` at
+/// `stamp`. Returns whether that has a state there, which it leaves in from.before_restart_.
+bool Estimator::prepare_restart(Estimator& from, Stamp stamp) {
   law_->initialize(restart_state_.data());
-  const Timeline::Query query = estimate_at(stamp, before_restart_);
-  if (query == Timeline::Query::kOk || query == Timeline::Query::kHeld) {
-    law_->keep_held(before_restart_.state.data(), restart_state_.data());
-    law_->keep_mode(before_restart_.state.data(), restart_state_.data());
-  }
+  Estimate& before = from.before_restart_;
+  const Timeline::Query query = from.timeline_.state_at(stamp, before.state, before.counts);
+  if (query != Timeline::Query::kOk && query != Timeline::Query::kHeld) return false;
+  law_->keep_held(from.law_->held_part(before.state.data()), restart_state_.data());
+  law_->keep_mode(from.law_->mode_of(before.state.data()), restart_state_.data());
+  return true;
 }
 
 void Estimator::restart(Stamp stamp) {
-  prepare_restart(stamp);
+  prepare_restart(*this, stamp);
   timeline_.restart(stamp, restart_state_);
+  awaits_sample_ = false;
 }
 
 void Estimator::restart(Stamp stamp, Timeline::ConstStateRef estimate) {
-  prepare_restart(stamp);
+  prepare_restart(*this, stamp);
   law_->start_from(estimate.data(), restart_state_.data());
   timeline_.restart(stamp, restart_state_);
+  awaits_sample_ = false;
+}
+
+void Estimator::restart_at_next_sample(Stamp stamp) {
+  restart(stamp);
+  awaits_sample_ = true;
+}
+
+/// The sample itself is not part of the start, but the first event after it: so laws that keep
+/// track of samples (the time since the last, a held innovation) see it.
+void Estimator::begin_at(const Event& sample) {
+  const Stamp start = sample.stamp - 1;
+  prepare_restart(*this, start);
+  law_->fit_to(sample, restart_state_.data(), workspace_.data());
+  timeline_.rebase(start, restart_state_);
+  awaits_sample_ = false;
+}
+
+void Estimator::resume(Stamp stamp) {
+  const Timeline::Query query = timeline_.state_at(stamp, restart_state_, before_restart_.counts);
+  if (query != Timeline::Query::kOk && query != Timeline::Query::kHeld) return;
+  law_->hold(restart_state_.data());
+  timeline_.restart(stamp, restart_state_);
+}
+
+void Estimator::take_over(Estimator& other, Stamp stamp) {
+  awaits_sample_ = other.awaits_sample_;
+  if (!prepare_restart(other, stamp)) return;
+  law_->start_from(other.before_restart_.state.data(), restart_state_.data());
+  law_->hold(restart_state_.data());
+  timeline_.restart(stamp, restart_state_);
+}
+
+void Estimator::clear() {
+  timeline_.clear();
+  awaits_sample_ = false;
 }
 
 }  // namespace sampled_data_observers

@@ -113,8 +113,8 @@ void GatedSamples::begin_anew(double* state, double* workspace) const {
   double* before = workspace + law().workspace_size();
   std::copy_n(state, inner_size(), before);
   initialize(state);
-  law().keep_held(before, state);
-  law().keep_mode(before, state);
+  law().keep_held(law().held_part(before), state);
+  law().keep_mode(law().mode_of(before), state);
   // Nobody vouches for this start.
   law().hold(state);
 }

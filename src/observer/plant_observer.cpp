@@ -1,5 +1,6 @@
 #include "sampled_data_observers/observer/plant_observer.h"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -64,6 +65,12 @@ PlantObserver::PlantObserver(ObserverContext context, const Extras& extras,
   layout_.jump_outputs = layout_.snapshot_next + (at_jumps > 0 ? 1 : 0);
   layout_.jump_outputs_known = layout_.jump_outputs + at_jumps;
   layout_.size = layout_.jump_outputs_known + (at_jumps > 0 ? count : 0);
+  for (std::size_t mode = 0; mode < plant_->modes().size(); ++mode) {
+    std::vector<Eigen::MatrixXd>& corrections = least_corrections_.emplace_back();
+    for (std::size_t i = 0; i < plant_->sensors().size(); ++i) {
+      corrections.push_back(least_correction(mode, i));
+    }
+  }
 }
 
 void PlantObserver::build_flow() {
@@ -163,7 +170,7 @@ void PlantObserver::initialize(double* state) const {
 }
 
 void PlantObserver::start_from(const double* estimate, double* state) const {
-  std::copy_n(estimate, n(), state);
+  if (estimate != state) std::copy_n(estimate, n(), state);
 }
 
 void PlantObserver::innovation(const Event& sample, const double* state, double* innovation) const {
@@ -277,12 +284,32 @@ bool PlantObserver::knows_mode(const Event& event) const {
          plant_->find_mode(event.values[0]).has_value();
 }
 
-void PlantObserver::keep_held(const double* from, double* state) const {
-  std::copy(from + layout_.input, from + layout_.snapshot, state + layout_.input);
+const double* PlantObserver::held_part(const double* state) const { return state + layout_.input; }
+
+void PlantObserver::keep_held(const double* part, double* state) const {
+  std::copy_n(part, layout_.snapshot - layout_.input, state + layout_.input);
 }
 
-void PlantObserver::keep_mode(const double* from, double* state) const {
-  state[layout_.mode] = from[layout_.mode];
+double PlantObserver::mode_of(const double* state) const { return state[layout_.mode]; }
+
+void PlantObserver::keep_mode(double mode, double* state) const { state[layout_.mode] = mode; }
+
+Eigen::MatrixXd PlantObserver::least_correction(std::size_t mode, std::size_t sensor) const {
+  const AffineMap* output = plant_->modes()[mode].outputs[sensor]->affine();
+  if (output == nullptr) return {};
+  return output->M().completeOrthogonalDecomposition().pseudoInverse();
+}
+
+void PlantObserver::fit_to(const Event& sample, double* state, double* workspace) const {
+  const Held now = held(state);
+  const auto sensor = static_cast<std::size_t>(sample.channel);
+  const Eigen::MatrixXd& correction = least_corrections_[now.mode][sensor];
+  if (correction.size() == 0) return;
+  innovation(sample, state, workspace);
+  for (Eigen::Index i = 0; i < n(); ++i) {
+    for (Eigen::Index j = 0; j < sample.size; ++j) state[i] += correction(i, j) * workspace[j];
+  }
+  start_from(state, state);
 }
 
 void PlantObserver::derivative(const Held& held, const double* s, double* ds,

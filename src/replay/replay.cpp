@@ -137,6 +137,7 @@ class Replay {
       received = true;
       intakes_[i].take(instantiate(*channels_[i].source, instance), now, now);
     }
+    if (received) publish_due_at(now);
     if (received && output_.isOpen()) {
       output_.write(instance.getTopic(), instance.getTime(), instance,
                     instance.getConnectionHeader());

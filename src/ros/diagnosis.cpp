@@ -100,6 +100,8 @@ const char* remedy(EventOutcome outcome) {
       return "the detector of jumps fires again and again, or raise the limits";
     case EventOutcome::kGated:
       return "the value is far off, or the estimate is wrong: see gate/recovery";
+    case EventOutcome::kDisabled:
+      return "switch it on again with set_enabled or enable_sensor";
     case EventOutcome::kNoTransform:
       return "see who should publish it, with rosrun tf tf_echo, or raise tf_timeout";
     case EventOutcome::kNoField:

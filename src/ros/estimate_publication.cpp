@@ -13,6 +13,8 @@ namespace sampled_data_observers {
 namespace {
 
 constexpr std::size_t kEstimatesHeld = 16;
+constexpr double kShortestWait = 1e-3;  // s
+constexpr bool kFromNow = true;
 
 void apply(const RealTimeOptions& options, DeadlineThread& thread, const std::string& name) {
   if (options.lock_memory) {
@@ -45,20 +47,33 @@ EstimatePublication::EstimatePublication(const ros::NodeHandle& handle, SharedRu
   }
   messages_ = std::make_unique<MessagePool<StateEstimate>>(prototype, kEstimatesHeld);
   publisher_ = handle_.advertise<StateEstimate>("estimate", kQueueLength);
+  if (!ros::Time::isSimTime()) return;
+  const bool once = false;
+  const bool started = false;
+  timer_ = handle_.createTimer(
+      ros::Duration(kShortestWait), [this](const ros::TimerEvent&) { publish_by_queue(); }, once,
+      started);
+  // Otherwise roscpp would have the timer wait until time is where it was.
+  runtime_.when_time_goes_back(
+      [this] { timer_.setPeriod(ros::Duration(kShortestWait), kFromNow); });
 }
 
-void EstimatePublication::start(const RealTimeOptions& options, const std::string& name) {
+void EstimatePublication::start(const ObserverConfig& config, const std::string& name) {
+  publish_on_event_ = config.publish_on_event;
   if (ros::Time::isSimTime()) {
-    timer_ = handle_.createTimer(ros::Duration(1e-3),
-                                 [this](const ros::TimerEvent&) { publish_by_queue(); });
+    timer_.start();
   } else {
     thread_ = std::make_unique<DeadlineThread>([this] { return publish_by_thread(); }, "estimates");
-    apply(options, *thread_, name);
+    apply(config.real_time, *thread_, name);
   }
 }
 
 void EstimatePublication::notice_event() {
-  if (!thread_) publish_by_queue();
+  if (!thread_) {
+    publish_by_queue();
+  } else if (publish_on_event_) {
+    thread_->wake();
+  }
 }
 
 DeadlineThread::Clock::time_point EstimatePublication::publish_by_thread() {
@@ -72,10 +87,7 @@ DeadlineThread::Clock::time_point EstimatePublication::publish_by_thread() {
 void EstimatePublication::publish_by_queue() {
   std::optional<Duration> wait;
   while (!wait) wait = publish_next();
-  // From now on, whatever roscpp had planned: it would wait until time is where it was before it
-  // went back.
-  const bool from_now = true;
-  timer_.setPeriod(ros::Duration().fromNSec(*wait), from_now);
+  timer_.setPeriod(ros::Duration().fromNSec(*wait), kFromNow);
 }
 
 /// Publishes the next estimate that is due; where there is none, returns how long until then.

@@ -9,8 +9,8 @@ namespace sampled_data_observers {
 
 void ObserverNodelet::onInit() {
   try {
-    const ObserverConfig config =
-        read_observer_config(read_parameter_tree(getPrivateNodeHandle()), load_plant_plugin);
+    const ConfigNode tree = read_parameter_tree(getPrivateNodeHandle());
+    const ObserverConfig config = read_observer_config(tree, load_plant_plugin);
     if (config.type != type_) {
       throw ConfigError("parameters of " + getPrivateNodeHandle().getNamespace(), "observer",
                         type_ +
@@ -18,7 +18,7 @@ void ObserverNodelet::onInit() {
                             "another one by type:=)",
                         config.type);
     }
-    start(config);
+    start(tree, config);
   } catch (const std::exception& error) {
     NODELET_FATAL("not started: %s", error.what());
     // Now, while the callback queue still lives: roscpp crashes if that happens in the destructor.
@@ -28,14 +28,16 @@ void ObserverNodelet::onInit() {
 }
 
 void ObserverNodelet::stop() {
+  master_watch_.reset();
   diagnostics_.reset();
   services_.reset();
+  gains_.reset();
   subscriptions_.reset();
   publication_.reset();
   runtime_.reset();
 }
 
-void ObserverNodelet::start(const ObserverConfig& config) {
+void ObserverNodelet::start(const ConfigNode& tree, const ObserverConfig& config) {
   // Callbacks run as soon as there is something to call: all is made before anything starts.
   const ros::NodeHandle& handle = getNodeHandle();
   runtime_ = std::make_unique<SharedRuntime>(config, getName(), handle.resolveName("reset"));
@@ -46,12 +48,14 @@ void ObserverNodelet::start(const ObserverConfig& config) {
   publication_ = std::make_unique<EstimatePublication>(handle, *runtime_, std::move(outputs));
   subscriptions_ =
       std::make_unique<EventSubscriptions>(handle, config, *runtime_, *publication_, getName());
+  gains_ = std::make_unique<GainReloader>(tree, config, *runtime_);
   // Their queue has threads of its own, so that events go on while a service works.
-  services_ = std::make_unique<ObserverServices>(getMTNodeHandle(), *runtime_);
+  services_ = std::make_unique<ObserverServices>(getMTNodeHandle(), *runtime_, *gains_, getName());
+  master_watch_ = std::make_unique<MasterWatch>(getMTNodeHandle(), services_->names(), getName());
   diagnostics_ =
       std::make_unique<DiagnosticsReporter>(getMTNodeHandle(), getMTPrivateNodeHandle(), getName(),
                                             diagnosis_subject(config), runtime_->statistics());
-  publication_->start(config.real_time, getName());
+  publication_->start(config, getName());
   subscriptions_->start();
   NODELET_INFO("%s: %zu states, estimates at %.6g Hz on %s", type_.c_str(),
                config.law->estimate_names().size(), 1.0 / to_seconds(config.period),

@@ -30,6 +30,7 @@ static_assert(EventStatus::WOULD_OVERFLOW == static_cast<int>(EventOutcome::kWou
 static_assert(EventStatus::UNKNOWN_MODE == static_cast<int>(EventOutcome::kUnknownMode));
 static_assert(EventStatus::TOO_FREQUENT == static_cast<int>(EventOutcome::kTooFrequent));
 static_assert(EventStatus::GATED == static_cast<int>(EventOutcome::kGated));
+static_assert(EventStatus::DISABLED == static_cast<int>(EventOutcome::kDisabled));
 static_assert(EventStatus::NO_TRANSFORM == static_cast<int>(EventOutcome::kNoTransform));
 static_assert(EventStatus::NO_FIELD == static_cast<int>(EventOutcome::kNoField));
 static_assert(EventStatus::OUT_OF_ORDER == static_cast<int>(EventOutcome::kOutOfOrder));
@@ -72,6 +73,8 @@ const char* describe(const EventReport& report) {
       return "jumps faster than jumps/min_separation or max_per_second allow";
     case EventOutcome::kGated:
       return "the innovation lies outside the gate";
+    case EventOutcome::kDisabled:
+      return "the observer or the sensor is switched off";
     case EventOutcome::kNoTransform:
       return "no transform into the configured frame came in time";
     case EventOutcome::kNoField:
@@ -118,11 +121,23 @@ ObserverRuntime::ObserverRuntime(const ObserverConfig& config)
     : config_(config),
       estimator_(config.law, config.options),
       grid_(config.period, config.publish_delay, config.options.history.history),
-      estimate_(estimator_.make_estimate()) {}
+      estimate_(estimator_.make_estimate()),
+      sensors_enabled_(config.sensors.size(), true) {}
+
+bool ObserverRuntime::is_enabled(const EventChannel& channel) const {
+  if (channel.kind == EventKind::kInput || channel.kind == EventKind::kJump) return enabled_;
+  return enabled_ && sensors_enabled_[static_cast<std::size_t>(channel.channel)];
+}
 
 EventReport ObserverRuntime::receive(const EventChannel& channel, const Event& event, Stamp now,
                                      EventStatus& status) {
-  const EventReport report = estimator_.submit(event, now);
+  EventReport report;
+  if (is_enabled(channel)) {
+    report = estimator_.submit(event, now);
+  } else {
+    report.outcome = EventOutcome::kDisabled;
+  }
+  if (config_.publish_on_event && report.used()) event_waits_ = true;
   write(channel, event, report, now, status);
   return report;
 }
@@ -149,10 +164,15 @@ void ObserverRuntime::write(const EventChannel& channel, const Event& event,
 }
 
 const Estimate* ObserverRuntime::next_due(Stamp now) {
-  const std::optional<Stamp> earliest = estimator_.timeline().earliest();
-  if (!earliest) return nullptr;
-  const std::optional<Stamp> stamp = grid_.next(now, *earliest);
-  if (!stamp) return nullptr;
+  const std::optional<Stamp> earliest = estimator_.earliest();
+  if (!enabled_ || !earliest) return nullptr;
+  std::optional<Stamp> stamp = grid_.next(now, *earliest);
+  if (!stamp) {
+    const bool at_once = event_waits_ && *earliest <= now && grid_.insert(now);
+    event_waits_ = false;
+    if (!at_once) return nullptr;
+    stamp = now;
+  }
   switch (estimator_.estimate_at(*stamp, estimate_)) {
     case Timeline::Query::kOk:
     case Timeline::Query::kHeld:
@@ -163,6 +183,10 @@ const Estimate* ObserverRuntime::next_due(Stamp now) {
 }
 
 const Estimate* ObserverRuntime::estimate_at(Stamp stamp, std::string& reason) {
+  if (!enabled_ || estimator_.awaits_sample()) {
+    reason = enabled_ ? "the estimate begins with the next sample" : "the observer is switched off";
+    return nullptr;
+  }
   switch (estimator_.estimate_at(stamp, estimate_)) {
     case Timeline::Query::kOk:
     case Timeline::Query::kHeld:
@@ -196,6 +220,49 @@ std::string ObserverRuntime::restart(Stamp now, const std::vector<double>& estim
   }
   grid_.restart(now);
   return "";
+}
+
+std::string ObserverRuntime::restart_at_next_sample(Stamp now) {
+  if (config_.plant->outputs(SensorTiming::kSampled) == 0) {
+    return "expected a plant with a sensor that is sampled, found none";
+  }
+  estimator_.restart_at_next_sample(now);
+  grid_.restart(now);
+  return "";
+}
+
+void ObserverRuntime::start_anew(Stamp now) {
+  estimator_.clear();
+  grid_.restart(now);
+}
+
+void ObserverRuntime::set_enabled(bool enabled, Stamp now) {
+  if (enabled && !enabled_) {
+    estimator_.resume(now);
+    grid_.skip_to(now);
+  }
+  enabled_ = enabled;
+}
+
+std::string ObserverRuntime::enable_sensor(const std::string& name, bool enabled) {
+  std::string known;
+  for (std::size_t i = 0; i < sensors_enabled_.size(); ++i) {
+    if (!config_.sensors[i]) continue;
+    const std::string& sensor = config_.plant->sensors()[i].name;
+    known += (known.empty() ? "" : ", ") + sensor;
+    if (sensor != name) continue;
+    sensors_enabled_[i] = enabled;
+    return "";
+  }
+  return "expected a sensor with a topic of its own (" + known + "), found '" + name + "'";
+}
+
+void ObserverRuntime::take_over(ObserverRuntime& other, Stamp now) {
+  estimator_.take_over(other.estimator_, now);
+  grid_ = other.grid_;
+  enabled_ = other.enabled_;
+  sensors_enabled_ = other.sensors_enabled_;
+  event_waits_ = other.event_waits_;
 }
 
 void ObserverRuntime::write(const Estimate& estimate, StateEstimate& message) const {

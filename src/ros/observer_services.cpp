@@ -1,23 +1,43 @@
 #include "sampled_data_observers/ros/observer_services.h"
 
+#include <ros/console.h>
+
+#include <utility>
+
 #include "sampled_data_observers/ros/time_conversion.h"
 
 namespace sampled_data_observers {
 
-ObserverServices::ObserverServices(const ros::NodeHandle& handle, SharedRuntime& runtime)
-    : runtime_(runtime) {
+ObserverServices::ObserverServices(const ros::NodeHandle& handle, SharedRuntime& runtime,
+                                   GainReloader& gains, std::string name)
+    : runtime_(runtime), gains_(gains), name_(std::move(name)) {
   ros::NodeHandle advertiser(handle);
-  servers_.push_back(advertiser.advertiseService("reset", &ObserverServices::reset, this));
-  servers_.push_back(
-      advertiser.advertiseService("get_estimate", &ObserverServices::get_estimate, this));
+  const auto advertise = [&](const char* service, auto method) {
+    servers_.push_back(advertiser.advertiseService(service, method, this));
+  };
+  advertise("reset", &ObserverServices::reset);
+  advertise("get_estimate", &ObserverServices::get_estimate);
+  advertise("reload_gains", &ObserverServices::reload_gains);
+  advertise("set_enabled", &ObserverServices::set_enabled);
+  advertise("enable_sensor", &ObserverServices::enable_sensor);
+}
+
+std::vector<std::string> ObserverServices::names() const {
+  std::vector<std::string> names;
+  for (const ros::ServiceServer& server : servers_) names.push_back(server.getService());
+  return names;
 }
 
 bool ObserverServices::reset(Reset::Request& request, Reset::Response& response) {
   const SharedRuntime::Access access = runtime_.access();
   if (access.now() == 0) {
     response.message = "there is no time yet: nothing came on /clock";
-  } else {
+  } else if (request.at_next_sample == 0) {
     response.message = access->restart(access.now(), request.state);
+  } else if (request.state.empty()) {
+    response.message = access->restart_at_next_sample(access.now());
+  } else {
+    response.message = "expected no state with at_next_sample, found one";
   }
   response.success = response.message.empty() ? 1 : 0;
   return true;
@@ -30,6 +50,42 @@ bool ObserverServices::get_estimate(GetEstimate::Request& request,
   const Estimate* estimate = access->estimate_at(stamp, response.message);
   response.success = estimate != nullptr ? 1 : 0;
   if (estimate != nullptr) access->write(*estimate, response.estimate);
+  return true;
+}
+
+bool ObserverServices::reload_gains(ReloadGains::Request& request,
+                                    ReloadGains::Response& response) {
+  try {
+    response.message = gains_.reload(request.file);
+    response.success = 1;
+    ROS_INFO_NAMED(name_, "gains of '%s' loaded: %s", request.file.c_str(),
+                   response.message.c_str());
+  } catch (const std::exception& fault) {
+    response.message = fault.what();
+    ROS_WARN_NAMED(name_, "gains of '%s' not loaded: %s", request.file.c_str(), fault.what());
+  }
+  return true;
+}
+
+bool ObserverServices::set_enabled(std_srvs::SetBool::Request& request,
+                                   std_srvs::SetBool::Response& response) {
+  {
+    const SharedRuntime::Access access = runtime_.access();
+    access->set_enabled(request.data != 0, access.now());
+  }
+  ROS_INFO_NAMED(name_, "switched %s", request.data != 0 ? "on" : "off");
+  response.success = 1;
+  return true;
+}
+
+bool ObserverServices::enable_sensor(EnableSensor::Request& request,
+                                     EnableSensor::Response& response) {
+  response.message = runtime_.access()->enable_sensor(request.name, request.enabled != 0);
+  response.success = response.message.empty() ? 1 : 0;
+  if (response.message.empty()) {
+    ROS_INFO_NAMED(name_, "sensor %s switched %s", request.name.c_str(),
+                   request.enabled != 0 ? "on" : "off");
+  }
   return true;
 }
 

@@ -3,6 +3,7 @@
 #include <ros/console.h>
 #include <ros/time.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "sampled_data_observers/ros/time_conversion.h"
@@ -13,23 +14,45 @@ SharedRuntime::SharedRuntime(const ObserverConfig& config, std::string name,
                              std::string reset_service)
     : runtime_(std::make_unique<ObserverRuntime>(config)),
       statistics_(event_channels(config).size()),
+      reset_on_jump_back_(config.reset_on_time_jump_back),
+      jump_back_tolerance_(config.jump_back_tolerance),
       name_(std::move(name)),
       reset_service_(std::move(reset_service)) {}
+
+void SharedRuntime::replace(std::unique_ptr<ObserverRuntime> next) {
+  {
+    const Access present = access();
+    next->take_over(*runtime_, present.now());
+    runtime_.swap(next);
+  }
+  next.reset();  // outside of the lock: it frees much memory
+}
 
 // The time is read under the lock: otherwise it might seem to go back from one use to the next.
 SharedRuntime::Access::Access(SharedRuntime& shared)
     : shared_(shared), lock_(shared.mutex_), now_(to_stamp(ros::Time::now())) {
-  if (now_ < shared.last_now_) went_back_ = shared.last_now_ - now_;
-  shared.last_now_ = now_;
+  if (shared.latest_ - now_ > shared.jump_back_tolerance_) {
+    went_back_ = shared.latest_ - now_;
+    shared.latest_ = now_;
+    if (shared.reset_on_jump_back_) shared.runtime_->start_anew(now_);
+  }
+  shared.latest_ = std::max(shared.latest_, now_);
 }
 
 SharedRuntime::Access::~Access() {
   if (went_back_ == 0) return;
   lock_.unlock();
-  ROS_WARN_NAMED(shared_.name_,
-                 "time went back by %.6f s: events before the history window are rejected and no "
-                 "stamp is published twice; call %s to start again",
-                 to_seconds(went_back_), shared_.reset_service_.c_str());
+  if (shared_.time_went_back_) shared_.time_went_back_();
+  if (shared_.reset_on_jump_back_) {
+    ROS_WARN_NAMED(shared_.name_, "time went back by %.6f s: starting anew with the next event",
+                   to_seconds(went_back_));
+  } else {
+    ROS_WARN_NAMED(shared_.name_,
+                   "time went back by %.6f s: events before the history window are rejected and no "
+                   "stamp is published twice; call %s to start again, or set "
+                   "reset_on_time_jump_back",
+                   to_seconds(went_back_), shared_.reset_service_.c_str());
+  }
 }
 
 }  // namespace sampled_data_observers

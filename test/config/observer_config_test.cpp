@@ -34,6 +34,9 @@ history: {duration: 3, max_events: 70}
 future_tolerance: 0.25
 frame_id: map
 real_time: {priority: 50, lock_memory: true}
+reset_on_time_jump_back: true
+jump_back_tolerance: 0.2
+gains_directory: /gains
 )";
 
 using test::Fault;
@@ -68,6 +71,9 @@ TEST(ObserverConfigTest, ReadsEveryKey) {
   EXPECT_EQ("map", config.frame_id);
   EXPECT_EQ(50, config.real_time.priority);
   EXPECT_TRUE(config.real_time.lock_memory);
+  EXPECT_TRUE(config.reset_on_time_jump_back);
+  EXPECT_EQ(200000000, config.jump_back_tolerance);
+  EXPECT_EQ("/gains", config.gains_directory);
   Eigen::VectorXd state(config.law->state_size());
   config.law->initialize(state.data());
   EXPECT_EQ(Eigen::Vector3d(1.0, -2.0, 3.0), state.head(3));
@@ -86,6 +92,12 @@ gains: {L: [[0.5]]}
   EXPECT_EQ(2 * kNanosecondsPerSecond, config.options.history.history);
   EXPECT_EQ(2000u, config.options.history.max_events);
   EXPECT_EQ(500000000, config.options.future_tolerance);
+  EXPECT_FALSE(config.publish_on_event);
+  EXPECT_FALSE(config.real_time.priority);
+  EXPECT_FALSE(config.real_time.lock_memory);
+  EXPECT_FALSE(config.reset_on_time_jump_back);
+  EXPECT_EQ(kNanosecondsPerSecond, config.jump_back_tolerance);
+  EXPECT_EQ("", config.gains_directory);
   EXPECT_FALSE(config.input);
   EXPECT_FALSE(config.jumps);
 }
@@ -137,6 +149,7 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"publish_delay: 0.01", "publish_delay: -0.01", {"publish_delay", "-0.01"}},
         Fault{"future_tolerance: 0.25", "future_tolerance: .inf", {"future_tolerance", "'.inf'"}},
         Fault{"rate: 50", "rate: 50\nrate: 60", {"test.yaml:21", "rate", "each key once"}},
+        Fault{"rate: 50", "rate: 50\npublish_on_event: true", {"publish_on_event", "delay"}},
         Fault{"publish_delay: 0.01", "publish_delay: 3", {"publish_delay", "history/duration"}},
         Fault{"future_tolerance: 0.25", "future_tolerance: 3", {"future_tolerance", "history"}},
         Fault{"{topic: wheel}",

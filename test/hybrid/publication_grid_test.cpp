@@ -44,5 +44,25 @@ TEST(PublicationGridTest, RepeatsNoStampWhenTimeGoesBackButAfterARestart) {
   EXPECT_EQ((std::vector<Stamp>{}), due(grid, 55, 45));
 }
 
+TEST(PublicationGridTest, TakesOtherStampsBetweenItsOwnWithoutRepeatingOrMissingOne) {
+  PublicationGrid grid(10, 0, 1000);
+  due(grid, 105, 95);
+  EXPECT_TRUE(grid.insert(105));
+  EXPECT_FALSE(grid.insert(105));
+  EXPECT_FALSE(grid.insert(100));
+  EXPECT_TRUE(grid.insert(109));
+  EXPECT_EQ((std::vector<Stamp>{110, 120}), due(grid, 120, 95));
+  EXPECT_FALSE(grid.insert(120));
+}
+
+TEST(PublicationGridTest, GivesUpWhatWasMissed) {
+  PublicationGrid grid(10, 4, 1000);
+  due(grid, 104, 95);
+  grid.skip_to(154);
+  EXPECT_EQ((std::vector<Stamp>{160}), due(grid, 164, 95));
+  grid.skip_to(100);
+  EXPECT_EQ((std::vector<Stamp>{170}), due(grid, 174, 95));
+}
+
 }  // namespace
 }  // namespace sampled_data_observers

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "sampled_data_observers/observer/delayed_jumps.h"
 #include "support/allocation_counter.h"
 #include "support/random_events.h"
 
@@ -49,7 +50,9 @@ TEST_F(EstimatorTest, SaysWhatBecameOfEachEvent) {
   EXPECT_EQ(EventOutcome::kWrongSize, submit({kStart + 1, EventKind::kSample, 0, {}}).outcome);
   EXPECT_EQ(EventOutcome::kWrongSize,
             submit({kStart + 1, EventKind::kSample, 0, {1.0, 2.0}}).outcome);
-  EXPECT_EQ(3u, estimator_.timeline().size());
+  Estimate estimate = estimator_.make_estimate();
+  estimator_.estimate_at(now_, estimate);
+  EXPECT_EQ(3u, estimate.counts.events);
 }
 
 TEST_F(EstimatorTest, AnEventInTheNearFutureIsTakenInButHasNoEffectYet) {
@@ -150,6 +153,90 @@ TEST_F(EstimatorTest, RefusesBoundsThatMakeNoSense) {
   bad = options();
   bad.future_tolerance = -1;
   EXPECT_THROW(Estimator(test::example_law(), bad), std::invalid_argument);
+}
+
+TEST_F(EstimatorTest, AtTheNextSampleItStartsAsNearTheConfiguredEstimateAsTheSampleAllows) {
+  submit(sample(kStart));
+  submit({kStart + 1, EventKind::kInput, 0, {7.0, -3.0}});
+  estimator_.restart_at_next_sample(kStart + kSecond);
+  Estimate estimate = estimator_.make_estimate();
+  EXPECT_TRUE(estimator_.awaits_sample());
+  EXPECT_FALSE(estimator_.earliest());
+  EXPECT_EQ(Timeline::Query::kNoEvent, estimator_.estimate_at(now_, estimate));
+  EXPECT_EQ(EventOutcome::kTooOld, submit(sample(kStart + kSecond)).outcome);
+  // An input that came before the sample, but is stamped after it, goes on counting.
+  submit({kStart + 2 * kSecond, EventKind::kInput, 0, {5.0, 0.0}});
+  EXPECT_TRUE(estimator_.awaits_sample());
+
+  // y = (p + 0.5 v, yaw), with yaw an angle: 3 and -3.2 + 2 pi are 0.083 apart.
+  const Stamp start = kStart + 3 * kSecond / 2;
+  EXPECT_EQ(EventOutcome::kUsedLate, submit({start, EventKind::kSample, 1, {2.0, -3.2}}).outcome);
+  EXPECT_FALSE(estimator_.awaits_sample());
+  estimator_.estimate_at(start, estimate);
+  const Eigen::Vector2d correction = 1.8 * Eigen::Vector2d(1.0, 0.5) / 1.25;
+  EXPECT_NEAR(0.3 + correction(0), estimate.state(0), 1e-7);
+  EXPECT_NEAR(-0.2 + correction(1), estimate.state(1), 1e-7);
+  EXPECT_NEAR(2.0 * std::acos(-1.0) - 3.2, estimate.state(2), 1e-7);
+  EXPECT_EQ(1u, estimate.counts.samples);
+  EXPECT_EQ(Eigen::Vector2d(7.0, -3.0), Eigen::Vector2d(estimate.state.segment<2>(5)));
+  estimator_.estimate_at(kStart + 2 * kSecond, estimate);
+  EXPECT_EQ(Eigen::Vector2d(5.0, 0.0), Eigen::Vector2d(estimate.state.segment<2>(5)));
+  EXPECT_EQ(EventOutcome::kTooOld, submit(sample(start - kSecond / 4)).outcome);
+  EXPECT_EQ(EventOutcome::kUsedLate, submit(sample(start)).outcome);
+}
+
+TEST_F(EstimatorTest, GoesOnAfterATimeOfUnknownEventsFromWhereTheModelFlowed) {
+  submit(sample(kStart));
+  Estimate expected = estimator_.make_estimate();
+  estimator_.estimate_at(kStart + kSecond, expected);
+  estimator_.resume(kStart + kSecond);
+  Estimate estimate = estimator_.make_estimate();
+  EXPECT_EQ(Timeline::Query::kOk, estimator_.estimate_at(kStart + kSecond, estimate));
+  EXPECT_EQ(expected.state, estimate.state);
+  EXPECT_EQ(EventOutcome::kTooOld, submit(sample(kStart + kSecond / 2)).outcome);
+}
+
+TEST_F(EstimatorTest, AnotherLawTakesOverTheEstimateAndWhatIsHeld) {
+  submit(sample(kStart));
+  submit({kStart + 1, EventKind::kInput, 0, {7.0, -3.0}});
+  Estimate before = estimator_.make_estimate();
+  estimator_.estimate_at(kStart + kSecond, before);
+  // Its state is larger: it is not copied, but made anew.
+  Estimator other(std::make_shared<const DelayedJumps>(test::example_law()), options());
+  other.take_over(estimator_, kStart + kSecond);
+  Estimate after = other.make_estimate();
+  ASSERT_EQ(Timeline::Query::kOk, other.estimate_at(kStart + kSecond, after));
+  EXPECT_EQ(Eigen::Vector3d(before.state.head(3)), Eigen::Vector3d(after.state.head(3)));
+  EXPECT_EQ(Eigen::Vector2d(7.0, -3.0), Eigen::Vector2d(after.state.segment<2>(5)));
+}
+
+TEST_F(EstimatorTest, ClearedItIsAsNew) {
+  submit(sample(kStart));
+  submit({kStart + 1, EventKind::kInput, 0, {7.0, -3.0}});
+  estimator_.restart_at_next_sample(kStart + kSecond);
+  estimator_.clear();
+  EXPECT_FALSE(estimator_.earliest());
+  EXPECT_FALSE(estimator_.awaits_sample());
+  EXPECT_EQ(EventOutcome::kUsed, submit(sample(kStart - 100 * kSecond)).outcome);
+  Estimator fresh(test::example_law(), options());
+  fresh.submit(sample(kStart - 100 * kSecond).view(), now_);
+  Estimate estimate = estimator_.make_estimate();
+  Estimate expected = fresh.make_estimate();
+  estimator_.estimate_at(kStart - 99 * kSecond, estimate);
+  fresh.estimate_at(kStart - 99 * kSecond, expected);
+  EXPECT_EQ(expected.state, estimate.state);
+}
+
+TEST_F(EstimatorTest, ARestartAtTheNextSampleAllocatesNothing) {
+  if (!test::allocations_are_counted()) GTEST_SKIP() << "a sanitizer owns the allocator";
+  const OwnedEvent first = sample(kStart);
+  const OwnedEvent next = sample(kStart + 2 * kSecond, 4.0);
+  submit(first);
+  const std::size_t before = test::allocations();
+  estimator_.restart_at_next_sample(kStart + kSecond);
+  submit(next);
+  EXPECT_EQ(before, test::allocations());
+  EXPECT_FALSE(estimator_.awaits_sample());
 }
 
 }  // namespace

@@ -43,8 +43,11 @@ class BoundLaw final : public ObserverLaw {
   Effect reset(const Event&, double*, double*) const override { return Effect::kApplied; }
   void innovation(const Event&, const double*, double*) const override {}
   bool knows_mode(const Event&) const override { return true; }
+  const double* held_part(const double* state) const override { return state; }
   void keep_held(const double*, double*) const override {}
-  void keep_mode(const double*, double*) const override {}
+  double mode_of(const double*) const override { return 0.0; }
+  void keep_mode(double, double*) const override {}
+  void fit_to(const Event&, double*, double*) const override {}
   void start_from(const double*, double*) const override {}
   double error_bound(const double* state) const override { return *state; }
 

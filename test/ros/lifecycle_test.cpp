@@ -45,6 +45,9 @@ TEST_F(LifecycleTest, ABadConfigurationDoesNotStart) {
   EXPECT_FALSE(load(loader_, "/key_in_two_files"));
   EXPECT_FALSE(load(loader_, "/wrong_field"));
   EXPECT_FALSE(load(loader_, "/bad_topic"));
+  EXPECT_FALSE(load(loader_, "/wrong_type"));
+  EXPECT_FALSE(load(loader_, "/no_files"));
+  EXPECT_FALSE(load(loader_, "/no_directory"));
   EXPECT_TRUE(load(loader_, "/observer"));
   EXPECT_TRUE(load(loader_, "/plain_parameters"));
 }

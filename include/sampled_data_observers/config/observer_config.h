@@ -27,8 +27,15 @@ struct ObserverConfig {
   /// Period of the published estimates, and how long after its stamp each is computed [ns].
   Duration period = 0;
   Duration publish_delay = 0;
+  /// Whether each event that is used is followed by an estimate at once.
+  bool publish_on_event = false;
   std::string frame_id;
   RealTimeOptions real_time;
+  /// What to do when time goes back by more than a tolerance [ns]: start anew, or only say so.
+  bool reset_on_time_jump_back = false;
+  Duration jump_back_tolerance = 0;
+  /// The directory of the files that may be loaded while running; empty: none may.
+  std::string gains_directory;
   /// One per sensor, in the order of the plant's sensors. Empty for a sensor that measures at jumps
   /// and whose outputs the jump events carry.
   std::vector<std::optional<TopicSource>> sensors;

@@ -8,7 +8,7 @@ namespace sampled_data_observers {
 
 /// Which estimates are due: the whole multiples of a period, each once, in increasing order, as
 /// soon as time has passed them by a fixed delay. A caller that comes late gets the stamps it
-/// missed, but none further back than `backlog`.
+/// missed, but none further back than `backlog`. Other stamps may be put between them.
 class PublicationGrid {
  public:
   /// @pre period > 0, delay >= 0, backlog >= 0, all in ns
@@ -21,7 +21,7 @@ class PublicationGrid {
     const Stamp from = earliest > due - backlog_ ? earliest : due - backlog_;
     if (from < 0) return std::nullopt;
     Stamp stamp = first_multiple_from(from, period_);
-    if (last_ && stamp <= *last_) stamp = *last_ + period_;
+    if (last_ && stamp <= *last_) stamp = first_multiple_from(*last_ + 1, period_);
     if (stamp > due) return std::nullopt;
     last_ = stamp;
     return stamp;
@@ -31,6 +31,20 @@ class PublicationGrid {
   Stamp next_due_time(Stamp now) const {
     const Stamp due = now - delay_;
     return first_multiple_from(due < 0 ? 0 : due + 1, period_) + delay_;
+  }
+
+  /// Puts the stamp `now` between those of the grid, after next() gave all that are due. Returns
+  /// false where it would not come after the last one.
+  bool insert(Stamp now) {
+    if (last_ && now <= *last_) return false;
+    last_ = now;
+    return true;
+  }
+
+  /// Gives up the stamps missed so far.
+  void skip_to(Stamp now) {
+    const Stamp due = now - delay_;
+    if (due >= 0 && (!last_ || *last_ < due)) last_ = due;
   }
 
   /// When time went back to `now`, lets the stamps after it come again.

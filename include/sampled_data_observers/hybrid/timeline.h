@@ -91,6 +91,13 @@ class Timeline {
   /// Forgets all events; `state` holds at `stamp`, and events up to `stamp` are before the window.
   void restart(Stamp stamp, ConstStateRef state);
 
+  /// Forgets the events up to `stamp`, at which `state` holds, and applies the later ones again.
+  /// They are counted from `stamp` on.
+  void rebase(Stamp stamp, ConstStateRef state);
+
+  /// Forgets everything: as new.
+  void clear();
+
   /// The earliest stamp at which there is a state now.
   std::optional<Stamp> earliest() const;
 

@@ -31,6 +31,7 @@ enum class EventOutcome : std::uint8_t {
   kUnknownMode = 9,    ///< a jump into a mode that the plant does not have
   kTooFrequent = 10,   ///< taken in without effect: jumps come faster than the limits allow
   kGated = 11,         ///< taken in without effect: the innovation lies outside the gate
+  kDisabled = 12,      ///< the observer or the sensor is switched off
   kNoTransform = 13,   ///< no transform into a configured frame came in time, so there is no event
   kNoField = 14,       ///< the message does not hold what is configured, so there is no event
   kOutOfOrder = 15     ///< a detector's signal, stamped not after the one before: no event
@@ -111,18 +112,41 @@ class Estimator {
   /// The same from a given estimate (law().estimate_size() entries, finite).
   void restart(Stamp stamp, Timeline::ConstStateRef estimate);
 
-  const Timeline& timeline() const { return timeline_; }
+  /// Forgets all events; there is no estimate until the next sample stamped after `stamp`. That one
+  /// starts the estimate, just before its stamp, from the configured initial estimate moved the
+  /// least so that it fits the sample (ObserverLaw::fit_to()).
+  void restart_at_next_sample(Stamp stamp);
+
+  /// Whether there is no estimate yet since restart_at_next_sample().
+  bool awaits_sample() const { return awaits_sample_; }
+
+  /// Goes on at `stamp` after a time whose events are not known: from the estimate as it flows
+  /// without them, and without guarantee (HybridSystem::hold()).
+  void resume(Stamp stamp);
+
+  /// Goes on at `stamp` from the estimate of `other`, an estimator of the same plant with another
+  /// law: what is held and the mode stay, all else of the law's state begins, without guarantee.
+  void take_over(Estimator& other, Stamp stamp);
+
+  /// Forgets everything: as new.
+  void clear();
+
+  /// The earliest stamp at which there is an estimate now.
+  std::optional<Stamp> earliest() const;
 
  private:
   std::optional<EventOutcome> objection(const Event& event, Stamp now) const;
   void insert_release(Stamp jump, Stamp release);
-  void prepare_restart(Stamp stamp);
+  bool prepare_restart(Estimator& from, Stamp stamp);
+  void begin_at(const Event& sample);
 
   std::shared_ptr<const ObserverLaw> law_;
   Options options_;
   Timeline timeline_;
   Estimate before_restart_;
   Eigen::VectorXd restart_state_;
+  Eigen::VectorXd workspace_;
+  bool awaits_sample_ = false;
 };
 
 }  // namespace sampled_data_observers

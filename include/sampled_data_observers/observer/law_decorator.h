@@ -24,8 +24,13 @@ class LawDecorator : public ObserverLaw {
   Duration flow_step() const override { return law_->flow_step(); }
   Duration flow_horizon() const override { return law_->flow_horizon(); }
   bool knows_mode(const Event& event) const override { return law_->knows_mode(event); }
-  void keep_held(const double* from, double* state) const override { law_->keep_held(from, state); }
-  void keep_mode(const double* from, double* state) const override { law_->keep_mode(from, state); }
+  const double* held_part(const double* state) const override { return law_->held_part(state); }
+  void keep_held(const double* part, double* state) const override { law_->keep_held(part, state); }
+  double mode_of(const double* state) const override { return law_->mode_of(state); }
+  void keep_mode(double mode, double* state) const override { law_->keep_mode(mode, state); }
+  void fit_to(const Event& sample, double* state, double* workspace) const override {
+    law_->fit_to(sample, state, workspace);
+  }
   void start_from(const double* estimate, double* state) const override {
     law_->start_from(estimate, state);
   }

@@ -26,13 +26,26 @@ class ObserverLaw : public HybridSystem {
   /// Whether the law knows the mode that a jump event names. @pre event_size() accepts the event
   virtual bool knows_mode(const Event& event) const = 0;
 
-  /// Takes over what is held in state `from`: the input and the continuous outputs.
-  virtual void keep_held(const double* from, double* state) const = 0;
+  /// What is held in a state: the input and the continuous outputs. For laws of one plant it has
+  /// one form.
+  virtual const double* held_part(const double* state) const = 0;
 
-  /// Takes over the mode of state `from`.
-  virtual void keep_mode(const double* from, double* state) const = 0;
+  /// Takes over what is held, as held_part() of a law of the same plant gives it.
+  virtual void keep_held(const double* part, double* state) const = 0;
 
-  /// Sets the estimate (estimate_size() entries) of an initialized state.
+  /// The mode that holds in a state, as its position among the plant's.
+  virtual double mode_of(const double* state) const = 0;
+
+  /// Takes over a mode, as mode_of() of a law of the same plant gives it.
+  virtual void keep_mode(double mode, double* state) const = 0;
+
+  /// Moves the estimate of an initialized state the least (in the norm |·|) so that it fits a
+  /// sample of a sensor whose output is affine in the state; leaves it where it is for other
+  /// outputs.
+  virtual void fit_to(const Event& sample, double* state, double* workspace) const = 0;
+
+  /// Sets the estimate (estimate_size() entries, which may be the state's own) of an initialized
+  /// state.
   virtual void start_from(const double* estimate, double* state) const = 0;
 
   /// The covariance of the estimate in a state, a symmetric matrix of estimate_size() rows; null

@@ -50,8 +50,11 @@ class PlantObserver : public ObserverLaw {
   Duration flow_horizon() const override;
   Effect reset(const Event& event, double* state, double* workspace) const override;
   bool knows_mode(const Event& event) const override;
-  void keep_held(const double* from, double* state) const override;
-  void keep_mode(const double* from, double* state) const override;
+  const double* held_part(const double* state) const override;
+  void keep_held(const double* part, double* state) const override;
+  double mode_of(const double* state) const override;
+  void keep_mode(double mode, double* state) const override;
+  void fit_to(const Event& sample, double* state, double* workspace) const override;
   void start_from(const double* estimate, double* state) const override;
   void innovation(const Event& sample, const double* state, double* innovation) const override;
 
@@ -152,6 +155,7 @@ class PlantObserver : public ObserverLaw {
   void pair_with_jump(const Event& output, double* state, double* workspace) const;
   std::size_t regime(const Held& held) const;
   LinearFlow exact_flow(const Held& held) const;
+  Eigen::MatrixXd least_correction(std::size_t mode, std::size_t sensor) const;
 
   std::shared_ptr<const Plant> plant_;
   Eigen::VectorXd initial_estimate_;
@@ -161,6 +165,9 @@ class PlantObserver : public ObserverLaw {
   Layout layout_;
   /// Of each sensor's outputs among those of its timing.
   std::vector<Eigen::Index> offsets_;
+  /// For each mode and each sensor, what makes of an innovation the least change of x̂ that removes
+  /// it; empty where the output is not affine.
+  std::vector<std::vector<Eigen::MatrixXd>> least_corrections_;
   /// One flow for each regime(), or one numeric flow for all.
   std::vector<LinearFlow> exact_flows_;
   std::unique_ptr<RungeKuttaFlow> numeric_flow_;

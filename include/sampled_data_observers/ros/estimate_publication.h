@@ -26,7 +26,7 @@ class EstimatePublication {
                       std::unique_ptr<EstimateOutputs> outputs);
 
   /// @param name  of the nodelet, for its log
-  void start(const RealTimeOptions& options, const std::string& name);
+  void start(const ObserverConfig& config, const std::string& name);
 
   /// To be called after each event, by the callback queue.
   void notice_event();
@@ -40,6 +40,7 @@ class EstimatePublication {
 
   ros::NodeHandle handle_;
   SharedRuntime& runtime_;
+  bool publish_on_event_ = false;
   std::unique_ptr<MessagePool<StateEstimate>> messages_;
   ros::Publisher publisher_;
   std::unique_ptr<EstimateOutputs> outputs_;

@@ -8,6 +8,8 @@
 #include "sampled_data_observers/ros/diagnostics_reporter.h"
 #include "sampled_data_observers/ros/estimate_publication.h"
 #include "sampled_data_observers/ros/event_subscriptions.h"
+#include "sampled_data_observers/ros/gain_reloader.h"
+#include "sampled_data_observers/ros/master_watch.h"
 #include "sampled_data_observers/ros/observer_services.h"
 #include "sampled_data_observers/ros/shared_runtime.h"
 
@@ -26,7 +28,8 @@ class ObserverNodelet : public nodelet::Nodelet {
   /// @throws ConfigError for a bad configuration, after reporting it: the nodelet does not start.
   void onInit() override;
 
-  void start(const ObserverConfig& config);
+  /// @param tree  what `config` was read from
+  void start(const ConfigNode& tree, const ObserverConfig& config);
   void stop();
 
   const std::string type_;
@@ -34,8 +37,10 @@ class ObserverNodelet : public nodelet::Nodelet {
   std::unique_ptr<SharedRuntime> runtime_;
   std::unique_ptr<EstimatePublication> publication_;
   std::unique_ptr<EventSubscriptions> subscriptions_;
+  std::unique_ptr<GainReloader> gains_;
   std::unique_ptr<ObserverServices> services_;
   std::unique_ptr<DiagnosticsReporter> diagnostics_;
+  std::unique_ptr<MasterWatch> master_watch_;
 };
 
 }  // namespace sampled_data_observers

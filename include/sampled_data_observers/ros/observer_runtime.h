@@ -48,7 +48,8 @@ class ObserverRuntime {
   static EventReport reject(const EventChannel& channel, const Event& event, EventOutcome outcome,
                             Stamp now, EventStatus& status);
 
-  /// The next estimate due at `now`, if any: to be called until there is none.
+  /// The next estimate due at `now`, if any: to be called until there is none. With
+  /// `publish_on_event` the last one is that of `now`, where an event was used since the last call.
   const Estimate* next_due(Stamp now);
 
   /// The time at which the estimate after those due at `now` becomes due.
@@ -64,6 +65,24 @@ class ObserverRuntime {
   /// Returns why nothing was changed, or an empty text.
   std::string restart(Stamp now, const std::vector<double>& estimate);
 
+  /// Starts again at the next sample stamped after `now` (Estimator::restart_at_next_sample()).
+  /// Returns why nothing was changed, or an empty text.
+  std::string restart_at_next_sample(Stamp now);
+
+  /// Forgets everything, since time went back to `now`: estimates begin again with the first event.
+  void start_anew(Stamp now);
+
+  /// Off: no estimates, and every event is rejected as disabled. Switched on again, estimates go on
+  /// at `now` (Estimator::resume()).
+  void set_enabled(bool enabled, Stamp now);
+
+  /// Off: every event of this sensor is rejected as disabled. Returns why nothing was changed, or
+  /// an empty text.
+  std::string enable_sensor(const std::string& name, bool enabled);
+
+  /// Goes on at `now` where `other` is, a runtime of the same configuration but for its gains.
+  void take_over(ObserverRuntime& other, Stamp now);
+
   /// Writes an estimate into a message. Allocates nothing when the message held one before.
   void write(const Estimate& estimate, StateEstimate& message) const;
 
@@ -72,11 +91,17 @@ class ObserverRuntime {
  private:
   static void write(const EventChannel& channel, const Event& event, const EventReport& report,
                     Stamp now, EventStatus& status);
+  bool is_enabled(const EventChannel& channel) const;
 
   const ObserverConfig config_;
   Estimator estimator_;
   PublicationGrid grid_;
   Estimate estimate_;
+  bool enabled_ = true;
+  /// One per sensor.
+  std::vector<bool> sensors_enabled_;
+  /// Whether an event asks for an estimate at once.
+  bool event_waits_ = false;
 };
 
 /// The outcome in a few words, and whether a gate recovered.

@@ -2,11 +2,16 @@
 
 #include <ros/node_handle.h>
 #include <ros/service_server.h>
+#include <sampled_data_observers/EnableSensor.h>
 #include <sampled_data_observers/GetEstimate.h>
+#include <sampled_data_observers/ReloadGains.h>
 #include <sampled_data_observers/Reset.h>
+#include <std_srvs/SetBool.h>
 
+#include <string>
 #include <vector>
 
+#include "sampled_data_observers/ros/gain_reloader.h"
 #include "sampled_data_observers/ros/shared_runtime.h"
 
 namespace sampled_data_observers {
@@ -15,13 +20,22 @@ namespace sampled_data_observers {
 class ObserverServices {
  public:
   /// Advertises them.
-  ObserverServices(const ros::NodeHandle& handle, SharedRuntime& runtime);
+  /// @param name  of the nodelet, for its log
+  ObserverServices(const ros::NodeHandle& handle, SharedRuntime& runtime, GainReloader& gains,
+                   std::string name);
+
+  std::vector<std::string> names() const;
 
  private:
   bool reset(Reset::Request& request, Reset::Response& response);
   bool get_estimate(GetEstimate::Request& request, GetEstimate::Response& response);
+  bool reload_gains(ReloadGains::Request& request, ReloadGains::Response& response);
+  bool set_enabled(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
+  bool enable_sensor(EnableSensor::Request& request, EnableSensor::Response& response);
 
   SharedRuntime& runtime_;
+  GainReloader& gains_;
+  const std::string name_;
   std::vector<ros::ServiceServer> servers_;
 };
 

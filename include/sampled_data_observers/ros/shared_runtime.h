@@ -1,8 +1,10 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
+#include <utility>
 
 #include "sampled_data_observers/observer/run_statistics.h"
 #include "sampled_data_observers/real_time/priority_inheritance_mutex.h"
@@ -11,7 +13,7 @@
 namespace sampled_data_observers {
 
 /// The runtime of a live observer, which several threads use: one at a time, and each for the
-/// bounded time of one event or one estimate only.
+/// bounded time of one event or one estimate only. It watches the clock for them.
 class SharedRuntime {
  public:
   /// Exclusive use of the runtime, at one instant of ROS time, as long as it lives.
@@ -29,7 +31,7 @@ class SharedRuntime {
     SharedRuntime& shared_;
     std::unique_lock<PriorityInheritanceMutex> lock_;
     Stamp now_;
-    /// How far time went back since the use before.
+    /// How far time went back since the use before, where that is more than the tolerance.
     Duration went_back_ = 0;
   };
 
@@ -39,6 +41,13 @@ class SharedRuntime {
 
   Access access() { return Access(*this); }
 
+  /// What to do, on whatever thread notices it, when time went back. To be set before the first
+  /// event.
+  void when_time_goes_back(std::function<void()> action) { time_went_back_ = std::move(action); }
+
+  /// Goes on with the runtime `next`, which takes the present one over.
+  void replace(std::unique_ptr<ObserverRuntime> next);
+
   /// For any thread, at any time.
   StatisticsRecorder& statistics() { return statistics_; }
 
@@ -46,7 +55,10 @@ class SharedRuntime {
   PriorityInheritanceMutex mutex_;
   std::unique_ptr<ObserverRuntime> runtime_;
   StatisticsRecorder statistics_;
-  Stamp last_now_ = 0;
+  Stamp latest_ = 0;
+  const bool reset_on_jump_back_;
+  const Duration jump_back_tolerance_;
+  std::function<void()> time_went_back_;
   const std::string name_;
   const std::string reset_service_;
 };

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "sampled_data_observers/config/config_node.h"
+#include "sampled_data_observers/ros/shared_runtime.h"
+
+namespace sampled_data_observers {
+
+/// Changes the gains of a live observer. A new runtime is built beside the present one, which goes
+/// on meanwhile.
+class GainReloader {
+ public:
+  /// @param tree    the whole configuration of `runtime`
+  /// @param config  the same, read
+  /// @throws ConfigError where there is no directory config.gains_directory.
+  GainReloader(ConfigNode tree, const ObserverConfig& config, SharedRuntime& runtime);
+
+  /// Returns what is guaranteed with the gains of `file`, which lies below the directory.
+  /// @throws std::runtime_error, after changing nothing, where the file or its gains are no good.
+  std::string reload(const std::string& file);
+
+ private:
+  std::mutex mutex_;
+  ConfigNode tree_;
+  const std::string type_;
+  const std::string directory_;
+  SharedRuntime& runtime_;
+};
+
+}  // namespace sampled_data_observers

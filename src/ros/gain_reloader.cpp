@@ -1,0 +1,39 @@
+#include "sampled_data_observers/ros/gain_reloader.h"
+
+#include <filesystem>
+#include <stdexcept>
+#include <utility>
+
+#include "sampled_data_observers/config/confined_path.h"
+#include "sampled_data_observers/config/gain_replacement.h"
+#include "sampled_data_observers/config/yaml_file.h"
+#include "sampled_data_observers/ros/plant_plugins.h"
+
+namespace sampled_data_observers {
+
+GainReloader::GainReloader(ConfigNode tree, const ObserverConfig& config, SharedRuntime& runtime)
+    : tree_(std::move(tree)),
+      type_(config.type),
+      directory_(config.gains_directory),
+      runtime_(runtime) {
+  std::error_code fault;
+  if (directory_.empty() || std::filesystem::is_directory(directory_, fault)) return;
+  throw ConfigError(tree_.origin, "gains_directory", "a directory on this machine",
+                    "'" + directory_ + "'");
+}
+
+std::string GainReloader::reload(const std::string& file) {
+  if (directory_.empty()) {
+    throw std::runtime_error("gain files may only be loaded where gains_directory is configured");
+  }
+  const std::lock_guard<std::mutex> one_at_a_time(mutex_);
+  ConfigNode tree = replace_gains(tree_, read_yaml_file(confined_path(directory_, file)));
+  const ObserverConfig next = read_observer_config(tree, load_plant_plugin);
+  if (next.type != type_) throw ConfigError(file, "observer", type_, next.type);
+  runtime_.replace(std::make_unique<ObserverRuntime>(next));
+  tree_ = std::move(tree);
+  if (!next.guarantee.empty()) return "certified by " + next.guarantee;
+  return next.warning.empty() ? "without certificate" : next.warning;
+}
+
+}  // namespace sampled_data_observers

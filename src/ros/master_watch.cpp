@@ -1,0 +1,93 @@
+#include "sampled_data_observers/ros/master_watch.h"
+
+#include <ros/connection_manager.h>
+#include <ros/console.h>
+#include <ros/master.h>
+#include <ros/network.h>
+#include <ros/publication.h>
+#include <ros/this_node.h>
+#include <ros/topic_manager.h>
+#include <ros/xmlrpc_manager.h>
+
+#include <utility>
+
+namespace sampled_data_observers {
+namespace {
+
+constexpr double kPeriod = 3.0;  // s
+
+XmlRpc::XmlRpcValue list_of(const std::vector<std::string>& texts) {
+  XmlRpc::XmlRpcValue list;
+  list.setSize(static_cast<int>(texts.size()));
+  for (int i = 0; i < list.size(); ++i) list[i] = texts[static_cast<std::size_t>(i)];
+  return list;
+}
+
+/// Calls the master, with the name of this node and `arguments`. Returns whether it agreed;
+/// `response` is not valid where it did not answer.
+bool call_master(const std::string& method, std::vector<std::string> arguments,
+                 XmlRpc::XmlRpcValue& response, XmlRpc::XmlRpcValue& payload) {
+  arguments.insert(arguments.begin(), ros::this_node::getName());
+  const bool wait = false;
+  return ros::master::execute(method, list_of(arguments), response, payload, wait);
+}
+
+/// As the master tells subscribers of new publishers: that is how roscpp learns of them.
+void tell_of_publishers(const std::string& topic, const XmlRpc::XmlRpcValue& publishers) {
+  const ros::XMLRPCManagerPtr& manager = ros::XMLRPCManager::instance();
+  std::string host;
+  std::uint32_t port = 0;
+  if (!ros::network::splitURI(manager->getServerURI(), host, port)) return;
+  XmlRpc::XmlRpcValue request = list_of({"/master", topic, ""});
+  request[2] = publishers;
+  XmlRpc::XmlRpcValue response;
+  XmlRpc::XmlRpcClient* client = manager->getXMLRPCClient(host, static_cast<int>(port), "/");
+  client->execute("publisherUpdate", request, response);
+  manager->releaseXMLRPCClient(client);
+}
+
+}  // namespace
+
+MasterWatch::MasterWatch(const ros::NodeHandle& handle, std::vector<std::string> services,
+                         std::string name)
+    : services_(std::move(services)), name_(std::move(name)) {
+  timer_ = handle.createSteadyTimer(ros::WallDuration(kPeriod),
+                                    [this](const ros::SteadyTimerEvent&) { check(); });
+}
+
+void MasterWatch::check() const {
+  XmlRpc::XmlRpcValue response;
+  XmlRpc::XmlRpcValue payload;
+  if (call_master("lookupService", {services_.front()}, response, payload)) return;
+  const bool answered = response.valid();
+  if (answered) register_again();
+}
+
+void MasterWatch::register_again() const {
+  XmlRpc::XmlRpcValue response;
+  XmlRpc::XmlRpcValue payload;
+  const std::string node = ros::XMLRPCManager::instance()->getServerURI();
+  std::vector<std::string> published;
+  ros::this_node::getAdvertisedTopics(published);
+  for (const std::string& topic : published) {
+    const ros::PublicationPtr publication = ros::TopicManager::instance()->lookupPublication(topic);
+    if (!publication) continue;
+    call_master("registerPublisher", {topic, publication->getDataType(), node}, response, payload);
+  }
+  std::vector<std::string> subscribed;
+  ros::this_node::getSubscribedTopics(subscribed);
+  const std::string any_type = "*";
+  for (const std::string& topic : subscribed) {
+    if (!call_master("registerSubscriber", {topic, any_type, node}, response, payload)) continue;
+    // Where nobody has registered yet, the connections there are shall stay.
+    if (payload.size() > 0) tell_of_publishers(topic, payload);
+  }
+  const std::string server = "rosrpc://" + ros::network::getHost() + ":" +
+                             std::to_string(ros::ConnectionManager::instance()->getTCPPort());
+  for (const std::string& service : services_) {
+    call_master("registerService", {service, server, node}, response, payload);
+  }
+  ROS_WARN_NAMED(name_, "the ROS master was restarted: topics and services are registered again");
+}
+
+}  // namespace sampled_data_observers

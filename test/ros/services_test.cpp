@@ -1,0 +1,134 @@
+// The services that change a running observer, and estimates at once after events.
+#include <gtest/gtest.h>
+#include <ros/ros.h>
+#include <sampled_data_observers/EnableSensor.h>
+#include <sampled_data_observers/ReloadGains.h>
+#include <std_srvs/SetBool.h>
+
+#include <string>
+
+#include "ros/observer_client.h"
+#include "sampled_data_observers/ros/time_conversion.h"
+
+namespace sampled_data_observers {
+namespace {
+
+template <class Service>
+typename Service::Response call(const std::string& name, const typename Service::Request& request) {
+  typename Service::Response response;
+  typename Service::Request sent = request;
+  EXPECT_TRUE(ros::service::call(name, sent, response)) << name;
+  return response;
+}
+
+ReloadGains::Response reload(const std::string& file) {
+  ReloadGains::Request request;
+  request.file = file;
+  return call<ReloadGains>("reload_gains", request);
+}
+
+class ServicesTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_TRUE(client_.connect());
+    ASSERT_TRUE(client_.reset({}).success);
+  }
+  /// What a sample one above the estimate changes in it.
+  double correction() {
+    const ros::Time stamp = ros::Time::now();
+    const double before = client_.get_estimate(stamp).estimate.state[0];
+    EXPECT_EQ(EventStatus::USED, client_.sample(stamp, {before + 1.0}).outcome);
+    return client_.get_estimate(stamp).estimate.state[0] - before;
+  }
+
+  test::ObserverClient client_;
+};
+
+TEST_F(ServicesTest, EstimatesFollowEventsAtOnceAndStampsIncrease) {
+  for (int i = 0; i < 40; ++i) {
+    const ros::Time stamp = ros::Time::now();
+    client_.sample(stamp, {1.0});
+    ASSERT_TRUE(test::spin_until([&] {
+      return !client_.estimates.empty() && client_.estimates.back().header.stamp >= stamp;
+    }));
+  }
+  std::size_t between = 0;
+  for (std::size_t i = 1; i < client_.estimates.size(); ++i) {
+    const ros::Time stamp = client_.estimates[i].header.stamp;
+    EXPECT_LT(client_.estimates[i - 1].header.stamp, stamp);
+    if (to_stamp(stamp) % 200'000'000 != 0) ++between;
+  }
+  EXPECT_GE(between, 35u);
+}
+
+TEST_F(ServicesTest, GainsAreChangedWithoutLosingTheEstimate) {
+  EXPECT_NEAR(0.8, correction(), 1e-9);
+  const ros::Time now = ros::Time::now();
+  const double before = client_.get_estimate(now).estimate.state[0];
+  for (const char* bad : {"wrong_size.yaml", "other_rate.yaml", "missing.yaml", "../position.yaml",
+                          "/etc/hostname", ""}) {
+    const ReloadGains::Response refused = reload(bad);
+    EXPECT_FALSE(refused.success) << bad;
+    EXPECT_NE("", refused.message);
+  }
+  EXPECT_EQ(before, client_.get_estimate(now).estimate.state[0]);
+  const ros::Time swap = ros::Time::now() + ros::Duration(10.0);
+  const double expected = client_.get_estimate(swap).estimate.state[0];
+  const ReloadGains::Response reloaded = reload("smaller.yaml");
+  EXPECT_TRUE(reloaded.success) << reloaded.message;
+  EXPECT_EQ("without certificate", reloaded.message);
+  EXPECT_NEAR(expected, client_.get_estimate(swap).estimate.state[0], 1e-9);
+  EXPECT_NEAR(0.4, correction(), 1e-9);
+}
+
+TEST_F(ServicesTest, SwitchedOffItIsSilentAndRejects) {
+  std_srvs::SetBool::Request request;
+  request.data = 0;
+  EXPECT_TRUE(call<std_srvs::SetBool>("set_enabled", request).success);
+  EXPECT_EQ(EventStatus::DISABLED, client_.sample(ros::Time::now(), {1.0}).outcome);
+  EXPECT_FALSE(client_.get_estimate(ros::Time()).success);
+  test::spin_until([] { return false; }, 0.2);  // what was on its way
+  const std::size_t before = client_.estimates.size();
+  EXPECT_FALSE(test::spin_until([&] { return client_.estimates.size() > before; }, 0.5));
+  request.data = 1;
+  EXPECT_TRUE(call<std_srvs::SetBool>("set_enabled", request).success);
+  EXPECT_TRUE(test::spin_until([&] { return client_.estimates.size() > before; }));
+  EXPECT_EQ(EventStatus::USED, client_.sample(ros::Time::now(), {1.0}).outcome);
+}
+
+TEST_F(ServicesTest, ASensorIsSwitchedOffAlone) {
+  EnableSensor::Request request;
+  request.name = "nobody";
+  EXPECT_FALSE(call<EnableSensor>("enable_sensor", request).success);
+  request.name = "position";
+  EXPECT_TRUE(call<EnableSensor>("enable_sensor", request).success);
+  EXPECT_EQ(EventStatus::DISABLED, client_.sample(ros::Time::now(), {1.0}).outcome);
+  EXPECT_EQ(EventStatus::USED, client_.input(ros::Time::now(), 0.0).outcome);
+  request.enabled = 1;
+  EXPECT_TRUE(call<EnableSensor>("enable_sensor", request).success);
+  EXPECT_EQ(EventStatus::USED, client_.sample(ros::Time::now(), {1.0}).outcome);
+}
+
+TEST_F(ServicesTest, AResetMayWaitForTheNextSample) {
+  Reset::Request request;
+  request.at_next_sample = 1;
+  request.state = {1.0, 2.0};
+  EXPECT_FALSE(call<Reset>("reset", request).success);
+  request.state.clear();
+  EXPECT_TRUE(call<Reset>("reset", request).success);
+  EXPECT_FALSE(client_.get_estimate(ros::Time()).success);
+  const ros::Time stamp = ros::Time::now();
+  EXPECT_EQ(EventStatus::USED, client_.sample(stamp, {33.0}).outcome);
+  EXPECT_NEAR(33.0, client_.get_estimate(stamp).estimate.state[0], 1e-6);
+  EXPECT_NEAR(-0.25, client_.get_estimate(stamp).estimate.state[1], 1e-6);
+}
+
+}  // namespace
+}  // namespace sampled_data_observers
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "services_test");
+  const ros::NodeHandle alive;
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
