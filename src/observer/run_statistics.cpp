@@ -34,6 +34,7 @@ void RunStatistics::add(const RunStatistics& later) {
   for (std::size_t i = 0; i < channels.size(); ++i) channels[i].add(later.channels[i]);
   lateness.add(later.lateness);
   held += later.held;
+  saturated += later.saturated;
   tick_cpu_time.add(later.tick_cpu_time);
   newest_estimate = later.newest_estimate;
   error_bound = later.error_bound;
@@ -57,6 +58,7 @@ void StatisticsRecorder::record_estimate(const ObserverLaw& law, const Estimate&
                                          Duration lateness) noexcept {
   lateness_.record(lateness);
   if (estimate.held) increment(held_);
+  if (law.is_saturated(estimate.state.data())) increment(saturated_);
   newest_estimate_.store(estimate.stamp, kRelaxed);
   const double bound = law.error_bound(estimate.state.data());
   error_bound_.store(bound, kRelaxed);
@@ -83,6 +85,7 @@ void StatisticsRecorder::take(RunStatistics& statistics) noexcept {
   }
   statistics.lateness = lateness_.take();
   statistics.held = held_.exchange(0, kRelaxed);
+  statistics.saturated = saturated_.exchange(0, kRelaxed);
   statistics.tick_cpu_time = tick_cpu_time_.take();
   statistics.newest_estimate = as_stamp(newest_estimate_.load(kRelaxed));
   statistics.error_bound = error_bound_.load(kRelaxed);

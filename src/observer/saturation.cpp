@@ -33,6 +33,13 @@ void Saturation::apply(double* x) const {
   }
 }
 
+bool Saturation::is_active(const double* x) const {
+  for (Eigen::Index i = 0; i < size(); ++i) {
+    if (!(low_(i) < x[i] && x[i] < high_(i))) return true;
+  }
+  return false;
+}
+
 double Saturation::scale(Eigen::Index state) const {
   return low_(state) == -kInfinity ? 1.0 : 0.5 * (high_(state) - low_(state));
 }

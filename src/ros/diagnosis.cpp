@@ -226,6 +226,11 @@ Finding Diagnosis::estimates() const {
     finding = {HealthLevel::kWarn,
                "the model's flow is not finite: the last estimate is held until the next sample",
                {}};
+  } else if (window_.saturated > 0) {
+    finding = {HealthLevel::kWarn,
+               std::to_string(window_.saturated) + " of " + std::to_string(window_.lateness.count) +
+                   " estimates stand at a bound of saturations, or beyond: is the model right?",
+               {}};
   } else if (published < kLowestRate * expected - 1.0) {
     finding = {HealthLevel::kWarn,
                shown(published / to_seconds(elapsed_)) + " Hz instead of " + shown(rate) +
@@ -247,6 +252,7 @@ Finding Diagnosis::estimates() const {
                      : "none"},
       {"published in all", std::to_string(totals_.lateness.count)},
       {"held", std::to_string(window_.held)},
+      {"saturated", std::to_string(window_.saturated)},
       {"CPU time per tick, mean", in_milliseconds(cpu.mean())},
       {"CPU time per tick, most", in_milliseconds(cpu.count > 0 ? cpu.largest : 0)},
   };

@@ -105,6 +105,7 @@ TEST(LinearHighGainTest, AJumpIsThePlantsWithinTheBounds) {
   body.take(EventKind::kJump, {});
   EXPECT_EQ(1.0, body.state(0));
   EXPECT_EQ(3.0, body.state(1));
+  EXPECT_TRUE(body.law->is_saturated(body.state.data()));
   body.flow(1.0);  // the flow knows no bounds
   EXPECT_NEAR(4.0, body.state(0), 1e-15);
 }

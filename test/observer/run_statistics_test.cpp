@@ -29,7 +29,7 @@ EventReport used_after(Duration interval, IntervalCheck check) {
   return result;
 }
 
-/// One state, which is its own error bound.
+/// One state, which is its own error bound, and has a bound of 10.
 class BoundLaw final : public ObserverLaw {
  public:
   const std::vector<std::string>& estimate_names() const override { return names_; }
@@ -50,6 +50,7 @@ class BoundLaw final : public ObserverLaw {
   void fit_to(const Event&, double*, double*) const override {}
   void start_from(const double*, double*) const override {}
   double error_bound(const double* state) const override { return *state; }
+  bool is_saturated(const double* state) const override { return *state >= 10.0; }
 
  private:
   std::vector<std::string> names_ = {"x"};
@@ -141,11 +142,13 @@ TEST(StatisticsRecorderTest, KnowsSinceWhenTheBoundIsLost) {
   recorder.take(window);
   EXPECT_FALSE(window.bound_lost_since);
   EXPECT_EQ(0.5, window.error_bound);
+  EXPECT_EQ(0u, window.saturated);
   recorder.record_estimate(law, estimate(20, kInfinity), 4);
   recorder.record_estimate(law, estimate(30, kInfinity), 9);
   recorder.take(window);
   EXPECT_EQ(20, *window.bound_lost_since);
   EXPECT_EQ(30, *window.newest_estimate);
+  EXPECT_EQ(2u, window.saturated);
   EXPECT_EQ(9, window.lateness.largest);
   recorder.record_estimate(law, estimate(40, 0.25), 3);
   recorder.take(window);

@@ -105,6 +105,10 @@ TEST_F(DiagnosisTest, SaysWhatIsWrongWithTheEstimates) {
   window.held = 3;
   update(window);
   expect(HealthLevel::kWarn, {"not finite"}, diagnosis_.estimates());
+  window = good();
+  window.saturated = 4;
+  update(window);
+  expect(HealthLevel::kWarn, {"4 of 100", "bound of saturations"}, diagnosis_.estimates());
   diagnosis_.update(good(), now_, 0);
   expect(HealthLevel::kStale, {"time stands still"}, diagnosis_.estimates());
 }

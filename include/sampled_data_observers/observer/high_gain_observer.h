@@ -17,6 +17,9 @@ namespace sampled_data_observers {
 ///
 /// The plant has one mode. There are three forms, one class each.
 class HighGainObserver : public PlantObserver {
+ public:
+  bool is_saturated(const double* state) const override { return saturation_.is_active(state); }
+
  protected:
   HighGainObserver(const ObserverContext& context, const Extras& extras, Saturation saturation);
 

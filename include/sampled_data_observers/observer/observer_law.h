@@ -75,6 +75,12 @@ class ObserverLaw : public HybridSystem {
     return std::numeric_limits<double>::quiet_NaN();
   }
 
+  /// Whether a state of the estimate stands at a bound that the law keeps it within.
+  virtual bool is_saturated(const double* state) const {
+    static_cast<void>(state);
+    return false;
+  }
+
   /// Whether a jump's reset waits for a release event (see DelayedJumps).
   virtual bool delays_jumps() const { return false; }
 };

@@ -19,6 +19,9 @@ class Saturation {
   /// one.
   void apply(double* x) const;
 
+  /// Whether an entry of x (n entries) is at one of its bounds or beyond.
+  bool is_active(const double* x) const;
+
   /// A size of a state's usual changes: half the width of its bounds, 1 where it has none.
   double scale(Eigen::Index state) const;
 
