@@ -10,7 +10,12 @@ DetectorConfig read_detector(ConfigSection& section, const std::vector<std::stri
   ExpressionNames names;
   names.x = fields;
   DetectorConfig detector;
-  detector.signal = ExpressionReader(names).read_text(section, "signal");
+  const ExpressionReader formulas(names);
+  detector.signal = formulas.read_text(section, "signal");
+  constexpr std::size_t kAnyNumber = 0;
+  if (section.has("outputs")) {
+    detector.outputs = formulas.read_list(section, "outputs", kAnyNumber);
+  }
   JumpDetector::Options& options = detector.options;
   options.threshold = section.number_in("threshold", -kLargest, kLargest, std::nullopt);
   options.hysteresis = section.number_in("hysteresis", 0.0, kLargest, 0.0);

@@ -17,7 +17,8 @@ TopicSource read_source(ConfigSection& section, const std::string& topic, const 
   source.topic = topic.empty() ? section.text("topic") : section.text("topic", topic);
   source.type = type.empty() ? section.text("type") : section.text("type", type);
   for (const char* own : {kMeasurementType, kInputType, kJumpType}) {
-    if (source.type == own && source.type != type) {
+    const bool is_signal = type.empty() && source.type != kJumpType;
+    if (source.type == own && source.type != type && !is_signal) {
       throw section.error("type", (type.empty() ? "" : type + " or ") + "a standard message type",
                           "'" + source.type + "'");
     }
@@ -42,12 +43,22 @@ TopicSource read_value_source(ConfigSection& section, const std::string& topic,
   return source;
 }
 
-/// Jumps that a detector finds say nothing but their stamps.
+/// Jumps that a detector finds say nothing of the mode that follows.
 TopicSource read_detected_jumps(ConfigSection& section, const Plant& plant) {
   if (plant.switches()) {
     throw section.error("detector", "messages that hold the mode, for a switched plant", "one");
   }
-  return read_detector_source(section.section("detector"));
+  TopicSource source = read_detector_source(section.section("detector"));
+  const Eigen::Index expected = plant.outputs(SensorTiming::kAtJumps);
+  const VectorMap* outputs = source.detector->outputs.get();
+  if (outputs != nullptr && outputs->size() != expected) {
+    throw section.section("detector")
+        .error("outputs",
+               std::to_string(expected) +
+                   " formulas, for the outputs of the sensors measured at jumps",
+               std::to_string(outputs->size()));
+  }
+  return source;
 }
 
 }  // namespace

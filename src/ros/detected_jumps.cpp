@@ -5,7 +5,11 @@
 namespace sampled_data_observers {
 
 DetectedJumps::DetectedJumps(std::unique_ptr<MessageSource> signal, const DetectorConfig& config)
-    : signal_(std::move(signal)), formula_(config.signal), detector_(config.options) {}
+    : signal_(std::move(signal)),
+      formula_(config.signal),
+      outputs_(config.outputs),
+      detector_(config.options),
+      values_(outputs_ ? static_cast<std::size_t>(outputs_->size()) : 0) {}
 
 ros::Subscriber DetectedJumps::subscribe(ros::NodeHandle& handle, std::uint32_t queue_length,
                                          const Receiver& receive) const {
@@ -30,6 +34,12 @@ Reading DetectedJumps::read(const MessagePointer& message, Stamp receipt, Event&
   switch (detector_.add(sample.stamp, value)) {
     case JumpDetector::Finding::kJump:
       event.stamp = detector_.crossing();
+      if (outputs_) {
+        outputs_->evaluate(sample.values, nullptr, values_.data());
+        event.values = values_.data();
+        event.size = static_cast<Eigen::Index>(values_.size());
+        event.channel = kMeasuredJump;
+      }
       return Reading::kEvent;
     case JumpDetector::Finding::kOutOfOrder:
       return Reading::kOutOfOrder;

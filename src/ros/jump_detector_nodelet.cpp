@@ -50,6 +50,7 @@ void JumpDetectorNodelet::receive(const MessagePointer& message, Stamp receipt) 
   }
   const auto jump = boost::make_shared<JumpEvent>();
   jump->header.stamp = to_ros_time(event.stamp);
+  jump->values.assign(event.values, event.values + event.size);
   publisher_.publish(jump);
   NODELET_INFO("jump at %.9f s", to_seconds(event.stamp));
 }

@@ -114,8 +114,10 @@ void PlantSimulatorNodelet::run() {
 bool PlantSimulatorNodelet::wait_for_subscribers() {
   const auto first_without = [this]() -> const ros::Publisher* {
     for (std::size_t i = 0; i < publishers_.size(); ++i) {
-      const bool is_truth = simulator_->channels()[i].kind == SimulatedChannel::Kind::kTruth;
-      if (!is_truth && publishers_[i].getNumSubscribers() == 0) return &publishers_[i];
+      const SimulatedChannel::Kind kind = simulator_->channels()[i].kind;
+      const bool may_be_unheard =
+          kind == SimulatedChannel::Kind::kTruth || kind == SimulatedChannel::Kind::kSignal;
+      if (!may_be_unheard && publishers_[i].getNumSubscribers() == 0) return &publishers_[i];
     }
     return nullptr;
   };

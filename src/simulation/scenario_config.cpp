@@ -44,6 +44,7 @@ class ScenarioReader {
     if (plant().inputs() > 0) read_input();
     if (section_.has("disturbance")) read_disturbance();
     read_sensors();
+    read_signals();
     read_jumps();
     section_.finish();
     return std::move(scenario_);
@@ -157,6 +158,25 @@ class ScenarioReader {
       scenario_.sensors.push_back(std::move(scenario));
     }
     sensors.finish();
+  }
+
+  void read_signals() {
+    ConfigSection signals = section_.section_or_empty("signals");
+    for (const std::string& name : signals.keys()) {
+      ConfigSection section = signals.section(name);
+      SignalScenario signal;
+      signal.name = name;
+      signal.topic = section.text("topic", name);
+      constexpr std::size_t kAnyNumber = 0;
+      signal.formulas = ExpressionReader(timed_names(section, "formulas", true))
+                            .read_list(section, "formulas", kAnyNumber);
+      signal.schedule = read_schedule(section, FirstOfPeriod::kAtStart);
+      signal.noise = read_noise(section, static_cast<std::size_t>(signal.formulas->size()));
+      signal.delivery = read_delivery(section);
+      section.finish();
+      scenario_.signals.push_back(std::move(signal));
+    }
+    signals.finish();
   }
 
   Noise read_noise(ConfigSection& sensor, std::size_t outputs) const {

@@ -13,6 +13,7 @@ Simulator::Simulator(Scenario scenario)
                      stream("jumps/delivery")) {
   using Kind = SimulatedChannel::Kind;
   for (std::size_t i = 0; i < scenario_.sensors.size(); ++i) add_sensor(i);
+  for (const SignalScenario& signal : scenario_.signals) add_signal(signal);
   if (scenario_.input) input_channel_ = add_channel(Kind::kInput, scenario_.input->topic);
   if (scenario_.jumps) {
     jump_channel_ = add_channel(Kind::kJump, scenario_.jumps_topic);
@@ -34,6 +35,8 @@ void Simulator::add_sensor(std::size_t sensor) {
   const SensorScenario& scenario = scenario_.sensors[sensor];
   const std::string name = "sensors/" + scenario_.plant->sensors()[sensor].name;
   SensorStream added{sensor,
+                     nullptr,
+                     &scenario.noise,
                      std::nullopt,
                      std::nullopt,
                      std::nullopt,
@@ -51,8 +54,23 @@ void Simulator::add_sensor(std::size_t sensor) {
   sensors_.push_back(std::move(added));
 }
 
-bool Simulator::is_at_jumps(const SensorStream& stream) const {
-  return scenario_.plant->sensors()[stream.sensor].timing == SensorTiming::kAtJumps;
+void Simulator::add_signal(const SignalScenario& signal) {
+  const std::string name = "signals/" + signal.name;
+  SensorStream added{std::nullopt,
+                     &signal,
+                     &signal.noise,
+                     add_channel(SimulatedChannel::Kind::kSignal, signal.topic),
+                     ScheduledTimes(signal.schedule, stream(name + "/schedule")),
+                     std::nullopt,
+                     stream(name + "/noise"),
+                     DeliveryLine(signal.delivery, stream(name + "/delivery"))};
+  added.next = added.times->next();
+  sensors_.push_back(std::move(added));
+}
+
+bool Simulator::is_sampled(const SensorStream& stream) const {
+  return stream.sensor &&
+         scenario_.plant->sensors()[*stream.sensor].timing == SensorTiming::kSampled;
 }
 
 std::optional<SimulatedMessage> Simulator::next() {
@@ -88,12 +106,9 @@ void Simulator::step() {
   }
   if (scenario_.input && next_input_ == time) change_input();
   if (jumps) jump();
-  for (const bool continuous : {true, false}) {
+  for (const bool sampled : {false, true}) {
     for (SensorStream& sensor : sensors_) {
-      const SensorTiming timing = scenario_.plant->sensors()[sensor.sensor].timing;
-      if (sensor.next == time && (timing == SensorTiming::kContinuous) == continuous) {
-        measure(sensor);
-      }
+      if (sensor.next == time && is_sampled(sensor) == sampled) measure(sensor);
     }
   }
   if (next_truth_ == time) {
@@ -123,7 +138,7 @@ void Simulator::jump() {
   std::vector<double> values;
   std::vector<std::pair<SensorStream*, std::vector<double>>> measured;
   for (SensorStream& sensor : sensors_) {
-    if (!is_at_jumps(sensor)) continue;
+    if (sensor.times) continue;
     const std::vector<double> y = outputs(sensor);
     if (values_in_jumps_) values.insert(values.end(), y.begin(), y.end());
     if (sensor.channel) measured.emplace_back(&sensor, y);
@@ -143,24 +158,37 @@ void Simulator::measure(SensorStream& stream) {
   stream.next = stream.times->next();
 }
 
+std::vector<double> Simulator::exact_outputs(const SensorStream& stream) const {
+  std::vector<double> y;
+  if (stream.sensor) {
+    y.resize(static_cast<std::size_t>(scenario_.plant->sensors()[*stream.sensor].outputs()));
+    plant_.measure(*stream.sensor, y.data());
+  } else {
+    Eigen::VectorXd arguments(1 + plant_.state().size());
+    arguments << to_seconds(plant_.time()), plant_.state();
+    y.resize(static_cast<std::size_t>(stream.signal->formulas->size()));
+    stream.signal->formulas->evaluate(arguments.data(), nullptr, y.data());
+  }
+  return y;
+}
+
 /// The outputs of a sensor with its noise; angles as sensors give them, in (−π, π].
 std::vector<double> Simulator::outputs(SensorStream& stream) {
-  const Sensor& sensor = scenario_.plant->sensors()[stream.sensor];
-  const Noise& noise = scenario_.sensors[stream.sensor].noise;
-  const auto size = static_cast<std::size_t>(sensor.outputs());
-  std::vector<double> y(size);
-  plant_.measure(stream.sensor, y.data());
-  std::vector<double> added(size, 0.0);
+  const Noise& noise = *stream.added;
+  std::vector<double> y = exact_outputs(stream);
+  std::vector<double> added(y.size(), 0.0);
   if (noise.kind == Noise::Kind::kFormulas) {
     const double t = to_seconds(plant_.time());
     noise.formulas->evaluate(&t, nullptr, added.data());
   }
-  for (std::size_t i = 0; i < size; ++i) {
+  for (std::size_t i = 0; i < y.size(); ++i) {
     if (noise.kind == Noise::Kind::kUniform)
       added[i] = stream.noise.uniform(-noise.size, noise.size);
     if (noise.kind == Noise::Kind::kGaussian) added[i] = noise.size * stream.noise.gaussian();
     y[i] += added[i];
-    if (sensor.angular[i]) y[i] = wrap_angle(y[i]);
+    if (stream.sensor && scenario_.plant->sensors()[*stream.sensor].angular[i]) {
+      y[i] = wrap_angle(y[i]);
+    }
   }
   return y;
 }

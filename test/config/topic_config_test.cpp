@@ -111,6 +111,18 @@ TEST(DetectorConfigTest, ReadsEveryKey) {
   double signal = 0.0;
   source.detector->signal->evaluate(fields, nullptr, &signal);
   EXPECT_EQ(3.5, signal);
+  EXPECT_EQ(nullptr, source.detector->outputs);
+}
+
+TEST(DetectorConfigTest, OutputsAreFormulasOfTheFields) {
+  const ConfigNode tree =
+      read_yaml_text(std::string(kDetector) + "  outputs: [0, ax - w]\n", "test.yaml");
+  const TopicSource source = read_detector_source(ConfigSection(tree, "").section("detector"));
+  const double fields[] = {-3.0, 0.25};
+  double outputs[2];
+  source.detector->outputs->evaluate(fields, nullptr, outputs);
+  EXPECT_EQ(0.0, outputs[0]);
+  EXPECT_EQ(-3.25, outputs[1]);
 }
 
 TEST(DetectorConfigTest, TheSameSectionStandsBelowTheJumpsOfAnObserver) {
@@ -122,6 +134,10 @@ TEST(DetectorConfigTest, TheSameSectionStandsBelowTheJumpsOfAnObserver) {
   EXPECT_EQ("imu", config.jumps->topic);
   EXPECT_TRUE(config.jumps->of_jumps);
   EXPECT_EQ(30.0, config.jumps->detector->options.threshold);
+  const std::string message = fault(detector_in_observer(text + "  outputs: [1]\n"));
+  for (const char* part : {"jumps/detector/outputs", "0 formulas", "found 1"}) {
+    EXPECT_NE(std::string::npos, message.find(part)) << message;
+  }
 }
 
 TEST(DetectorConfigTest, FaultsSayWhatIsExpected) {

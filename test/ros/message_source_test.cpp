@@ -15,6 +15,7 @@
 #include <ros/message_traits.h>
 #include <ros/serialization.h>
 #include <sampled_data_observers/JumpEvent.h>
+#include <sampled_data_observers/Measurement.h>
 #include <sensor_msgs/FluidPressure.h>
 #include <sensor_msgs/Imu.h>
 #include <sensor_msgs/JointState.h>
@@ -479,6 +480,28 @@ TEST(DetectedJumpsTest, AreTheCrossingsOfTheSignal) {
   // The clock is set back: what was before counts no more.
   EXPECT_EQ(Reading::kPassedOver, reading(100, 0.0, 200).reading);
   EXPECT_EQ(150, reading(200, 10.0, 201).event.stamp);
+}
+
+TEST(DetectedJumpsTest, CarryTheOutputsThatTheirMessageTells) {
+  TopicSource heights = jumps<Measurement>({"values.1", "values.0"});
+  DetectorConfig detector;
+  detector.signal = std::make_shared<const AffineMap>(Eigen::RowVector2d(1.0, 0.0));
+  detector.outputs = std::make_shared<const AffineMap>(Eigen::RowVector2d(1.0, 10.0));
+  heights.detector = detector;
+  const auto source = make_message_source(heights);
+  const auto reading = [&](std::uint64_t stamp, const std::vector<double>& values) {
+    Measurement message;
+    message.header.stamp.fromNSec(stamp);
+    message.values = values;
+    return read(*source, message, EventKind::kJump);
+  };
+  EXPECT_EQ(Reading::kPassedOver, reading(1000, {0.0, -1.0}).reading);
+  EXPECT_EQ(Reading::kNoField, reading(1500, {0.0}).reading);
+  const Read jump = reading(2000, {0.5, 1.0});
+  EXPECT_EQ(Reading::kEvent, jump.reading);
+  EXPECT_EQ(1500, jump.event.stamp);
+  EXPECT_EQ(kMeasuredJump, jump.event.channel);
+  EXPECT_EQ((std::vector<double>{6.0}), jump.values);
 }
 
 TEST(MessageSourceTest, ReadingAllocatesNothing) {

@@ -37,9 +37,7 @@ scenario:
   disturbance: {N: [[0], [1]], formulas: ["t <= 5 ? -1 : 1"]}
   sensors:
     impact: {noise: {gaussian: 0.5}}
-    radar: {schedule: {period: 0.01}, noise: {formulas: ["0.2*sin(1000*t)"]
-}
-}
+    radar: {schedule: {period: 0.01}, noise: {formulas: ["0.2*sin(1000*t)"]}}
     wheel:
       schedule: {uniform: [0.1, 0.2]}
       noise: {uniform: 0.1}
@@ -143,6 +141,12 @@ TEST(ScenarioConfigTest, FaultsAreNamedWithPathExpectedAndFound) {
        {"scenario/input/formulas", "t is the time", "called t"}},
       {"N: [[0], [1]]", "N: [[0]]", {"scenario/disturbance/N", "2 x n", "1 x 1"}},
       {"[\"t <= 5 ? -1 : 1\"]", "[\"p\"]", {"scenario/disturbance/formulas", "p"}},
+      {"  jumps:\n    when",
+       "  signals: {tilt: {formulas: [q], schedule: {period: 1}}}\n  jumps:\n    when",
+       {"scenario/signals/tilt/formulas", "q"}},
+      {"  jumps:\n    when",
+       "  signals: {tilt: {formulas: [p]}}\n  jumps:\n    when",
+       {"scenario/signals/tilt/schedule", "missing"}},
       {"schedule: {period: 0.01}, ", "", {"scenario/sensors/radar/schedule", "missing"}},
       {"{period: 0.01}", "{}", {"scenario/sensors/radar/schedule", "uniform, sine", "none"}},
       {"{period: 0.01}",

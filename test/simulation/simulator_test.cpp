@@ -121,6 +121,30 @@ scenario:
   EXPECT_NEAR(0.375 + 1.5 * 1.5 - 0.5 * 1.5 * 1.5, truths[200].values[0], 2e-3);
 }
 
+TEST(SimulatorTest, SignalsTellWhatTheirFormulasSayAfterAJump) {
+  Simulator simulator(test::parse_scenario(R"yaml(
+plant: {states: [p, v], parameters: {scale: 10}, A: [[0, 1], [0, 0]], jump_map: {A_d: [[1, 0], [0, -1]]}}
+sensors: {position: {C: [[1, 0]], source: {topic: position}}}
+scenario:
+  duration: 2
+  initial_state: {p: 0, v: 1}
+  sensors: {position: {schedule: {period: 1}}}
+  signals:
+    radar: {formulas: ["scale*v", "t"], schedule: {period: 0.5}, latency: [0.1, 0.1]}
+    gyro: {topic: imu/gyro, formulas: [0], schedule: {period: 2}, noise: {uniform: 1}}
+  jumps: {schedule: {period: 1}}
+)yaml"));
+  const std::vector<SimulatedMessage> messages = test::run(simulator);
+  const std::vector<SimulatedMessage> radar = test::on_topic(simulator, messages, "radar");
+  ASSERT_EQ(5u, radar.size());
+  EXPECT_EQ((std::vector<double>{10.0, 0.5}), radar[1].values);
+  EXPECT_EQ((std::vector<double>{-10.0, 1.0}), radar[2].values);
+  EXPECT_EQ(radar[1].stamp + from_seconds(0.1), radar[1].arrival);
+  const std::vector<SimulatedMessage> gyro = test::on_topic(simulator, messages, "imu/gyro");
+  ASSERT_EQ(2u, gyro.size());
+  EXPECT_NE(0.0, gyro[0].values[0]);
+}
+
 TEST(SimulatorTest, NoiseHasItsDistributionAndFormula) {
   Simulator simulator(test::parse_scenario(R"yaml(
 plant: {states: [x], A: [[0]]}

@@ -61,6 +61,8 @@ class Runner {
       case SimulatedChannel::Kind::kTruth:
         questions_.emplace(message.stamp, message);
         return;
+      case SimulatedChannel::Kind::kSignal:
+        return;
       case SimulatedChannel::Kind::kInput:
         event.kind = EventKind::kInput;
         break;

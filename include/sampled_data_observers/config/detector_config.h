@@ -14,6 +14,9 @@ namespace sampled_data_observers {
 struct DetectorConfig {
   /// From one value per field to the signal.
   std::shared_ptr<const VectorMap> signal;
+  /// From them to the outputs measured at a jump, evaluated for the message that shows it; null
+  /// where it tells none.
+  std::shared_ptr<const VectorMap> outputs;
   JumpDetector::Options options;
 };
 

@@ -24,7 +24,9 @@ class DetectedJumps : public MessageSource {
  private:
   std::unique_ptr<MessageSource> signal_;
   std::shared_ptr<const VectorMap> formula_;
+  std::shared_ptr<const VectorMap> outputs_;
   JumpDetector detector_;
+  std::vector<double> values_;
   Stamp last_receipt_ = 0;
 };
 

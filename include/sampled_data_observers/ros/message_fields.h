@@ -1,6 +1,7 @@
 #pragma once
 
-#include <algorithm>
+#include <charconv>
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <string>
@@ -55,6 +56,21 @@ class MessageFields {
                        std::function<FieldGetter<M>(const std::string& key)> make) {
     families_.push_back({prefix, prefix + placeholder, std::move(make)});
     return *this;
+  }
+
+  /// The numbers of a list, by their indices from 0: "name.0", "name.1" …
+  template <class List>
+  MessageFields& indexed(const std::string& name, List M::*member) {
+    return keyed(name + ".", "INDEX", [member](const std::string& key) -> FieldGetter<M> {
+      std::size_t index = 0;
+      const char* end = key.data() + key.size();
+      const auto [last, fault] = std::from_chars(key.data(), end, index);
+      if (fault != std::errc() || last != end) return {};
+      return [member, index](const M& message) {
+        const List& list = message.*member;
+        return index < list.size() ? std::optional<double>(list[index]) : std::nullopt;
+      };
+    });
   }
 
   /// The getter of a path, empty where there is no such field.

@@ -22,6 +22,7 @@ template <class Visitor>
 auto visit_simulated_type(const SimulatedChannel& channel, Visitor&& visitor) {
   switch (channel.kind) {
     case SimulatedChannel::Kind::kMeasurement:
+    case SimulatedChannel::Kind::kSignal:
       return visitor(MessageTag<Measurement>{});
     case SimulatedChannel::Kind::kInput:
       return visitor(MessageTag<Input>{});

@@ -5,6 +5,7 @@
 #include <sampled_data_observers/Measurement.h>
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,13 +19,16 @@ namespace sampled_data_observers {
 /// @throws ConfigError when `source` names fields: this type has its values in order.
 void refuse_fields(const TopicSource& source);
 
-/// Turns messages of type M into the values of an event. This is the general case, which takes them
-/// from named fields: of a jump of a switched plant, the mode first.
+void add_fields(MessageFields<Measurement>& fields);
+void add_fields(MessageFields<Input>& fields);
+
+/// Takes the values of an event from named fields of messages of type M: of a jump of a switched
+/// plant, the mode first.
 template <class M>
-class ValueReader {
+class FieldReader {
  public:
   /// @throws ConfigError for a field that M does not have, or too few.
-  explicit ValueReader(const TopicSource& source)
+  explicit FieldReader(const TopicSource& source)
       : jump_channel_(source.fields.empty() ? kPlainJump : kMeasuredJump) {
     MessageFields<M> known;
     add_fields(known);
@@ -61,17 +65,31 @@ class ValueReader {
   std::vector<double> values_;
 };
 
-/// Messages that carry a list of values. The event's values are the message's own.
+/// Turns messages of type M into the values of an event. In general these are fields.
+template <class M>
+class ValueReader : public FieldReader<M> {
+ public:
+  using FieldReader<M>::FieldReader;
+};
+
+/// Messages that carry a list of values. The event's values are the message's own, unless fields
+/// are named.
 template <class M>
 class ListReader {
  public:
-  explicit ListReader(const TopicSource& source) { refuse_fields(source); }
+  explicit ListReader(const TopicSource& source) {
+    if (!source.fields.empty()) fields_.emplace(source);
+  }
 
   bool read(const M& message, Event& event) {
+    if (fields_) return fields_->read(message, event);
     event.values = message.values.data();
     event.size = static_cast<Eigen::Index>(message.values.size());
     return true;
   }
+
+ private:
+  std::optional<FieldReader<M>> fields_;
 };
 
 template <>

@@ -39,6 +39,18 @@ struct SensorScenario {
   Delivery delivery;
 };
 
+/// What another instrument of the robot tells of the plant, which is no sensor of an observer's
+/// model: say a signal that jumps show in.
+struct SignalScenario {
+  std::string name;
+  std::string topic;
+  /// Of (t, x): one entry for each value.
+  std::shared_ptr<const VectorMap> formulas;
+  Schedule schedule;
+  Noise noise;
+  Delivery delivery;
+};
+
 /// The known input: evaluated at a fixed rate and held in between, for plant and observer alike.
 struct InputScenario {
   std::string topic;
@@ -80,6 +92,7 @@ struct Scenario {
   std::optional<Disturbance> disturbance;
   /// One per sensor of the plant.
   std::vector<SensorScenario> sensors;
+  std::vector<SignalScenario> signals;
   std::string jumps_topic;
   /// Empty: the plant does not jump.
   std::optional<JumpScenario> jumps;

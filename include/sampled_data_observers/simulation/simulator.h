@@ -14,7 +14,7 @@ namespace sampled_data_observers {
 
 /// A topic on which a simulation sends.
 struct SimulatedChannel {
-  enum class Kind { kMeasurement, kInput, kJump, kTruth };
+  enum class Kind { kMeasurement, kSignal, kInput, kJump, kTruth };
 
   Kind kind = Kind::kMeasurement;
   std::string topic;
@@ -74,9 +74,11 @@ class Simulator {
   std::uint64_t jumps() const { return jumps_; }
 
  private:
-  /// A sensor that measures on a schedule, or at jumps.
+  /// A sensor that measures on a schedule or at jumps, or a signal.
   struct SensorStream {
-    std::size_t sensor;
+    std::optional<std::size_t> sensor;
+    const SignalScenario* signal;
+    const Noise* added;
     std::optional<std::size_t> channel;
     std::optional<ScheduledTimes> times;
     std::optional<Duration> next;
@@ -93,15 +95,17 @@ class Simulator {
   RandomNumbers stream(const std::string& name) const { return {scenario_.seed, name}; }
   std::size_t add_channel(SimulatedChannel::Kind kind, const std::string& topic);
   void add_sensor(std::size_t sensor);
+  void add_signal(const SignalScenario& signal);
   Duration next_time() const;
   void step();
   void change_input();
   void jump();
   void measure(SensorStream& stream);
+  std::vector<double> exact_outputs(const SensorStream& stream) const;
   std::vector<double> outputs(SensorStream& stream);
   void send(std::size_t channel, std::vector<double> values, const std::vector<Stamp>& arrivals);
   Stamp now() const { return scenario_.start + plant_.time(); }
-  bool is_at_jumps(const SensorStream& stream) const;
+  bool is_sampled(const SensorStream& stream) const;
 
   const Scenario scenario_;
   SimulatedPlant plant_;

@@ -12,6 +12,12 @@ void refuse_fields(const TopicSource& source) {
                     "no fields (" + source.type + " has its values in order)", "some");
 }
 
+void add_fields(MessageFields<Measurement>& fields) {
+  fields.indexed("values", &Measurement::values);
+}
+
+void add_fields(MessageFields<Input>& fields) { fields.indexed("values", &Input::values); }
+
 void add_own_types(MessageTypes& types) { add_types<Measurement, Input, JumpEvent>(types); }
 
 }  // namespace sampled_data_observers
