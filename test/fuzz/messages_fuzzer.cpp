@@ -64,6 +64,18 @@ sampling: {T1: 0.1, T2: 1}
 gains:
   L_c: {1: [[0.8], [0.5]], 2: [[1.2], [0.1]]}
   L_d: {1: {e: [[0.2, 0], [0, -0.2]]}, 2: {e: [["tau/(1 + tau)", 0], [0, 0]]}}
+)yaml",
+                                       R"yaml(
+observer: ConstantGainObserver
+plant: {states: [x, y, yaw], inputs: [v, w], flow: {x: "v*cos(yaw)", y: "v*sin(yaw)", yaw: "w"}, jump_map: {formulas: {x: x, y: y, yaw: yaw}}, integration: {step: 0.05, horizon: 10}}
+input: {topic: i, type: nav_msgs/Odometry, fields: [twist.twist.linear.x, pose.pose.orientation.pitch]}
+sensors:
+  a: {h: [yaw], angular: [true], source: {topic: a, type: sensor_msgs/Imu, fields: [orientation.yaw], min_interval: 0.3}}
+  b: {h: [x], source: {topic: b, type: sensor_msgs/JointState, fields: [position.wheel]}}
+  c: {h: [y], source: {topic: c, type: std_msgs/Float64MultiArray, fields: [data.1], stamp: receipt}}
+jumps: {detector: {source: {topic: j, type: geometry_msgs/WrenchStamped, fields: {f: wrench.force.z, t: wrench.torque.x}}, signal: f + t^2, threshold: 5, hysteresis: 1}}
+sampling: {T1: 0.1, T2: 1}
+gains: {L: {a: [[0], [0], [1]], b: [[0.5], [0], [0]], c: [[0], [0.5], [0.1]]}}
 )yaml"};
 
 /// One observer and its channels, each of which turns bytes into an event.
