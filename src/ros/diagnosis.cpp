@@ -327,7 +327,8 @@ Finding Diagnosis::certificate() const {
     finding.level = HealthLevel::kWarn;
     finding.message = "suspended since " + instant(suspension_->since) + ": " + suspension_->reason;
     if (window_.bound_lost_since) {
-      finding.message += "; the error bound stays infinite until the service reset is called";
+      finding.message +=
+          "; the error bound stays infinite until what is missing comes late, or reset is called";
     }
   } else if (restored_ > 0) {
     finding.message = "restored at " + instant(restored_) + ", suspended since " +
