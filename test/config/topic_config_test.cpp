@@ -153,12 +153,8 @@ TEST(DetectorConfigTest, FaultsSayWhatIsExpected) {
   for (const Fault& change : faults) {
     const ConfigNode tree =
         read_yaml_text(replaced(kDetector, change.from, change.to), "test.yaml");
-    std::string message = "no fault";
-    try {
-      read_detector_source(ConfigSection(tree, "").section("detector"));
-    } catch (const ConfigError& error) {
-      message = error.what();
-    }
+    const std::string message =
+        test::fault_of([&] { read_detector_source(ConfigSection(tree, "").section("detector")); });
     EXPECT_EQ("", test::missing_parts(change, message)) << message;
   }
 }

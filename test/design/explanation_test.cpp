@@ -6,28 +6,15 @@
 #include <cmath>
 #include <sstream>
 
+#include "design/paper_plants.h"
 #include "sampled_data_observers/design/design_method.h"
 
 namespace sampled_data_observers {
 namespace {
 
+/// Without any output.
 CertificateSubject plant(const Eigen::MatrixXd& A) {
-  CertificateSubject subject;
-  const Eigen::Index n = A.rows();
-  ModeMatrices mode;
-  mode.A = A;
-  mode.C.resize(0, n);
-  mode.C_c.resize(0, n);
-  mode.C_d.resize(0, n);
-  subject.plant.modes = {mode};
-  for (Eigen::Index i = 1; i <= n; ++i) {
-    subject.plant.state_names.push_back("x" + std::to_string(i));
-  }
-  subject.plant.G.resize(n, 0);
-  subject.plant.S.resize(0, n);
-  subject.plant.N.resize(n, 0);
-  subject.plant.C_p.resize(0, n);
-  return subject;
+  return test::linear_subject(A, Eigen::MatrixXd(0, A.rows()), 0.0, 0.0);
 }
 
 /// bernard2022, example 5.5

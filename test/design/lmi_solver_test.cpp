@@ -9,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include "design/lmi_programs.h"
 #include "sampled_data_observers/certificate/matrix_functions.h"
 #include "sampled_data_observers/design/workers.h"
 
@@ -16,14 +17,8 @@ namespace sampled_data_observers {
 namespace {
 
 TEST(LmiSolver, FindsALyapunovMatrixOfAStablePlant) {
-  Eigen::MatrixXd A(2, 2);
-  A << 0, 1, -2, -3;
-  LmiProgram program;
-  const MatrixExpression P = program.symmetric("P", 2);
-  program.require_positive("P > 0", P);
-  program.require_negative("He(P A) < 0", He(P * A));
-  program.bound_above("P <= I", P, identity(2));
-  const LmiSolution solution = solve_lmi(program);
+  const Eigen::MatrixXd A = test::stable_plant();
+  const LmiSolution solution = solve_lmi(test::lyapunov(A));
   EXPECT_EQ(solution.status, SolverStatus::kSolved) << solution.message;
   ASSERT_TRUE(solution.satisfies_all());
   EXPECT_GT(solution.margin, 0.01);
@@ -32,37 +27,20 @@ TEST(LmiSolver, FindsALyapunovMatrixOfAStablePlant) {
 }
 
 TEST(LmiSolver, NamesTheBlockThatAnUnstablePlantViolates) {
-  LmiProgram program;
-  const MatrixExpression P = program.symmetric("P", 1);
-  program.require_positive("P > 0", P);
-  program.require_negative("He(P A) < 0", He(P * 1.0));
-  program.bound_above("P <= I", P, identity(1));
-  const LmiSolution solution = solve_lmi(program);
+  const LmiSolution solution = solve_lmi(test::lyapunov(Eigen::MatrixXd::Identity(1, 1)));
   EXPECT_FALSE(solution.satisfies_all());
   EXPECT_LE(solution.margin, 1e-6);
   EXPECT_FALSE(solution.violated.empty());
 }
 
 TEST(LmiSolver, MinimizesTheL2GainOfALowPass) {
-  // dx/dt = -2 x + w, y = x: the gain is 1/2.
-  LmiProgram program;
-  const MatrixExpression P = program.scalar("P");
-  const MatrixExpression mu = program.squared("gamma");
-  program.require_positive("P > 0", P);
-  program.require_negative("bounded real lemma", symmetric_blocks({{-4.0 * P + 1.0, P}, {-mu}}));
-  program.minimize(mu);
-  const LmiSolution solution = solve_lmi(program);
+  const LmiSolution solution = solve_lmi(test::low_pass());
   ASSERT_EQ(solution.status, SolverStatus::kSolved) << solution.message;
   EXPECT_NEAR(scalar_value(solution.values, "gamma"), 0.5, 1e-4);
 }
 
 TEST(LmiSolver, TellsContradictions) {
-  LmiProgram program;
-  const MatrixExpression x = program.scalar("x");
-  program.bound_above("x <= 1", x, 1.0);
-  program.bound_above("2 <= x", 2.0, x);
-  program.minimize(x);
-  EXPECT_EQ(solve_lmi(program).status, SolverStatus::kInfeasible);
+  EXPECT_EQ(solve_lmi(test::contradiction()).status, SolverStatus::kInfeasible);
 }
 
 TEST(Workers, LoseOnlyTheTasksThatHangCrashOrThrow) {

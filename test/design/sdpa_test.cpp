@@ -3,21 +3,13 @@
 
 #include <cstdlib>
 
+#include "design/lmi_programs.h"
 #include "sampled_data_observers/design/lmi_solver.h"
 
 namespace sampled_data_observers {
 namespace {
 
-/// The L2 gain of dx/dt = −2 x + w, y = x, which is 1/2, by the bounded real lemma.
-LmiProgram low_pass() {
-  LmiProgram program;
-  const MatrixExpression P = program.scalar("P");
-  const MatrixExpression mu = program.squared("gamma");
-  program.require_positive("P > 0", P);
-  program.require_negative("bounded real lemma", symmetric_blocks({{-4.0 * P + 1.0, P}, {-mu}}));
-  program.minimize(mu);
-  return program;
-}
+using test::low_pass;
 
 bool is_installed() { return std::system("command -v sdpa >/dev/null") == 0; }
 
@@ -36,13 +28,7 @@ TEST_F(Sdpa, FindsTheL2GainOfALowPass) {
 }
 
 TEST_F(Sdpa, FindsTheSameMarginAsTheOtherSolver) {
-  Eigen::MatrixXd A(2, 2);
-  A << 0, 1, -2, -3;
-  LmiProgram program;
-  const MatrixExpression P = program.symmetric("P", 2);
-  program.require_positive("P > 0", P);
-  program.require_negative("He(P A) < 0", He(P * A));
-  program.bound_above("P <= I", P, identity(2));
+  const LmiProgram program = test::lyapunov(test::stable_plant());
   const LmiSolution other = solve_lmi(program);
   const LmiSolution solution = solve_with_sdpa(program);
   ASSERT_TRUE(solution.satisfies_all()) << solution.message;
@@ -51,12 +37,7 @@ TEST_F(Sdpa, FindsTheSameMarginAsTheOtherSolver) {
 }
 
 TEST_F(Sdpa, TellsContradictions) {
-  LmiProgram program;
-  const MatrixExpression x = program.scalar("x");
-  program.bound_above("x <= 1", x, 1.0);
-  program.bound_above("2 <= x", 2.0, x);
-  program.minimize(x);
-  EXPECT_EQ(solve_with_sdpa(program).status, SolverStatus::kInfeasible);
+  EXPECT_EQ(solve_with_sdpa(test::contradiction()).status, SolverStatus::kInfeasible);
 }
 
 TEST_F(Sdpa, IsEndedAtItsTimeLimit) {

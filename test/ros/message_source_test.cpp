@@ -29,9 +29,12 @@
 #include <cmath>
 
 #include "support/allocation_counter.h"
+#include "support/config_faults.h"
 
 namespace sampled_data_observers {
 namespace {
+
+using test::fault_of;
 
 constexpr Stamp kStamp = 12'000'000'034;
 constexpr Stamp kReceipt = 13'000'000'000;
@@ -47,16 +50,6 @@ TopicSource source(const std::vector<std::string>& fields) {
   result.origin = "file.yaml:3";
   result.path = "sensors/s/source";
   return result;
-}
-
-template <class F>
-std::string fault(F&& f) {
-  try {
-    f();
-  } catch (const ConfigError& error) {
-    return error.what();
-  }
-  return "no fault";
 }
 
 void expect_parts(const std::string& text, const std::vector<std::string>& parts) {
@@ -102,7 +95,7 @@ void expect_fields(M message, const std::vector<std::pair<std::string, double>>&
   const Read all = read(message, paths);
   EXPECT_EQ(values, all.values);
   EXPECT_EQ(stamp != nullptr ? kStamp : kReceipt, all.event.stamp);
-  const std::string unknown = fault([&] { read(message, {"nothing"}); });
+  const std::string unknown = fault_of([&] { read(message, {"nothing"}); });
   EXPECT_NE(std::string::npos, unknown.find("'nothing'")) << unknown;
   EXPECT_NE(std::string::npos, unknown.find(expected.front().first)) << unknown;
 }
@@ -252,9 +245,9 @@ TEST(MessageFieldsTest, JointStateByNameOfTheJoint) {
   EXPECT_EQ((std::vector<double>{2.0, 3.0, 5.0}), both.values);
   EXPECT_EQ(Reading::kNoField, read(joints, {"position.third"}).reading);
   EXPECT_EQ(Reading::kNoField, read(joints, {"effort.left.wheel"}).reading);
-  const std::string unknown = fault([&] { read(joints, {"torque.left"}); });
+  const std::string unknown = fault_of([&] { read(joints, {"torque.left"}); });
   expect_parts(unknown, {"position.JOINT, velocity.JOINT, effort.JOINT", "'torque.left'"});
-  EXPECT_NE("no fault", fault([&] { read(joints, {"position."}); }));
+  EXPECT_NE("no fault", fault_of([&] { read(joints, {"position."}); }));
 }
 
 TEST(MessageFieldsTest, AJointThatMovesInTheListIsFoundAgain) {
@@ -297,7 +290,7 @@ TEST(MessageFieldsTest, Numbers) {
   EXPECT_EQ((std::vector<double>{3.0, 1.0}), read(array, {"data.2", "data.0"}).values);
   EXPECT_EQ(Reading::kNoField, read(array, {"data.3"}).reading);
   for (const char* path : {"data", "data.", "data.x", "data.-1", "data.1x"}) {
-    expect_parts(fault([&] { read(array, {path}); }), {"data.INDEX"});
+    expect_parts(fault_of([&] { read(array, {path}); }), {"data.INDEX"});
   }
 }
 
@@ -345,7 +338,7 @@ TEST(OrientationTest, WhatIsNoRotationHasNoAngles) {
 TEST(MessageSourceTest, AnUnknownTypeIsRefusedWithAListOfThoseThatExist) {
   TopicSource other = source<std_msgs::Float64>({"data"});
   other.type = "std_msgs/String";
-  const std::string message = fault([&] { make_message_source(other); });
+  const std::string message = fault_of([&] { make_message_source(other); });
   expect_parts(message, {"file.yaml:3", "sensors/s/source/type", "'std_msgs/String'",
                          "sampled_data_observers/Measurement", "geometry_msgs/PoseStamped",
                          "sensor_msgs/JointState"});
@@ -354,20 +347,20 @@ TEST(MessageSourceTest, AnUnknownTypeIsRefusedWithAListOfThoseThatExist) {
 TEST(MessageSourceTest, ATopicMustHaveANameOfROS) {
   TopicSource other = source<geometry_msgs::Point>({"x"});
   other.topic = "two words";
-  expect_parts(fault([&] { make_message_source(other); }),
+  expect_parts(fault_of([&] { make_message_source(other); }),
                {"sensors/s/source/topic", "'two words'"});
 }
 
 TEST(MessageSourceTest, FieldsAreRequired) {
   const std::string message =
-      fault([] { make_message_source(source<geometry_msgs::PointStamped>({})); });
+      fault_of([] { make_message_source(source<geometry_msgs::PointStamped>({})); });
   expect_parts(message, {"sensors/s/source/fields", "point.x, point.y, point.z", "found none"});
 }
 
 TEST(MessageSourceTest, ATypeWithoutStampNeedsOneByReceipt) {
   TopicSource number = source<std_msgs::Float64>({"data"});
   number.stamped_on_receipt = false;
-  expect_parts(fault([&] { make_message_source(number); }),
+  expect_parts(fault_of([&] { make_message_source(number); }),
                {"sensors/s/source/stamp", "receipt", "std_msgs/Float64 carries no stamp"});
 }
 
@@ -447,13 +440,13 @@ TEST(JumpSourceTest, FieldsAreModeAndOutputs) {
   EXPECT_EQ((std::vector<double>{2.0, 0.5}), jump.values);
   EXPECT_EQ(kMeasuredJump, jump.event.channel);
   switching.mode = "";
-  expect_parts(fault([&] { make_message_source(switching); }), {"source/mode", "found none"});
+  expect_parts(fault_of([&] { make_message_source(switching); }), {"source/mode", "found none"});
 }
 
 TEST(JumpSourceTest, JumpEventsHaveTheirValuesInOrder) {
   TopicSource own = jumps<JumpEvent>({});
   own.mode = "mode";
-  expect_parts(fault([&] { make_message_source(own); }), {"source/mode", "no fields"});
+  expect_parts(fault_of([&] { make_message_source(own); }), {"source/mode", "no fields"});
 }
 
 TEST(DetectedJumpsTest, AreTheCrossingsOfTheSignal) {

@@ -11,19 +11,12 @@
 #include "sampled_data_observers/ros/observer_runtime.h"
 #include "sampled_data_observers/ros/parameter_tree.h"
 #include "support/allocation_counter.h"
+#include "support/config_faults.h"
 
 namespace sampled_data_observers {
 namespace {
 
-template <class F>
-std::string fault(F&& f) {
-  try {
-    f();
-  } catch (const ConfigError& error) {
-    return error.what();
-  }
-  return "no fault";
-}
+using test::fault_of;
 
 TEST(ParameterTreeTest, IsTheSameTreeAsTheFile) {
   XmlRpc::XmlRpcValue value;
@@ -41,7 +34,7 @@ TEST(ParameterTreeTest, IsTheSameTreeAsTheFile) {
   EXPECT_EQ("true", node.find("flag")->scalar);
   EXPECT_EQ(1.0 / 3.0, section.vector("list", 2)(0));
   EXPECT_EQ("parameters of /observer", node.find("list")->items[1].origin);
-  const std::string message = fault([&] { section.number("list"); });
+  const std::string message = fault_of([&] { section.number("list"); });
   EXPECT_NE(std::string::npos, message.find("parameters of /observer: list: expected")) << message;
 }
 
@@ -50,7 +43,7 @@ TEST(ParameterTreeTest, BinaryDataIsRefused) {
   XmlRpc::XmlRpcValue value;
   value["blob"] = XmlRpc::XmlRpcValue(data, 4);
   EXPECT_NE(std::string::npos,
-            fault([&] { to_config_node(value, "/o"); }).find("parameters of /o: blob"));
+            fault_of([&] { to_config_node(value, "/o"); }).find("parameters of /o: blob"));
 }
 
 class ObserverRuntimeTest : public ::testing::Test {

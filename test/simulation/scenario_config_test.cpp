@@ -53,12 +53,7 @@ scenario:
 )yaml";
 
 std::string fault(const std::string& text) {
-  try {
-    test::parse_scenario(text);
-  } catch (const ConfigError& error) {
-    return error.what();
-  }
-  return "no fault";
+  return test::fault_of([&] { test::parse_scenario(text); });
 }
 
 TEST(ScenarioConfigTest, ReadsEveryKey) {

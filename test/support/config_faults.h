@@ -20,14 +20,20 @@ inline std::string replaced(std::string text, const std::string& from, const std
   return text.replace(at, from.size(), to);
 }
 
-/// The message with which a configuration is refused.
-inline std::string fault(const std::string& text) {
+/// The message with which `read()` refuses what it reads.
+template <class Read>
+std::string fault_of(Read&& read) {
   try {
-    parse(text);
+    read();
   } catch (const ConfigError& error) {
     return error.what();
   }
   return "no fault";
+}
+
+/// The message with which a configuration is refused.
+inline std::string fault(const std::string& text) {
+  return fault_of([&] { parse(text); });
 }
 
 /// A good text with one thing changed.

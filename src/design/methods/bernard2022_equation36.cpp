@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "bernard2022_parameters.h"
+#include "bernard2022_jump_based.h"
 #include "methods.h"
 #include "sampled_data_observers/certificate/matrix_functions.h"
 #include "sampled_data_observers/design/polytopic_embedding.h"
@@ -10,7 +10,7 @@ namespace {
 
 /// bernard2022 (36), and (37) and (45), its examples: (35) at the vertices M_i of a polytope that
 /// holds e^{A_c τ} for all τ in [T1, T2].
-class Remark54 : public LmiDesignMethod {
+class Remark54 : public JumpBasedDesign {
  public:
   std::string name() const override { return "bernard2022_equation36"; }
   std::string summary() const override {
@@ -18,14 +18,6 @@ class Remark54 : public LmiDesignMethod {
            "together are observable";
   }
   const Theorem& theorem() const override { return *find_theorem("bernard2022_corollary5_2"); }
-
-  std::vector<DesignParameter> parameters(const CertificateSubject&) const override {
-    return {jump_decay_parameter()};
-  }
-
-  std::vector<Objective> objectives(const CertificateSubject&) const override {
-    return {Objective::kFeasible, Objective::kMaxT2, Objective::kMaxDecay};
-  }
 
  protected:
   LmiProgram program(const CertificateSubject& subject, const Parameters& parameters,

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "bernard2022_jump_based.h"
 #include "bernard2022_parameters.h"
 #include "gain_bound.h"
 #include "methods.h"
@@ -66,7 +67,7 @@ class SwitchedFlowBased : public LmiDesignMethod {
 
 /// bernard2022, section 7.3.2, as (36) for each mode. The gain is right of the P' of every next
 /// mode; a matrix G of its own instead, with G + Gᵀ − P' <= G P'⁻¹ Gᵀ, keeps this linear.
-class SwitchedJumpBased : public LmiDesignMethod {
+class SwitchedJumpBased : public JumpBasedDesign {
  public:
   std::string name() const override { return "bernard2022_section7_3_2"; }
   std::string summary() const override {
@@ -74,14 +75,6 @@ class SwitchedJumpBased : public LmiDesignMethod {
            "mode";
   }
   const Theorem& theorem() const override { return *find_theorem("bernard2022_section7_3_2"); }
-
-  std::vector<DesignParameter> parameters(const CertificateSubject&) const override {
-    return {jump_decay_parameter()};
-  }
-
-  std::vector<Objective> objectives(const CertificateSubject&) const override {
-    return {Objective::kFeasible, Objective::kMaxT2, Objective::kMaxDecay};
-  }
 
  protected:
   LmiProgram program(const CertificateSubject& subject, const Parameters& parameters,
