@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""An observer on one host and its sensors on another, over a network that delays, reorders and loses.
+"""An observer on one host and its sensors on another, over a network that delays and loses.
 
-Two sensors, with a connection each, take samples by turns; the link is down for a while; at last one
-of them dies. The exit status is 77 where there are no network namespaces.
+Two sensors, with a connection each, take samples by turns; the link is down for a while; at last
+one of them dies. The exit status is 77 where there are no network namespaces.
 """
 import contextlib
+import itertools
 import math
 import os
 import sys
@@ -49,13 +50,6 @@ class Recorder:
     def keep(message, record):
         record.append((time.time(), message))
 
-    def newest_sample(self, first, start):
-        """The stamp of the newest sample of the sensor that begins with the sample `first`."""
-        times = [taken for (taken, _), _ in zip(oscillation.samples(), range(10000))]
-        own = {start + taken for taken in times[first::2]}
-        return max([nanoseconds(event) for _, event in self.events if nanoseconds(event) in own],
-                   default=0)
-
     def diagnosis(self, name):
         """The statuses of that name, in their order."""
         return [status for _, array in self.diagnostics for status in array.status
@@ -83,19 +77,21 @@ class Story:
     def run(self):
         import rospy
         with contextlib.ExitStack() as running:
-            def start(host, *command):
+            def launch(host, *command):
+                own_master = 0  # overruled by the command, which knows where the master is
                 return running.enter_context(
-                    RosProcess(self.hosts.command(host, *command), port=0))
-            start(OBSERVER_HOST, "rosmaster", "--core", "-p", "11311")
+                    RosProcess(self.hosts.command(host, *command), own_master))
+            launch(OBSERVER_HOST, "rosmaster", "--core", "-p", "11311")
             eventually(self.configure)
             rospy.init_node("multi_host_test", disable_signals=True)
             self.recorder = Recorder()
-            start(OBSERVER_HOST, find_tool("intersample_injection_observer"), "__name:=observer")
+            launch(OBSERVER_HOST, find_tool("intersample_injection_observer"), "__name:=observer")
             rospy.wait_for_service("get_estimate", 60)
-            sensors = [start(SENSOR_HOST, os.path.join(HERE, "sensor.py"), str(first))
-                       for first in (0, 1)]
+            sensors = [launch(SENSOR_HOST, os.path.join(HERE, "sensor.py"), str(i)) for i in (0, 1)]
             eventually(lambda: all(rospy.has_param("/sensor_%d/is_ready" % i) for i in (0, 1)))
             self.start = int((time.time() + 3.0) * 1e9)
+            times = itertools.islice(oscillation.samples(), 10000)
+            self.sensor_of = {self.start + taken: k % 2 for k, (taken, _) in enumerate(times)}
             rospy.set_param("/start", str(self.start))
             eventually(lambda: self.arrived(0) and self.arrived(1))
 
@@ -130,8 +126,10 @@ class Story:
             return False
         return True
 
-    def arrived(self, first):
-        return self.recorder.newest_sample(first, self.start)
+    def arrived(self, sensor):
+        """The stamp of the newest sample of that sensor that the observer knows."""
+        stamps = [nanoseconds(event) for _, event in self.recorder.events]
+        return max([stamp for stamp in stamps if self.sensor_of[stamp] == sensor], default=0)
 
     def ask_for_the_past(self):
         """The estimates on the grid between the first sample and the death of a sensor."""

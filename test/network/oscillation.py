@@ -1,4 +1,4 @@
-"""The oscillator of config/examples/ferrante2019_oscillator, with a constant disturbance, and samples of it."""
+"""The oscillator of config/examples/ferrante2019_oscillator, disturbed, and samples of it."""
 import itertools
 import math
 import random

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Publishes every second sample, each when it is taken.
 
-Usage: sensor.py FIRST: from which sample on. When it has a subscriber it says so by a parameter, and
-waits for another one, which says when the first sample is taken.
+Usage: sensor.py FIRST: from which sample on. When it has a subscriber it says so by a parameter,
+and waits for another one, which says when the first sample is taken.
 """
 import itertools
 import sys
