@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""An observer under the thread sanitizer and under load: no report may name a file of the package.
+"""An observer under the thread sanitizer and under load: no report may concern the package.
 
 Usage: nodelets_under_load.py BUILD, in the environment of the package built there with the thread
-sanitizer. roscpp, which is not built so, is reported anyhow; its reports are counted only.
+sanitizer. What concerns the package: sanitizer_reports.Judge.
 """
 import contextlib
 import itertools
@@ -82,7 +82,7 @@ class Load:
 
 
 def lateness():
-    """Seconds: mostly little, now and then much, beyond the history, or of the future."""
+    """Seconds: mostly little; now and then a lot, beyond the history, or negative."""
     return random.choice([0.0, 0.0, 0.0, 0.002, 0.02, 0.3, 3.0, -2.0])
 
 

@@ -28,7 +28,8 @@ class Judge:
 
     - A data race counts when both accesses are the package's, or made by what it called: a file
       of the package lies somewhere in the stacks of both. Nobody else touches its data; where
-      one access is roscpp's alone, it is of what roscpp hands over.
+      one access is roscpp's alone, it is of what roscpp hands over. A stack that the sanitizer
+      could not restore may be the package's.
     - Mutexes that are locked in different orders don't count when all of them are locked by code
       without the sanitizer, that is, none of them is the package's.
     - Any other report counts that names a file of the package anywhere.
@@ -45,7 +46,8 @@ class Judge:
     def concerns_package(self, report):
         if "ThreadSanitizer: data race" in report:
             accesses = list(stacks(report).values())[:2]
-            return all(map(self._is_own, accesses))
+            return (any(map(self._is_own, accesses)) and
+                    all(self._is_own(access) or not access for access in accesses))
         if "ThreadSanitizer: lock-order-inversion" in report:
             acquisitions = [stack for title, stack in stacks(report).items()
                             if "acquired here" in title]
@@ -60,12 +62,15 @@ class Judge:
 
 
 def stacks(report):
-    """The frames of each stack of a report, innermost first, by its title; in its order."""
+    """The frames of each stack of a report, innermost first, by its title; in its order.
+
+    Empty for a stack that could not be restored.
+    """
     found = {}
     for section in report.split("\n\n"):
         lines = [line for line in section.splitlines() if "WARNING: " not in line]
         frames = [frame.groupdict() for frame in map(FRAME.match, lines) if frame]
-        if frames:
+        if frames or "[failed to restore the stack]" in section:
             found["%s [%d]" % (lines[0], len(found))] = frames
     return found
 
