@@ -123,6 +123,9 @@ ObserverConfig read_observer_config(const ConfigNode& tree, const PlantPluginLoa
   config.options.history = read_history(root);
   config.options.future_tolerance =
       from_seconds(root.number_in("future_tolerance", 0.0, kLongest, 0.5));
+  if (config.jumps && config.jumps->detector) {
+    config.jumps->detector->future_tolerance = config.options.future_tolerance;
+  }
   config.period = from_seconds(1.0 / root.number_in("rate", 1e-3, 1e5, 100.0));
   config.publish_delay = from_seconds(root.number_in("publish_delay", 0.0, kLongest, 0.0));
   config.frame_id = root.text("frame_id", "");

@@ -9,6 +9,7 @@ DetectedJumps::DetectedJumps(std::unique_ptr<MessageSource> signal, const Detect
       formula_(config.signal),
       outputs_(config.outputs),
       detector_(config.options),
+      future_tolerance_(config.future_tolerance),
       values_(outputs_ ? static_cast<std::size_t>(outputs_->size()) : 0) {}
 
 ros::Subscriber DetectedJumps::subscribe(ros::NodeHandle& handle, std::uint32_t queue_length,
@@ -29,6 +30,8 @@ Reading DetectedJumps::read(const MessagePointer& message, Stamp receipt, Event&
   const Reading reading = signal_->read(message, receipt, sample);
   event.stamp = sample.stamp;
   if (reading != Reading::kEvent) return reading;
+  // Behind such a stamp all others would be out of order.
+  if (sample.stamp - receipt > future_tolerance_) return Reading::kInFuture;
   double value = 0.0;
   formula_->evaluate(sample.values, nullptr, &value);
   switch (detector_.add(sample.stamp, value)) {

@@ -29,6 +29,8 @@ EventOutcome outcome_of(Reading reading) {
       return EventOutcome::kNoTransform;
     case Reading::kNoField:
       return EventOutcome::kNoField;
+    case Reading::kInFuture:
+      return EventOutcome::kInFuture;
     case Reading::kOutOfOrder:
       return EventOutcome::kOutOfOrder;
     case Reading::kNotFinite:

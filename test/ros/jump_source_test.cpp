@@ -82,6 +82,7 @@ TEST(DetectedJumpsTest, AreTheCrossingsOfTheSignal) {
   };
   EXPECT_EQ(Reading::kPassedOver, reading(1000, 0.0, 2000).reading);
   EXPECT_EQ(Reading::kOutOfOrder, reading(1000, 8.0, 2001).reading);
+  EXPECT_EQ(Reading::kInFuture, reading(600'000'000, 8.0, 2001).reading);
   EXPECT_EQ(Reading::kNotFinite, reading(1500, std::nan(""), 2002).reading);
   const Read jump = reading(2000, 10.0, 2003);
   EXPECT_EQ(Reading::kEvent, jump.reading);

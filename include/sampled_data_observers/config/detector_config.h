@@ -18,6 +18,8 @@ struct DetectorConfig {
   /// where it tells none.
   std::shared_ptr<const VectorMap> outputs;
   JumpDetector::Options options;
+  /// How far a stamp may lie after the time of its arrival [ns].
+  Duration future_tolerance = kNanosecondsPerSecond / 2;
 };
 
 /// Reads the signal of a section `detector` and what is looked for in it; other keys of the section

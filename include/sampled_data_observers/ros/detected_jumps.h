@@ -26,6 +26,7 @@ class DetectedJumps : public MessageSource {
   std::shared_ptr<const VectorMap> formula_;
   std::shared_ptr<const VectorMap> outputs_;
   JumpDetector detector_;
+  Duration future_tolerance_;
   std::vector<double> values_;
   Stamp last_receipt_ = 0;
 };

@@ -20,6 +20,7 @@ enum class Reading : std::uint8_t {
   kEvent,       ///< an event
   kPassedOver,  ///< nothing: the source is thinned, or no jump is detected
   kNoField,     ///< nothing: the message does not hold a field that is configured
+  kInFuture,    ///< nothing: a detector's signal from beyond the tolerated future
   kOutOfOrder,  ///< nothing: a detector's signal whose stamp is not after the one before
   kNotFinite,   ///< nothing: a detector's signal that is NaN or infinite
   kNoTransform  ///< nothing yet: the transform into a configured frame is not known; stamp is set
