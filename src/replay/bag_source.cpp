@@ -108,7 +108,8 @@ std::vector<std::string> transform_topics() {
 void take_transforms(const rosbag::MessageInstance& instance, TransformBuffer& transforms) {
   const auto message = instance.instantiate<tf2_msgs::TFMessage>();
   if (!message) throw other_definition(instance);
-  transforms.take(*message, instance.getTopic() == transform_topics().back());
+  transforms.take(*message, instance.getTopic() == transform_topics().back(),
+                  to_stamp(instance.getTime()));
 }
 
 }  // namespace sampled_data_observers

@@ -76,8 +76,9 @@ void EventSubscriptions::listen_to_transforms() {
   for (const bool is_static : {false, true}) {
     const boost::function<void(const tf2_msgs::TFMessageConstPtr&)> take =
         [this, is_static](const tf2_msgs::TFMessageConstPtr& message) {
-          watch_clock(to_stamp(ros::Time::now()));
-          transforms_->take(*message, is_static);
+          const Stamp now = to_stamp(ros::Time::now());
+          watch_clock(now);
+          transforms_->take(*message, is_static, now);
           retry_waiting();
         };
     subscribers_.push_back(handle_.subscribe<tf2_msgs::TFMessage>(

@@ -41,9 +41,11 @@ TransformBuffer::TransformBuffer(const std::vector<StaticTransform>& transforms)
   }
 }
 
-void TransformBuffer::take(const tf2_msgs::TFMessage& message, bool is_static) {
+void TransformBuffer::take(const tf2_msgs::TFMessage& message, bool is_static, Stamp now) {
+  const Stamp latest = now + static_cast<Duration>(buffer_.getCacheLength().toNSec());
   for (const geometry_msgs::TransformStamped& transform : message.transforms) {
     if (configured_children_.count(without_slash(transform.child_frame_id)) != 0) continue;
+    if (!is_static && to_stamp(transform.header.stamp) > latest) continue;
     buffer_.setTransform(transform, "tf", is_static);
   }
 }

@@ -63,7 +63,7 @@ class EventIntakeTest : public testing::Test {
     message.transforms[0].child_frame_id = "camera";
     message.transforms[0].transform.translation.x = 10.0 * to_seconds(stamp);
     message.transforms[0].transform.rotation.w = 1.0;
-    transforms_->take(message, false);
+    transforms_->take(message, false, kSecond);
   }
 
   std::shared_ptr<TransformBuffer> transforms_ =

@@ -280,9 +280,9 @@ TEST(TransformBufferTest, StaticTransformsHoldAtAllTimes) {
 TEST(TransformBufferTest, MovingTransformsAreInterpolatedAndNeverExtrapolated) {
   TransformBuffer buffer({});
   EXPECT_FALSE(buffer.find("map", "camera", kSecond));
-  buffer.take(tf("map", "camera", 1.0, 4.0, 0.0), false);
+  buffer.take(tf("map", "camera", 1.0, 4.0, 0.0), false, kSecond);
   EXPECT_FALSE(buffer.find("map", "camera", kSecond + 1));
-  buffer.take(tf("map", "camera", 2.0, 6.0, 1.0), false);
+  buffer.take(tf("map", "camera", 2.0, 6.0, 1.0), false, kSecond);
   const auto between = buffer.find("map", "/camera", kSecond + kSecond / 4);
   ASSERT_TRUE(between);
   EXPECT_NEAR(4.5, between->translation().x(), 1e-12);
@@ -294,10 +294,18 @@ TEST(TransformBufferTest, MovingTransformsAreInterpolatedAndNeverExtrapolated) {
   EXPECT_FALSE(buffer.find("map", "camera", 2 * kSecond));
 }
 
+TEST(TransformBufferTest, ATransformFromFarAheadDoesNotTakeThePlaceOfThePresentOnes) {
+  TransformBuffer buffer({});
+  buffer.take(tf("map", "camera", 1000.0, 4.0), false, kSecond);
+  buffer.take(tf("map", "camera", 1.0, 5.0), false, kSecond);
+  ASSERT_TRUE(buffer.find("map", "camera", kSecond));
+  EXPECT_FALSE(buffer.find("map", "camera", 1000 * kSecond));
+}
+
 TEST(TransformBufferTest, TheConfigurationOverrulesTheTopics) {
   TransformBuffer buffer({static_transform("base_link", "camera", 1.0)});
-  buffer.take(tf("base_link", "/camera", 1.0, 5.0), true);
-  buffer.take(tf("base_link", "laser", 1.0, 6.0), true);
+  buffer.take(tf("base_link", "/camera", 1.0, 5.0), true, kSecond);
+  buffer.take(tf("base_link", "laser", 1.0, 6.0), true, kSecond);
   EXPECT_EQ(1.0, buffer.find("base_link", "camera", kSecond)->translation().x());
   EXPECT_EQ(6.0, buffer.find("base_link", "laser", 50 * kSecond)->translation().x());
 }
@@ -346,9 +354,9 @@ TEST(MessageTransformerTest, TransformsAtTheStampOnceTheTransformIsKnown) {
   message.header.frame_id = "camera";
   message.point.x = 1.0;
   const Stamp stamp = kSecond + kSecond / 2;
-  buffer.take(tf("map", "camera", 1.0, 4.0), false);
+  buffer.take(tf("map", "camera", 1.0, 4.0), false, kSecond);
   EXPECT_EQ(nullptr, transformer.transform(message, stamp, &buffer));
-  buffer.take(tf("map", "camera", 2.0, 6.0), false);
+  buffer.take(tf("map", "camera", 2.0, 6.0), false, kSecond);
   const geometry_msgs::PointStamped* transformed = transformer.transform(message, stamp, &buffer);
   ASSERT_NE(nullptr, transformed);
   EXPECT_NEAR(6.0, transformed->point.x, 1e-12);

@@ -21,9 +21,10 @@ class TransformBuffer {
  public:
   explicit TransformBuffer(const std::vector<StaticTransform>& transforms);
 
-  /// Takes in transforms. Those of children that the configuration has transforms for are left out:
-  /// it overrules the topics.
-  void take(const tf2_msgs::TFMessage& message, bool is_static);
+  /// Takes in transforms that arrive at `now`. Those of children that the configuration has
+  /// transforms for are left out: it overrules the topics. So are moving ones from so far ahead
+  /// that those of the present would be forgotten for them.
+  void take(const tf2_msgs::TFMessage& message, bool is_static, Stamp now);
 
   /// The pose of frame `source` in frame `target` at a stamp; nothing where it is not known (yet).
   /// Transforms between two stamps are interpolated, and never extrapolated.
