@@ -85,9 +85,15 @@ DeadlineThread::Clock::time_point EstimatePublication::publish_by_thread() {
 }
 
 void EstimatePublication::publish_by_queue() {
-  std::optional<Duration> wait;
-  while (!wait) wait = publish_next();
-  timer_.setPeriod(ros::Duration().fromNSec(*wait), kFromNow);
+  while (true) {
+    const ros::Time now = ros::Time::now();
+    const std::optional<Duration> wait = publish_next();
+    if (!wait) continue;
+    timer_.setPeriod(ros::Duration().fromNSec(*wait), kFromNow);
+    // Where the clock went on before the timer was set, it would fire too late, or never if the
+    // clock now stops.
+    if (ros::Time::now() == now) return;
+  }
 }
 
 /// Publishes the next estimate that is due; where there is none, returns how long until then.
