@@ -10,22 +10,12 @@
 #include <sampled_data_observers/Reset.h>
 #include <sampled_data_observers/StateEstimate.h>
 
-#include <functional>
 #include <string>
 #include <vector>
 
-namespace sampled_data_observers::test {
+#include "ros/spin_until.h"
 
-/// Spins until `done` or a generous time has passed; returns whether it was done.
-inline bool spin_until(const std::function<bool()>& done, double seconds = 20.0) {
-  const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(seconds);
-  while (ros::ok() && ros::WallTime::now() < end) {
-    ros::spinOnce();
-    if (done()) return true;
-    ros::WallDuration(0.002).sleep();
-  }
-  return false;
-}
+namespace sampled_data_observers::test {
 
 /// What a robot's other nodes are to an observer configured by position.yaml: they publish events,
 /// listen to what comes out, and call the services.

@@ -1,0 +1,64 @@
+// What an observer's certificate rests on does not hold for a while.
+#include <cmath>
+
+#include "faults/fault.h"
+#include "faults/messages.h"
+
+namespace sampled_data_observers::test {
+namespace {
+
+void go_on_until_certificate(FaultBench& bench, const std::string& says) {
+  for (int i = 0; bench.diagnosis("certificate").find(says) != 0; ++i) {
+    if (i == 1500) throw std::runtime_error("certificate: " + bench.diagnosis("certificate"));
+    bench.go_on(0.15);
+    spin_until([&] { return bench.diagnosis("certificate").find(says) == 0; }, 0.02);
+  }
+}
+
+/// Diagnostics come each second of wall time.
+void silence(FaultBench& bench) {
+  bench.let_pass(1.0);
+  go_on_until_certificate(bench, "suspended since");
+  go_on_until_certificate(bench, "restored at");
+}
+
+double error_bound(FaultBench& bench) {
+  bench.await_estimates();
+  return bench.estimates.back().error_bound;
+}
+
+/// The guaranteed bound on the error must be given up, until somebody vouches for the estimate.
+void lost_bound(FaultBench& bench) {
+  bench.go_on(0.15);
+  if (!std::isfinite(error_bound(bench))) throw std::runtime_error("no bound");
+  bench.let_pass(0.3);
+  bench.go_on(1.5);
+  if (!std::isinf(error_bound(bench))) throw std::runtime_error("the bound is kept");
+  bench.observer().reset(bench.truth(bench.now()));
+  bench.go_on(0.3);
+  if (!std::isfinite(error_bound(bench))) throw std::runtime_error("no bound after the reset");
+}
+
+}  // namespace
+
+std::vector<Fault> certificate_faults() {
+  return {
+      {"Suspended",
+       "certified",
+       "1 s without samples, where the certificate is for 0.2 s: it is "
+       "suspended, and restored",
+       silence,
+       {},
+       Meanwhile::kRight,
+       3.0},
+      {"BoundLost",
+       "bounded",
+       "0.45 s without samples: the error bound is infinite until a reset",
+       lost_bound,
+       {},
+       Meanwhile::kRight,
+       3.0},
+  };
+}
+
+}  // namespace sampled_data_observers::test

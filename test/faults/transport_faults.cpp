@@ -1,0 +1,156 @@
+// Messages that come late, in bursts, too fast, not at all, or from the wrong publisher.
+#include <std_msgs/String.h>
+
+#include <algorithm>
+#include <map>
+#include <random>
+
+#include "faults/fault.h"
+#include "faults/malformed_message.h"
+#include "faults/messages.h"
+
+namespace sampled_data_observers::test {
+namespace {
+
+constexpr Duration kMillisecond = 1'000'000;
+
+/// All samples of four seconds, a thousand, at once and in any order.
+void late_burst(FaultBench& bench) {
+  bench.let_pass(4.0);
+  std::vector<Stamp> stamps;
+  for (int i = 0; i < 1000; ++i) stamps.push_back(bench.now() - 4 * i * kMillisecond);
+  std::shuffle(stamps.begin(), stamps.end(), std::mt19937(7));
+  for (const Stamp stamp : stamps) bench.sample(stamp);
+  bench.await_statuses();
+}
+
+void equal_burst(FaultBench& bench) {
+  for (int i = 0; i < 1000; ++i) bench.sample(bench.now() - 50 * kMillisecond);
+  bench.await_statuses();
+}
+
+void too_fast(FaultBench& bench) {
+  for (int i = 0; i < 500; ++i) {
+    bench.set_clock(bench.now() + kMillisecond);
+    bench.sample(bench.now());
+  }
+  bench.await_statuses();
+}
+
+/// Each sample arrives up to 0.5 s late.
+void random_delays(FaultBench& bench) {
+  std::mt19937 random(3);
+  std::uniform_int_distribution<Stamp> delay(0, 500 * kMillisecond);
+  std::multimap<Stamp, Stamp> on_its_way;  // from arrivals to stamps
+  for (int i = 0; i < 150; ++i) {
+    bench.set_clock(bench.now() + 20 * kMillisecond);
+    if (i % 5 == 0) on_its_way.emplace(bench.now() + delay(random), bench.now());
+    while (!on_its_way.empty() && on_its_way.begin()->first <= bench.now()) {
+      bench.sample(on_its_way.begin()->second);
+      on_its_way.erase(on_its_way.begin());
+    }
+    bench.await_statuses();
+  }
+}
+
+void half_is_lost(FaultBench& bench) {
+  std::mt19937 random(5);
+  bench.go_on(3.0, [&](Stamp stamp) {
+    if (random() % 2 == 0) bench.sample(stamp);
+  });
+}
+
+void publisher_dies(FaultBench& bench) {
+  bench.end_publisher("joint_states");
+  bench.let_pass(2.0);
+}
+
+void wrong_type(FaultBench& bench) {
+  bench.end_publisher("joint_states");
+  ros::NodeHandle handle;
+  const ros::Publisher wrong = handle.advertise<std_msgs::String>("joint_states", 10);
+  for (int i = 0; i < 10; ++i) {
+    bench.let_pass(0.1);
+    wrong.publish(std_msgs::String());
+    ros::WallDuration(0.02).sleep();
+  }
+}
+
+void malformed(FaultBench& bench) {
+  bench.end_publisher("joint_states");
+  for (int i = 0; i < 10; ++i) {
+    bench.let_pass(0.1);
+    bench.publish("joint_states", MalformedMessage(), 0);
+  }
+  bench.end_publisher("joint_states");
+}
+
+void long_header(FaultBench& bench) {
+  bench.go_on(1.0, [&](Stamp stamp) {
+    Measurement message = measurement(stamp, {bench.truth(stamp)[0]});
+    message.header.frame_id.assign(1000000, 'x');
+    bench.publish("position", message);
+  });
+}
+
+void input_is_silent(FaultBench& bench) {
+  bench.end_publisher("input");
+  for (int i = 0; i < 20; ++i) {
+    bench.let_pass(0.1);
+    bench.sample(bench.now());
+    bench.await_statuses();
+  }
+}
+
+}  // namespace
+
+std::vector<Fault> transport_faults() {
+  return {
+      {"LateBurst",
+       "oscillator",
+       "1000 samples of the last 4 s at once, in any order",
+       late_burst,
+       {{EventStatus::USED_LATE, kSome}},
+       Meanwhile::kFinite},
+      {"EqualBurst",
+       "oscillator",
+       "1000 times the same sample",
+       equal_burst,
+       {{EventStatus::USED_LATE, 1}, {EventStatus::DUPLICATE, 999}}},
+      {"TooFast", "oscillator", "samples 1 ms apart, where T1 is 50 ms", too_fast, {}},
+      {"RandomDelays",
+       "oscillator",
+       "3 s of samples that come up to 0.5 s late, in another order",
+       random_delays,
+       {{EventStatus::USED_LATE, kSome}}},
+      {"HalfIsLost", "oscillator", "3 s in which every other sample is lost", half_is_lost, {}},
+      {"Silence",
+       "oscillator",
+       "10 s without samples, where T2 is 0.3 s",
+       [](FaultBench& bench) { bench.let_pass(10.0); },
+       {}},
+      {"PublisherDies",
+       "joint",
+       "a publisher that dies and comes back after 2 s",
+       publisher_dies,
+       {}},
+      {"InputIsSilent",
+       "oscillator",
+       "the publisher of the input dies: it holds",
+       input_is_silent,
+       {}},
+      {"WrongType",
+       "joint",
+       "a publisher of another type on the topic of a sensor",
+       wrong_type,
+       {}},
+      {"Malformed",
+       "joint",
+       "messages of the right type that end too early: roscpp drops them",
+       malformed,
+       {}},
+      {"LongHeader", "oscillator", "samples with a frame_id of 1 MB", long_header, {}},
+  };
+}
+
+}  // namespace sampled_data_observers::test
