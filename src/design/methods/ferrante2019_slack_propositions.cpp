@@ -10,26 +10,20 @@
 namespace sampled_data_observers {
 namespace {
 
-/// The slack matrices of (37) that are left when X2 = X4 = 0, with their products with H; X1 = X,
-/// X3 = a X and Xᵀ L = J are common to all propositions.
-struct Slack {
-  MatrixExpression X5;    ///< m x n
-  MatrixExpression X6;    ///< m x m
-  MatrixExpression X7;    ///< m x n
-  MatrixExpression X8;    ///< m x m
-  MatrixExpression X6_H;  ///< X6ᵀ H
-  MatrixExpression X8_H;  ///< X8ᵀ H
-};
-
-/// Which slack matrices a proposition leaves free.
+/// How a proposition chooses the slack matrices of (37) that are left when X1 = X, X2 = 0, X3 = a
+/// X, X4 = 0 and X^T L = J.
 enum class Choice {
-  kProposition3,  ///< X6 = Y6 = U, X8 = Y8 = 0
-  kProposition4,  ///< X6 = Y6 = X8 = Y8 = U
+  kProposition3,  ///< X6 = Y6 = U, X8 = Y8 = 0, and X5 = X7 = Y5 = Y7 = 0
+  kProposition4,  ///< X6 = Y6 = X8 = Y8 = U, and X5 = X7 = Y5 = Y7 = 0
   kProposition5   ///< H = 0; X5 to X8 and Y5 to Y8 all free
 };
 
 /// ferrante2019, Propositions 3, 4 and 5: choices of the slack matrices of Theorem 3 for which its
 /// inequalities (36) are linear.
+///
+/// The free ones of Proposition 5 stand in (36) as He([C −I 0 0]ᵀ [X5 X6 X7 X8]). By the projection
+/// lemma there are such matrices if and only if (36) without them holds on the kernel of
+/// [C −I 0 0]; that is what is solved, a program with half the variables.
 class SlackProposition : public Ferrante2019Proposition {
  public:
   SlackProposition(Choice choice, std::string name, std::string summary)
@@ -59,10 +53,12 @@ class SlackProposition : public Ferrante2019Proposition {
     const MatrixExpression X = program.matrix("X", n, n);
     const MatrixExpression J = program.matrix("J", n, m);
     const double a = parameters.at("a");
-    const auto [at_0, at_T2] = slacks(program, n, m);
-    program.require_negative("(36), first", inequality(plant, 1.0, a, at_0));
-    program.require_negative("(36), second",
-                             inequality(plant, std::exp(delta * subject.T2), a, at_T2));
+    if (choice_ != Choice::kProposition5) {
+      program.matrix("U", m, m);
+      program.matrix("W", m, m);  // U^T H
+    }
+    program.require_negative("(36), first", inequality(plant, 1.0, a));
+    program.require_negative("(36), second", inequality(plant, std::exp(delta * subject.T2), a));
     // ‖L‖ <= ‖J‖/σ_min(X) <= k.
     const double k = parameters.at("gain_bound");
     const MatrixExpression q = program.scalar("q");
@@ -84,31 +80,8 @@ class SlackProposition : public Ferrante2019Proposition {
   }
 
  private:
-  /// Those of the first and of the second inequality.
-  std::pair<Slack, Slack> slacks(LmiProgram& program, Eigen::Index n, Eigen::Index m) const {
-    const MatrixExpression zero = zeros(m, m);
-    if (choice_ == Choice::kProposition5) {
-      const auto all_free = [&](const std::string& letter) {
-        return Slack{program.matrix(letter + "5", m, n),
-                     program.matrix(letter + "6", m, m),
-                     program.matrix(letter + "7", m, n),
-                     program.matrix(letter + "8", m, m),
-                     zero,
-                     zero};
-      };
-      Slack first = all_free("X");
-      return {std::move(first), all_free("Y")};
-    }
-    const MatrixExpression U = program.matrix("U", m, m);
-    const MatrixExpression W = program.matrix("W", m, m);
-    const bool has_X8 = choice_ == Choice::kProposition4;
-    const Slack slack = {zeros(m, n), U, zeros(m, n), has_X8 ? U : zero, W, has_X8 ? W : zero};
-    return {slack, slack};
-  }
-
   /// The left-hand side of (36), which with e = e^{δ T2} has P_T2 where it has P with e = 1.
-  static MatrixExpression inequality(const PlantMatrices& plant, double e, double a,
-                                     const Slack& slack) {
+  MatrixExpression inequality(const PlantMatrices& plant, double e, double a) const {
     const MatrixExpression A = plant.A();
     const MatrixExpression C = plant.C();
     const Eigen::Index n = A.rows();
@@ -120,22 +93,29 @@ class SlackProposition : public Ferrante2019Proposition {
     const MatrixExpression lambda_t = symbol("lambda_t");
     const MatrixExpression flow = transpose(X) * A - J * C;
     const MatrixExpression Ct = transpose(C);
+    const bool is_free = choice_ == Choice::kProposition5;
 
-    const MatrixExpression S1 =
-        blocks({{-X + Ct * slack.X5, Ct * slack.X6}, {-slack.X5, -slack.X6}});
+    const MatrixExpression zero = zeros(m, m);
+    const MatrixExpression X6 = is_free ? zero : symbol("U", m, m);
+    const MatrixExpression X6_H = is_free ? zero : symbol("W", m, m);
+    const bool has_X8 = choice_ == Choice::kProposition4;
+    const MatrixExpression X8 = has_X8 ? X6 : zero;
+    const MatrixExpression X8_H = has_X8 ? X6_H : zero;
+    const MatrixExpression S1 = blocks({{-X, Ct * X6}, {zeros(m, n), -X6}});
     const MatrixExpression S2_and_P =
-        blocks({{flow - a * X + Ct * slack.X7 + P1, Ct * slack.X8 + J},
-                {-(slack.X6_H * C) - slack.X7, slack.X6_H - slack.X8 + e * P2}});
-    const MatrixExpression S5 = blocks({{a * transpose(flow), -(Ct * transpose(slack.X8_H))},
-                                        {a * transpose(J), transpose(slack.X8_H)}});
+        blocks({{flow - a * X + P1, Ct * X8 + J}, {-(X6_H * C), X6_H - X8 + e * P2}});
+    const MatrixExpression S5 = blocks(
+        {{a * transpose(flow), -(Ct * transpose(X8_H))}, {a * transpose(J), transpose(X8_H)}});
     const MatrixExpression weight =
         blocks({{ferrante2019_error_weight(plant, lambda_t), zeros(n, m)},
                 {zeros(m, n), e * ((2.0 * lambda_t - symbol("delta")) * P2)}});
+    const MatrixExpression onto = is_free ? blocks({{identity(n), Ct}}) : identity(n + m);
     return ferrante2019_with_inputs(
-        plant, {{He(S1), S2_and_P}, {weight + He(S5)}}, [&](const MatrixExpression& input) {
+        plant, {{onto * He(S1) * transpose(onto), onto * S2_and_P}, {weight + He(S5)}},
+        [&](const MatrixExpression& input) {
           const MatrixExpression X_input =
               blocks({{transpose(X) * input}, {zeros(m, input.cols())}});
-          return std::vector<MatrixExpression>{X_input, a * X_input};
+          return std::vector<MatrixExpression>{onto * X_input, a * X_input};
         });
   }
 
