@@ -6,6 +6,9 @@ import subprocess
 
 PACKAGE = "sampled_data_observers"
 
+# A shell has what it starts in the background ignore Ctrl-C, and so all that this starts.
+signal.signal(signal.SIGINT, signal.default_int_handler)
+
 
 def free_port():
     with socket.socket() as probe:
