@@ -6,6 +6,7 @@
 #include <sstream>
 #include <utility>
 
+#include "sampled_data_observers/ros/clock_watch.h"
 #include "sampled_data_observers/ros/observer_runtime.h"
 
 namespace sampled_data_observers {
@@ -208,7 +209,7 @@ Finding Diagnosis::estimates() const {
   const double expected = rate * to_seconds(elapsed_);
   const Duration latest = window_.lateness.count > 0 ? window_.lateness.largest : 0;
   if (now_ == 0) {
-    finding = {HealthLevel::kStale, "no time yet: nothing came on /clock", {}};
+    finding = {HealthLevel::kStale, std::string("no time yet: ") + kNoClock, {}};
   } else if (!window_.newest_estimate) {
     const bool received = std::any_of(memory_.begin(), memory_.end(),
                                       [](const ChannelMemory& m) { return m.received > 0; });
@@ -216,7 +217,9 @@ Finding Diagnosis::estimates() const {
                "no estimate yet: " + why_no_estimate(),
                {}};
   } else if (elapsed_ <= 0) {
-    finding = {HealthLevel::kStale, "time stands still: nothing comes on /clock", {}};
+    finding = {HealthLevel::kStale,
+               "time stands still (/use_sim_time is true): nothing comes on /clock",
+               {}};
   } else if (expected >= 2.0 && published == 0.0) {
     finding = {HealthLevel::kError,
                "no estimate since " + instant(*window_.newest_estimate) +

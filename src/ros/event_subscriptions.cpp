@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include "sampled_data_observers/ros/clock_watch.h"
 #include "sampled_data_observers/ros/queue_length.h"
 #include "sampled_data_observers/ros/time_conversion.h"
 
@@ -110,9 +111,9 @@ void EventSubscriptions::retry_waiting() {
 void EventSubscriptions::defer(std::function<void()> task) {
   if (deferred_.size() < kQueueLength) {
     deferred_.push_back(std::move(task));
-  } else {
-    ROS_WARN_THROTTLE_NAMED(5.0, name_,
-                            "events are lost: no time on /clock, but /use_sim_time is set");
+  } else if (!has_lost_events_) {  // throttled by ROS time, the warning would never come
+    has_lost_events_ = true;
+    ROS_WARN_NAMED(name_, "events are lost: %s", kNoClock);
   }
 }
 

@@ -28,6 +28,7 @@ void ObserverNodelet::onInit() {
 }
 
 void ObserverNodelet::stop() {
+  clock_watch_.reset();
   master_watch_.reset();
   diagnostics_.reset();
   services_.reset();
@@ -52,6 +53,7 @@ void ObserverNodelet::start(const ConfigNode& tree, const ObserverConfig& config
   // Their queue has threads of its own, so that events go on while a service works.
   services_ = std::make_unique<ObserverServices>(getMTNodeHandle(), *runtime_, *gains_, getName());
   master_watch_ = std::make_unique<MasterWatch>(getMTNodeHandle(), services_->names(), getName());
+  clock_watch_ = std::make_unique<ClockWatch>(getMTNodeHandle(), getName());
   diagnostics_ =
       std::make_unique<DiagnosticsReporter>(getMTNodeHandle(), getMTPrivateNodeHandle(), getName(),
                                             diagnosis_subject(config), runtime_->statistics());

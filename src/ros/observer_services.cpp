@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "sampled_data_observers/ros/clock_watch.h"
 #include "sampled_data_observers/ros/time_conversion.h"
 
 namespace sampled_data_observers {
@@ -31,7 +32,7 @@ std::vector<std::string> ObserverServices::names() const {
 bool ObserverServices::reset(Reset::Request& request, Reset::Response& response) {
   const SharedRuntime::Access access = runtime_.access();
   if (access.now() == 0) {
-    response.message = "there is no time yet: nothing came on /clock";
+    response.message = std::string("there is no time yet: ") + kNoClock;
   } else if (request.at_next_sample == 0) {
     response.message = access->restart(access.now(), request.state);
   } else if (request.state.empty()) {
@@ -48,6 +49,7 @@ bool ObserverServices::get_estimate(GetEstimate::Request& request,
   const SharedRuntime::Access access = runtime_.access();
   const Stamp stamp = request.stamp.isZero() ? access.now() : to_stamp(request.stamp);
   const Estimate* estimate = access->estimate_at(stamp, response.message);
+  if (access.now() == 0) response.message = std::string("there is no time yet: ") + kNoClock;
   response.success = estimate != nullptr ? 1 : 0;
   if (estimate != nullptr) access->write(*estimate, response.estimate);
   return true;

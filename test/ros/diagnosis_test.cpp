@@ -74,7 +74,8 @@ TEST_F(DiagnosisTest, AllIsWell) {
 
 TEST_F(DiagnosisTest, SaysWhyThereIsNoEstimate) {
   diagnosis_.update(RunStatistics(3), 0, 0);
-  expect(HealthLevel::kStale, {"/clock"}, diagnosis_.estimates());
+  expect(HealthLevel::kStale, {"/clock", "rosparam set /use_sim_time false"},
+         diagnosis_.estimates());
   update(RunStatistics(3));
   expect(HealthLevel::kStale, {"nothing was received", "/position", "rostopic"},
          diagnosis_.estimates());
@@ -110,7 +111,7 @@ TEST_F(DiagnosisTest, SaysWhatIsWrongWithTheEstimates) {
   update(window);
   expect(HealthLevel::kWarn, {"4 of 100", "bound of saturations"}, diagnosis_.estimates());
   diagnosis_.update(good(), now_, 0);
-  expect(HealthLevel::kStale, {"time stands still"}, diagnosis_.estimates());
+  expect(HealthLevel::kStale, {"time stands still", "/use_sim_time"}, diagnosis_.estimates());
 }
 
 TEST_F(DiagnosisTest, SaysWhySamplesWereRejected) {

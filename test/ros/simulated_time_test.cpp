@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 #include <rosgraph_msgs/Clock.h>
+#include <rosgraph_msgs/Log.h>
 
 #include "ros/observer_client.h"
 #include "sampled_data_observers/ros/time_conversion.h"
@@ -36,6 +37,22 @@ class SimulatedTimeTest : public ::testing::Test {
   ros::Publisher clock_publisher_;
   test::ObserverClient client_;
 };
+
+// First, while there is no time yet.
+TEST_F(SimulatedTimeTest, WithoutClockTheLogAndTheServicesNameTheParameter) {
+  const std::string advice = "rosparam set /use_sim_time false";
+  bool is_warned = false;
+  const boost::function<void(const rosgraph_msgs::LogConstPtr&)> take =
+      [&](const rosgraph_msgs::LogConstPtr& entry) {
+        is_warned |= entry->level == rosgraph_msgs::Log::WARN &&
+                     entry->msg.find(advice) != std::string::npos;
+      };
+  const ros::Subscriber log = handle_.subscribe<rosgraph_msgs::Log>("/rosout", 100, take);
+  EXPECT_NE(std::string::npos, client_.reset({}).message.find(advice));
+  EXPECT_NE(std::string::npos, client_.get_estimate(ros::Time()).message.find(advice));
+  // One in ten warnings is logged, every 30 s: the first may have come before this test listened.
+  EXPECT_TRUE(test::spin_until([&] { return is_warned; }, 45.0));
+}
 
 TEST_F(SimulatedTimeTest, EventsWaitForTheClockAndEstimatesFollowItForthAndBack) {
   client_.publish_sample(ros::Time(100.0), 1.0);

@@ -55,6 +55,7 @@ class EventSubscriptions {
   ros::WallTimer retry_timer_;
   /// What came before the first time of a simulated clock, and what ends the wait for it.
   std::vector<std::function<void()>> deferred_;
+  bool has_lost_events_ = false;
   ros::Timer clock_timer_;
 };
 

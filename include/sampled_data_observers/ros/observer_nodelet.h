@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "sampled_data_observers/ros/clock_watch.h"
 #include "sampled_data_observers/ros/diagnostics_reporter.h"
 #include "sampled_data_observers/ros/estimate_publication.h"
 #include "sampled_data_observers/ros/event_subscriptions.h"
@@ -41,6 +42,7 @@ class ObserverNodelet : public nodelet::Nodelet {
   std::unique_ptr<ObserverServices> services_;
   std::unique_ptr<DiagnosticsReporter> diagnostics_;
   std::unique_ptr<MasterWatch> master_watch_;
+  std::unique_ptr<ClockWatch> clock_watch_;
 };
 
 }  // namespace sampled_data_observers

@@ -1,0 +1,32 @@
+#include "sampled_data_observers/ros/clock_watch.h"
+
+#include <ros/console.h>
+#include <ros/time.h>
+
+#include <utility>
+
+namespace sampled_data_observers {
+namespace {
+
+constexpr double kPeriod = 3.0;  // s, of wall time
+/// One in so many checks is logged.
+constexpr int kChecksPerWarning = 10;
+
+}  // namespace
+
+ClockWatch::ClockWatch(const ros::NodeHandle& handle, std::string name) : name_(std::move(name)) {
+  if (!ros::Time::isSimTime()) return;
+  timer_ = handle.createSteadyTimer(ros::WallDuration(kPeriod),
+                                    [this](const ros::SteadyTimerEvent&) { check(); });
+}
+
+// ROS_WARN_THROTTLE would not do: it measures ROS time, which stands still.
+void ClockWatch::check() {
+  if (!ros::Time::now().isZero()) {
+    timer_.stop();
+  } else if (checks_++ % kChecksPerWarning == 0) {
+    ROS_WARN_NAMED(name_, "%s", kNoClock);
+  }
+}
+
+}  // namespace sampled_data_observers
