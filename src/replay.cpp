@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "sampled_data_observers/replay/option_checks.h"
 #include "sampled_data_observers/replay/plot.h"
 #include "sampled_data_observers/replay/tool_main.h"
 #include "sampled_data_observers/ros/plant_plugins.h"
@@ -62,12 +63,22 @@ int run(int argc, char** argv) {
                      "Keep a random subset of the samples, T1 to T2 seconds apart; without --truth "
                      "all samples serve as truth")
           ->expected(2)
+          ->check(sdo::number_between(1e-9, 1e6))
           ->type_name("T1 T2");
-  app.add_option("--seed", seed, "Seed of --thin (default 0)")->needs(thin);
-  app.add_option("--from", options.from, "Compare from this time on [s after the first truth]");
-  app.add_option("--to", options.to, "Compare up to this time [s after the first truth]");
+  app.add_option("--seed", seed, "Seed of --thin (default 0)")
+      ->check(sdo::whole_number_at_least(0))
+      ->needs(thin);
+  CLI::Option* from =
+      app.add_option("--from", options.from, "Compare from this time on [s after the first truth]")
+          ->check(sdo::number_at_least(0));
+  CLI::Option* to =
+      app.add_option("--to", options.to, "Compare up to this time [s after the first truth]")
+          ->check(sdo::number_at_least(0));
+  app.add_flag("--no-input", options.may_lack_input,
+               "The bag need not have the topic of the input, which is zero then");
   app.add_option("--plot", plot_path,
-                 "Draw truth, samples and estimate into this file (.png, .pdf)");
+                 "Draw truth, samples and estimate into this file (.png, .pdf, .svg)")
+      ->check(sdo::picture_file());
   app.add_option("--json", json_path, "Write the summary for machines into this file");
   app.footer("Exit status: 0 done, 1 a fault in bag, configuration or files, else wrong usage.");
 
@@ -75,13 +86,17 @@ int run(int argc, char** argv) {
     app.parse(argc, argv);
     options.truth_fields = parse_fields(assignments);
     if (!bounds.empty()) {
-      if (!(0.0 < bounds[0] && bounds[0] <= bounds[1] && bounds[1] < 1e6)) {
-        throw CLI::ValidationError("--thin", "0 < T1 <= T2 < 1e6 must hold");
-      }
+      if (bounds[0] > bounds[1]) throw CLI::ValidationError("--thin", "T1 <= T2 must hold");
       options.thinning = sdo::ReplayOptions::Thinning{bounds[0], bounds[1], seed};
     }
     if (!assignments.empty() && options.truth_topic.empty()) {
       throw CLI::ValidationError("--compare", "needs --truth");
+    }
+    if ((*from || *to) && options.truth_topic.empty() && !options.thinning) {
+      throw CLI::ValidationError("--from and --to", "need a truth, by --truth or --thin");
+    }
+    if (options.from > options.to) {
+      throw CLI::ValidationError("--from", "must not be later than --to");
     }
     for (const std::string& written : {options.output, json_path, plot_path}) {
       if (is_same_file(written, options.bag)) {

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
+#include "sampled_data_observers/replay/option_checks.h"
 #include "sampled_data_observers/replay/simulation_bag.h"
 #include "sampled_data_observers/replay/tool_main.h"
 #include "sampled_data_observers/ros/plant_plugins.h"
@@ -30,11 +31,11 @@ int run(int argc, char** argv) {
       ->required()
       ->type_name("SCENARIO");
   app.add_option("-o,--output", output, "Bag to write")->required();
-  CLI::Option* seed_option =
-      app.add_option("--seed", seed, "Instead of scenario/seed")->check(CLI::NonNegativeNumber);
+  CLI::Option* seed_option = app.add_option("--seed", seed, "Instead of scenario/seed")
+                                 ->check(sdo::whole_number_at_least(0));
   CLI::Option* duration_option =
       app.add_option("--duration", duration, "Instead of scenario/duration [s]")
-          ->check(CLI::Range(1e-9, 1e6));
+          ->check(sdo::number_between(1e-9, 1e6));
   app.footer("Exit status: 0 done, 1 a fault in scenario or files, else wrong usage.");
   CLI11_PARSE(app, argc, argv);
 

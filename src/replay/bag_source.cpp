@@ -72,7 +72,8 @@ Reading BagChannel::read(const rosbag::MessageInstance& instance, Event& event) 
 }
 
 std::vector<BagChannel> bind_channels(const ObserverConfig& config, const rosbag::Bag& bag,
-                                      const std::shared_ptr<const TransformBuffer>& transforms) {
+                                      const std::shared_ptr<const TransformBuffer>& transforms,
+                                      bool may_lack_input) {
   const auto topics = bag_topics(bag);
   std::vector<BagChannel> result;
   for (const EventChannel& channel : event_channels(config)) {
@@ -82,16 +83,20 @@ std::vector<BagChannel> bind_channels(const ObserverConfig& config, const rosbag
     bound.source = make_message_source(channel.source, transforms);
     const auto found = std::find_if(topics.begin(), topics.end(),
                                     [&](const auto& topic) { return topic.first == bound.topic; });
-    // Inputs and jumps may never have happened; a sensor without a single sample is a mistake, and
-    // so is the signal of a detector.
+    bound.is_recorded = found != topics.end();
+    // Jumps may never have happened, and a topic without messages is not recorded. A sensor without
+    // a single sample is a mistake, and so is the signal of a detector.
+    const bool is_input = channel.kind == EventKind::kInput;
     const bool may_be_empty =
-        (channel.kind == EventKind::kInput || channel.kind == EventKind::kJump) &&
-        !channel.source.detector;
-    if (found == topics.end() && !may_be_empty) {
-      throw ReplayError(channel.source.origin + ": " + channel.source.path +
-                        ": the bag has no topic " + bound.topic + "; it has" + listed(topics));
+        is_input ? may_lack_input : channel.kind == EventKind::kJump && !channel.source.detector;
+    if (!bound.is_recorded && !may_be_empty) {
+      throw ReplayError(
+          channel.source.origin + ": " + channel.source.path + ": the bag has no topic " +
+          bound.topic +
+          (is_input ? " (where no input was ever sent, --no-input takes it as zero)" : "") +
+          "; it has" + listed(topics));
     }
-    if (found != topics.end() && found->second != channel.source.type) {
+    if (bound.is_recorded && found->second != channel.source.type) {
       throw ReplayError(channel.source.origin + ": " + channel.source.path + ": expected " +
                         channel.source.type + " on " + bound.topic + ", found " + found->second +
                         " in the bag");

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <set>
+#include <sstream>
 
 #include "sampled_data_observers/replay/bag_source.h"
 #include "sampled_data_observers/replay/comparison.h"
@@ -30,9 +31,10 @@ class Replay {
         runtime_(config),
         transforms_(std::make_shared<TransformBuffer>(config.static_transforms)) {
     open_for_reading(bag_, options.bag);
-    channels_ = bind_channels(config, bag_, transforms_);
+    channels_ = bind_channels(config, bag_, transforms_, options.may_lack_input);
     if (has_frames(config)) transform_topics_ = transform_topics();
     for (const BagChannel& bound : channels_) {
+      if (!bound.is_recorded) summary_.not_recorded[bound.channel.name] = bound.topic;
       intakes_.emplace_back(bound.channel, bound.source,
                             [this](const EventChannel& channel, const Event& event,
                                    Reading reading) { handle(channel, event, reading); });
@@ -62,6 +64,7 @@ class Replay {
     for (const BagChannel& bound : channels_) topics.insert(bound.topic);
     rosbag::View view(bag_,
                       rosbag::TopicQuery(std::vector<std::string>(topics.begin(), topics.end())));
+    require_truth_in_range();
     thin_samples(view);
     {
       ProgressBar progress("replay", view.size());
@@ -89,13 +92,27 @@ class Replay {
   }
 
  private:
+  /// Else a long run would end with nothing compared.
+  void require_truth_in_range() {
+    if (truth_.topic.empty()) return;
+    rosbag::View view(bag_, rosbag::TopicQuery(truth_.topic));
+    const double length = (view.getEndTime() - view.getBeginTime()).toSec();
+    if (options_.from <= length) return;
+    std::ostringstream text;
+    text << "--from " << options_.from << ": expected at most " << length
+         << " s, since that is when the truth on " << truth_.topic << " in " << options_.bag
+         << " ends";
+    throw ReplayError(text.str());
+  }
+
   void thin_samples(rosbag::View& view) {
     kept_.resize(channels_.size());
     next_.resize(channels_.size(), 0);
     if (!options_.thinning) return;
     std::vector<std::vector<Stamp>> stamps(channels_.size());
     // Sources remember what they read; those of the replay proper have read nothing yet.
-    std::vector<BagChannel> channels = bind_channels(config_, bag_, transforms_);
+    std::vector<BagChannel> channels =
+        bind_channels(config_, bag_, transforms_, options_.may_lack_input);
     Event event;
     for (const rosbag::MessageInstance& instance : view) {
       for (std::size_t i = 0; i < channels_.size(); ++i) {

@@ -64,6 +64,10 @@ void print_table(const ReplaySummary& summary, std::ostream& out) {
   out << "\n";
   if (summary.outputs_used > 0) out << "outputs     " << summary.outputs_used << " used\n";
   if (summary.jumps_used > 0) out << "jumps       " << summary.jumps_used << " used\n";
+  for (const auto& [channel, topic] : summary.not_recorded) {
+    out << std::left << std::setw(12) << channel << std::right << "none: the bag has no topic "
+        << topic << "\n";
+  }
   for (const auto& [reason, count] : summary.rejected) {
     out << "            " << count << " x " << reason << "\n";
   }
@@ -95,6 +99,7 @@ void write_json(const ReplaySummary& summary, const std::string& path) {
   json["events_used"] = summary.events_used;
   json["outputs_used"] = summary.outputs_used;
   json["jumps_used"] = summary.jumps_used;
+  json["not_recorded"] = summary.not_recorded;
   json["intervals"] = {{"count", summary.intervals},          {"min", summary.interval_min},
                        {"mean", summary.interval_mean},       {"max", summary.interval_max},
                        {"below_T1", summary.intervals_short}, {"above_T2", summary.intervals_long}};

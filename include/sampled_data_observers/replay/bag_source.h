@@ -34,6 +34,8 @@ struct BagChannel {
   /// Absolute name of the topic in the bag.
   std::string topic;
   std::shared_ptr<MessageSource> source;
+  /// Whether the bag has that topic.
+  bool is_recorded = false;
 
   /// Makes an event of the message that the bag holds, received when it was recorded. Its values
   /// live until the next message is read.
@@ -50,10 +52,13 @@ MessagePointer instantiate(const MessageSource& source, const rosbag::MessageIns
 
 /// Binds all channels of a configuration. Relative topic names are resolved, and remapped, as ROS
 /// does it.
-/// @throws ReplayError when a sensor's topic is not in the bag, or of another type.
+/// @param may_lack_input  whether the topic of the input need not be in the bag
+/// @throws ReplayError when the topic of a sensor, of the input or of a detector's signal is not in
+/// the bag, or any topic is of another type.
 /// @throws ConfigError for a source that no message type fits.
 std::vector<BagChannel> bind_channels(const ObserverConfig& config, const rosbag::Bag& bag,
-                                      const std::shared_ptr<const TransformBuffer>& transforms);
+                                      const std::shared_ptr<const TransformBuffer>& transforms,
+                                      bool may_lack_input);
 
 /// The topics of a bag that transforms come on.
 std::vector<std::string> transform_topics();

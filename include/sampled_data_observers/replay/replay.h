@@ -30,6 +30,8 @@ struct ReplayOptions {
   /// The comparison is limited to these times after the first truth stamp [s].
   double from = 0.0;
   double to = std::numeric_limits<double>::infinity();
+  /// Whether a bag without the topic of the input will do: the input is zero then.
+  bool may_lack_input = false;
 };
 
 /// Runs the observer over a bag: its messages in the order and at the times in which the bag

@@ -40,6 +40,8 @@ struct ReplaySummary {
   std::size_t events_used = 0;
   std::size_t outputs_used = 0;  ///< of these: values of continuous outputs
   std::size_t jumps_used = 0;    ///< and jumps
+  /// Topics that the bag does not have, by what would come on them: the input, jumps.
+  std::map<std::string, std::string> not_recorded;
 
   /// Of the time between used samples [s].
   double interval_min = 0.0;

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+namespace sampled_data_observers {
+
+/// What an option of a tool must be, in the form that CLI11's check() takes: empty for a text that
+/// is so, else what was expected and what was found.
+using OptionCheck = std::function<std::string(const std::string& text)>;
+
+// Finite numbers; neither NaN nor infinity is one.
+OptionCheck number_above(double low);
+OptionCheck number_at_least(double low);
+OptionCheck number_between(double low, double high);
+
+OptionCheck whole_number_at_least(std::uint64_t low);
+
+/// A file of a format that the plot programs draw, by its ending.
+OptionCheck picture_file();
+
+}  // namespace sampled_data_observers

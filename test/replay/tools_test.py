@@ -1,0 +1,149 @@
+#!/usr/bin/env python3
+"""The tools for bags as a person runs them: tools_test.py SIMULATE REPLAY COMPARE_ESTIMATES"""
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+TOOLS = {}
+WRONG_USAGE = range(100, 128)
+
+# A cart, pushed; its position comes up to 50 ms late.
+SCENARIO = """
+plant: {states: [p, v], inputs: [u], A: [[0, 1], [0, 0]], B: [[0], [1]]}
+sensors: {position: {C: [[1, 0]], source: {topic: position}}}
+input: {topic: input}
+scenario:
+  duration: 3
+  initial_state: {p: 1, v: 0}
+  input: {rate: 20, formulas: {u: "sin(t)"}}
+  sensors: {position: {schedule: {period: 0.1}, latency: [0.03, 0.05]}}
+"""
+OBSERVER = """
+observer: ConstantGainObserver
+rate: 50
+publish_delay: DELAY
+sampling: {T1: 0.1, T2: 0.1}
+gains: {L: [[0.5], [0.5]]}
+"""
+JUMPING = SCENARIO.replace("B: [[0], [1]]}",
+                           "B: [[0], [1]], jump_map: {A_d: [[1, 0], [0, 1]]}}\njumps: {}")
+
+
+class ToolsTest(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.mkdtemp()
+        self.addCleanup(shutil.rmtree, self.folder)
+        self.scenario = self.write("scenario.yaml", SCENARIO)
+        self.observer = self.write("observer.yaml", OBSERVER.replace("DELAY", "0"))
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def write(self, name, text):
+        with open(self.path(name), "w") as file:
+            file.write(text)
+        return self.path(name)
+
+    def run_tool(self, tool, *arguments):
+        result = subprocess.run([TOOLS[tool], *arguments], stdout=subprocess.PIPE,
+                                stderr=subprocess.STDOUT, universal_newlines=True, check=False,
+                                timeout=60)
+        return result.returncode, result.stdout
+
+    def succeed(self, tool, *arguments):
+        status, text = self.run_tool(tool, *arguments)
+        self.assertEqual(status, 0, text)
+        return text
+
+    def fault(self, tool, *arguments, status=1):
+        found, text = self.run_tool(tool, *arguments)
+        self.assertEqual(found, status, text)
+        return text
+
+    def refuse(self, tool, *arguments):
+        status, text = self.run_tool(tool, *arguments)
+        self.assertIn(status, WRONG_USAGE, text)
+        self.assertLess(len(text), 200)
+        return text
+
+    def simulate(self):
+        self.succeed("simulate", self.scenario, "-o", self.path("run.bag"))
+
+    def replay(self, *arguments):
+        return [self.path("run.bag"), self.scenario, self.observer, *arguments]
+
+    def test_numbers_that_are_none_are_wrong_usage(self):
+        simulate = [self.scenario, "-o", self.path("run.bag")]
+        for duration in ("nan", "inf", "0", "2e6"):
+            self.assertIn("--duration: expected a number from 1e-09 to 1000000, found " + duration,
+                          self.refuse("simulate", *simulate, "--duration", duration))
+        for seed in ("-3", "nan", "1.5"):
+            self.assertIn("--seed: expected a whole number >= 0, found " + seed,
+                          self.refuse("simulate", *simulate, "--seed", seed))
+        self.assertFalse(os.path.exists(self.path("run.bag")))
+        self.write("run.bag", "")  # else BAG itself would be the fault
+        for option in ("--from", "--to"):
+            self.assertIn(option + ": expected a number >= 0, found nan",
+                          self.refuse("replay", *self.replay("--truth", "truth", option, "nan")))
+        self.assertIn("--thin: expected a number from",
+                      self.refuse("replay", *self.replay("--thin", "nan", "1")))
+        for percentage in ("nan", "-1", "101"):
+            self.assertIn("--at-least: expected a number from 0 to 100, found " + percentage,
+                          self.refuse("compare_estimates", "a", "b", "--at-least", percentage))
+
+    def test_a_bag_without_the_input_is_refused_unless_told_otherwise(self):
+        self.simulate()
+        text = self.fault("replay", *self.replay("input:=/none"))
+        self.assertIn("input: the bag has no topic /none", text)
+        self.assertIn("--no-input", text)
+        self.assertIn("/position (sampled_data_observers/Measurement)", text)
+        text = self.succeed("replay", *self.replay("input:=/none", "--no-input", "--json",
+                                                   self.path("summary.json")))
+        self.assertIn("input       none: the bag has no topic /none\n", text)
+        with open(self.path("summary.json")) as summary:
+            self.assertEqual(json.load(summary)["not_recorded"], {"input": "/none"})
+        self.assertNotIn("none:", self.succeed("replay", *self.replay("--no-input")))
+
+    def test_a_bag_without_jumps_will_do_and_the_summary_says_so(self):
+        self.scenario = self.write("jumping.yaml", JUMPING)
+        self.simulate()
+        self.assertIn("jumps       none: the bag has no topic /jumps\n",
+                      self.succeed("replay", *self.replay()))
+
+    def test_a_comparison_that_begins_after_the_bag_is_refused(self):
+        self.simulate()
+        text = self.fault("replay", *self.replay("--truth", "truth", "--from", "100"))
+        self.assertIn("--from 100: expected at most 3 s", text)
+        self.assertIn("against the truth at ",
+                      self.succeed("replay", *self.replay("--truth", "truth", "--from", "2.5")))
+        self.assertIn("need a truth", self.refuse("replay", *self.replay("--from", "1")))
+        self.assertIn("later than --to", self.refuse(
+            "replay", *self.replay("--truth", "truth", "--from", "2", "--to", "1")))
+
+    def test_a_picture_of_another_format_is_refused_before_the_run(self):
+        self.simulate()
+        text = self.refuse("replay", *self.replay("--plot", self.path("x.gif")))
+        self.assertIn("--plot: expected a file name that ends in .png, .pdf or .svg", text)
+
+    def test_estimates_that_rest_on_other_events_are_no_agreement(self):
+        self.simulate()
+        bags = []
+        for delay in ("0", "0.06"):
+            self.observer = self.write("observer.yaml", OBSERVER.replace("DELAY", delay))
+            bags.append(self.path("delay_%s.bag" % delay))
+            self.succeed("replay", *self.replay("-o", bags[-1]))
+        self.assertIn("100.0 % of all", self.succeed("compare_estimates", bags[0], bags[0]))
+        text = self.fault("compare_estimates", *bags)
+        self.assertIn("they agree, but on too few: expected 50 % of all", text)
+        self.assertIn("publish_delay above the latency", text)
+        self.succeed("compare_estimates", *bags, "--at-least", "1")
+
+
+if __name__ == "__main__":
+    for name in ("simulate", "replay", "compare_estimates"):
+        TOOLS[name] = sys.argv.pop(1)
+    unittest.main()
