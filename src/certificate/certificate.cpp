@@ -1,6 +1,8 @@
 #include "sampled_data_observers/certificate/certificate.h"
 
 #include <algorithm>
+#include <cstdio>
+#include <regex>
 
 #include "theorems.h"
 
@@ -36,6 +38,31 @@ const Theorem* find_theorem(const std::string& name) {
 
 std::vector<ConditionCheck> check(const Certificate& certificate) {
   return check(certificate.theorem->conditions(certificate.subject), certificate.values);
+}
+
+std::string statement(const Certificate& certificate) {
+  const Theorem& theorem = *certificate.theorem;
+  const CertificateSubject& subject = certificate.subject;
+  const std::string guarantee = theorem.guarantee();
+  std::string text = theorem.name() + ": " + guarantee;
+  const char* separator = " (";
+  const auto add = [&](const std::string& name, double value, const char* unit) {
+    if (!std::regex_search(guarantee, std::regex("\\b" + name + "\\b"))) return;
+    char number[32];
+    std::snprintf(number, sizeof number, "%.4g", value);
+    text += separator + name + " = " + number + unit;
+    separator = ", ";
+  };
+  for (const auto& shapes : {theorem.multipliers(subject), theorem.parameters(subject)}) {
+    for (const NamedShape& shape : shapes) {
+      if (shape.form != NamedShape::Form::kScalar) continue;
+      add(shape.name, certificate.values.at(shape.name)(0, 0), "");
+    }
+  }
+  add("T1", subject.T1, " s");
+  add("T2", subject.T2, " s");
+  if (*separator == ',') text += ")";
+  return text;
 }
 
 }  // namespace sampled_data_observers

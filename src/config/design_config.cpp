@@ -8,6 +8,19 @@
 #include "sampled_data_observers/config/yaml_file.h"
 
 namespace sampled_data_observers {
+namespace {
+
+/// That of the section `design`, or else what an observer's configuration expects.
+void read_design_sampling(ConfigSection& root, ConfigSection& design, CertificateSubject& subject) {
+  if (!design.has("sampling") && !root.has("sampling")) return;
+  ConfigSection sampling = (design.has("sampling") ? design : root).section("sampling");
+  subject.T1 = sampling.number_in("T1", 1e-9, 1e6, std::nullopt);
+  subject.T2 = sampling.number_in("T2", 1e-9, 1e6, std::nullopt);
+  if (subject.T1 > subject.T2) throw sampling.error("T2", "a number not less than T1", "T1 > T2");
+  sampling.finish();
+}
+
+}  // namespace
 
 DesignConfig read_design_config(const std::vector<std::string>& files,
                                 const PlantPluginLoader& load_plugin) {
@@ -28,15 +41,7 @@ DesignConfig read_design_config(const std::vector<std::string>& files,
   }
   if (section.has("N")) config.subject.plant.N = section.matrix("N", n, -1);
   if (section.has("C_p")) config.subject.plant.C_p = section.matrix("C_p", -1, n);
-  if (section.has("sampling")) {
-    ConfigSection sampling = section.section("sampling");
-    config.subject.T1 = sampling.number_in("T1", 1e-9, 1e6, std::nullopt);
-    config.subject.T2 = sampling.number_in("T2", 1e-9, 1e6, std::nullopt);
-    if (config.subject.T1 > config.subject.T2) {
-      throw sampling.error("T2", "a number not less than T1", "T1 > T2");
-    }
-    sampling.finish();
-  }
+  read_design_sampling(root, section, config.subject);
   ConfigSection parameters = section.section_or_empty("parameters");
   for (const std::string& name : parameters.keys()) {
     config.parameters[name] = parameters.number(name);

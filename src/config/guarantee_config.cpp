@@ -172,7 +172,7 @@ Guarantee read_guarantee(ConfigSection& root, const ConfigNode& tree,
   if (error && !allow_uncertified) throw ConfigError(*error);
   const Certificate& certificate = claim->certificate;
   const Theorem& theorem = *certificate.theorem;
-  if (!error) guarantee.text = theorem.name() + ": " + theorem.guarantee();
+  if (!error) guarantee.text = statement(certificate);
   if (error) guarantee.warning = std::string("no guarantee and no error bound: ") + error->what();
   if (!root.has("error_assumptions")) return guarantee;
   require_bounded(root, config);

@@ -84,8 +84,7 @@ void verify_rigorously(const Certificate& certificate) {
 void verify_command(const VerifyArguments& arguments) {
   const CertificateConfig config = read_claim(arguments);
   const Certificate& certificate = config.certificate;
-  std::printf("%s: %s\n", certificate.theorem->name().c_str(),
-              certificate.theorem->guarantee().c_str());
+  std::printf("%s\n", statement(certificate).c_str());
   if (arguments.is_rigorous) {
     verify_rigorously(certificate);
   } else {

@@ -1,5 +1,6 @@
 #include "sampled_data_observers/replay/summary.h"
 
+#include <algorithm>
 #include <fstream>
 #include <iomanip>
 #include <nlohmann/json.hpp>
@@ -20,10 +21,14 @@ std::string shown(const std::optional<double>& value) {
 void print_comparison(const ReplaySummary& summary, std::ostream& out) {
   if (summary.compared.empty()) return;
   out << "\nagainst the truth at " << summary.compared_stamps << " stamps\n";
+  // What no sensor measures as it is, cannot be held.
+  const bool is_held = std::any_of(summary.hold_rmse.begin(), summary.hold_rmse.end(),
+                                   [](const auto& value) { return value.has_value(); });
   const auto row = [&](const std::string& name, const std::string& estimate,
                        const std::string& hold, const std::string& ratio) {
-    out << "  " << std::left << std::setw(16) << name << std::right << std::setw(14) << estimate
-        << std::setw(18) << hold << std::setw(10) << ratio << "\n";
+    out << "  " << std::left << std::setw(16) << name << std::right << std::setw(14) << estimate;
+    if (is_held) out << std::setw(18) << hold << std::setw(10) << ratio;
+    out << "\n";
   };
   const auto ratio = [](const std::optional<double>& estimate, const std::optional<double>& hold) {
     if (!estimate || !hold || *hold == 0.0) return std::string("-");

@@ -42,7 +42,8 @@ void expect_parts(const std::string& message, const std::vector<std::string>& pa
 
 TEST(CertifiedConfigTest, AcceptsWhatIsProvedAndBoundsTheErrorWhereAsked) {
   const ObserverConfig plain = CertifiedGains(kGains).config();
-  expect_parts(plain.guarantee, {"ferrante2019_theorem2: "});
+  expect_parts(plain.guarantee,
+               {"ferrante2019_theorem2: ", "(lambda_t = 0.3, gamma = 2.75, T2 = 0.2 s)"});
   EXPECT_EQ("", plain.warning);
   EXPECT_TRUE(std::isnan(initial_bound(plain)));
   const ObserverConfig bounded = CertifiedGains(kGains).assuming(kAssumptions).config();

@@ -197,6 +197,15 @@ TEST_F(DesignTool, SurvivesASolverThatTakesTooLong) {
   EXPECT_TRUE(none.says("took longer than the time limit")) << none.output;
 }
 
+TEST_F(DesignTool, TakesTheTimesOfAnObserversConfigurationWhereThePlantHasNoneForIt) {
+  const std::string plant =
+      "sampling: {T1: 0.1, T2: 0.25}\n" + oscillator("  sampling: {T1: 0.1, T2: 0.3}\n", "");
+  const ToolRun made = synthesize(write("plant.yaml", plant));
+  EXPECT_EQ(made.status, 0) << made.output;
+  EXPECT_NE(read("gains.yaml").find("sampling: {T1: 0.1, T2: 0.25}"), std::string::npos)
+      << read("gains.yaml");
+}
+
 TEST_F(DesignTool, NamesWhatIsMissing) {
   const ToolRun no_times =
       synthesize(write("plant.yaml", oscillator("  sampling: {T1: 0.1, T2: 0.3}\n", "")));

@@ -124,4 +124,7 @@ struct Certificate {
 /// Checks the original inequalities in floating point.
 std::vector<ConditionCheck> check(const Certificate& certificate);
 
+/// The theorem's name and guarantee, and the numbers that the guarantee speaks of.
+std::string statement(const Certificate& certificate);
+
 }  // namespace sampled_data_observers
