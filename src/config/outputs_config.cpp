@@ -9,8 +9,21 @@ namespace {
 constexpr double kLongestOffset = 10.0;   // s
 constexpr double kLongestTimeout = 10.0;  // s
 
+std::optional<Eigen::Index> position_of(const std::string& name,
+                                        const std::vector<std::string>& names) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) return std::nullopt;
+  return found - names.begin();
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  return list;
+}
+
 BodyNumber read_body_number(ConfigSection& section, const std::string& key,
-                            const std::vector<std::string>& states) {
+                            const BodyNames& names) {
   BodyNumber number;
   if (!section.has(key)) return number;
   if (section.is_number(key)) {
@@ -18,28 +31,27 @@ BodyNumber read_body_number(ConfigSection& section, const std::string& key,
     return number;
   }
   const std::string name = section.text(key);
-  const auto found = std::find(states.begin(), states.end(), name);
-  if (found == states.end()) {
-    std::string known;
-    for (const std::string& state : states) known += (known.empty() ? "" : ", ") + state;
-    throw section.error(key, "a number or the name of a state (" + known + ")", "'" + name + "'");
+  number.state = position_of(name, names.states);
+  if (!number.state) number.input = position_of(name, names.inputs);
+  if (!number.state && !number.input) {
+    std::string known = "a number or the name of a state (" + listed(names.states) + ")";
+    if (!names.inputs.empty()) known += " or of an input (" + listed(names.inputs) + ")";
+    throw section.error(key, known, "'" + name + "'");
   }
-  number.state = found - states.begin();
   return number;
 }
 
 template <std::size_t N>
 std::array<BodyNumber, N> read_body_numbers(ConfigSection section,
                                             const std::array<const char*, N>& keys,
-                                            const std::vector<std::string>& states) {
+                                            const BodyNames& names) {
   std::array<BodyNumber, N> numbers;
-  for (std::size_t i = 0; i < N; ++i) numbers[i] = read_body_number(section, keys[i], states);
+  for (std::size_t i = 0; i < N; ++i) numbers[i] = read_body_number(section, keys[i], names);
   section.finish();
   return numbers;
 }
 
-void read_orientation(ConfigSection& outputs, const std::vector<std::string>& states,
-                      BodyStates& body) {
+void read_orientation(ConfigSection& outputs, const BodyNames& names, BodyStates& body) {
   if (!outputs.has("orientation")) return;
   ConfigSection section = outputs.section("orientation");
   const std::array<const char*, 4> components = {"x", "y", "z", "w"};
@@ -47,7 +59,7 @@ void read_orientation(ConfigSection& outputs, const std::vector<std::string>& st
                                          [&](const char* key) { return section.has(key); });
   if (!is_quaternion) {
     const std::array<const char*, 3> angles = {"roll", "pitch", "yaw"};
-    body.roll_pitch_yaw = read_body_numbers(section, angles, states);
+    body.roll_pitch_yaw = read_body_numbers(section, angles, names);
     return;
   }
   for (const char* key : components) {
@@ -56,7 +68,7 @@ void read_orientation(ConfigSection& outputs, const std::vector<std::string>& st
                           "nothing (the key is missing)");
     }
   }
-  body.quaternion = read_body_numbers(section, components, states);
+  body.quaternion = read_body_numbers(section, components, names);
 }
 
 std::array<double, 6> read_variances(ConfigSection& section, const std::string& key) {
@@ -68,15 +80,15 @@ std::array<double, 6> read_variances(ConfigSection& section, const std::string& 
   return variances;
 }
 
-BodyStates read_body(ConfigSection& outputs, const std::vector<std::string>& states) {
+BodyStates read_body(ConfigSection& outputs, const BodyNames& names) {
   const std::array<const char*, 3> axes = {"x", "y", "z"};
   BodyStates body;
-  body.position = read_body_numbers(outputs.section_or_empty("position"), axes, states);
-  read_orientation(outputs, states, body);
+  body.position = read_body_numbers(outputs.section_or_empty("position"), axes, names);
+  read_orientation(outputs, names, body);
   body.linear_velocity =
-      read_body_numbers(outputs.section_or_empty("linear_velocity"), axes, states);
+      read_body_numbers(outputs.section_or_empty("linear_velocity"), axes, names);
   body.angular_velocity =
-      read_body_numbers(outputs.section_or_empty("angular_velocity"), axes, states);
+      read_body_numbers(outputs.section_or_empty("angular_velocity"), axes, names);
   if (outputs.has("velocity_frame")) {
     body.velocity_in_world = outputs.choice("velocity_frame", {"base", "world"}) == "world";
   }
@@ -136,7 +148,8 @@ void require_states(ConfigSection& section, const OutputsConfig& outputs) {
                         "neither");
   }
   if (!has_velocity && outputs.twist) {
-    throw section.error("linear_velocity", "the states of the body's velocity, for twist", "none");
+    throw section.error("linear_velocity", "the states or inputs of the body's velocity, for twist",
+                        "none");
   }
   if (!outputs.odometry && !outputs.pose && !outputs.twist && !outputs.transform) {
     throw section.error("odometry", "one of odometry, pose, twist and tf", "none");
@@ -145,13 +158,12 @@ void require_states(ConfigSection& section, const OutputsConfig& outputs) {
 
 }  // namespace
 
-std::optional<OutputsConfig> read_outputs(ConfigSection& root,
-                                          const std::vector<std::string>& states,
+std::optional<OutputsConfig> read_outputs(ConfigSection& root, const BodyNames& names,
                                           const std::string& world_frame) {
   if (!root.has("outputs")) return std::nullopt;
   ConfigSection section = root.section("outputs");
   OutputsConfig outputs;
-  outputs.body = read_body(section, states);
+  outputs.body = read_body(section, names);
   outputs.world_frame = world_frame;
   outputs.base_frame = section.text("base_frame", "");
   outputs.odometry = read_topic(section, "odometry");

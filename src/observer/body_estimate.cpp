@@ -8,16 +8,19 @@ namespace {
 
 constexpr double kShortestQuaternion = 1e-6;
 
-double value_of(const BodyNumber& number, const double* estimate) {
+double value_of(const BodyNumber& number, const double* estimate, const double* input) {
+  if (number.input) return input[*number.input];
   return number.state ? estimate[*number.state] : number.constant;
 }
 
-Eigen::Vector3d values_of(const std::array<BodyNumber, 3>& numbers, const double* estimate) {
-  return {value_of(numbers[0], estimate), value_of(numbers[1], estimate),
-          value_of(numbers[2], estimate)};
+Eigen::Vector3d values_of(const std::array<BodyNumber, 3>& numbers, const double* estimate,
+                          const double* input) {
+  return {value_of(numbers[0], estimate, input), value_of(numbers[1], estimate, input),
+          value_of(numbers[2], estimate, input)};
 }
 
-/// The rows and columns of a covariance (n x n) that belong to some numbers; constants have none.
+/// The rows and columns of a covariance (n x n) that belong to some numbers; inputs and
+/// constants have none.
 template <std::size_t N>
 Eigen::Matrix<double, int{N}, int{N}> select(const std::array<BodyNumber, N>& numbers,
                                              const double* covariance, Eigen::Index n) {
@@ -56,11 +59,11 @@ BodyReader::BodyReader(const BodyStates& states) : states_(states) {
 
 /// `jacobian`: the rotation about the axes of the world that a small change of each of the numbers
 /// of the orientation makes.
-void BodyReader::read_orientation(const double* estimate, BodyEstimate& body,
+void BodyReader::read_orientation(const double* estimate, const double* input, BodyEstimate& body,
                                   Eigen::Matrix<double, 3, 4>& jacobian) const {
   jacobian.setZero();
   if (!states_.quaternion) {
-    const Eigen::Vector3d angles = values_of(states_.roll_pitch_yaw, estimate);
+    const Eigen::Vector3d angles = values_of(states_.roll_pitch_yaw, estimate, input);
     const Eigen::Quaterniond yaw(Eigen::AngleAxisd(angles.z(), Eigen::Vector3d::UnitZ()));
     const Eigen::Quaterniond yaw_and_pitch =
         yaw * Eigen::AngleAxisd(angles.y(), Eigen::Vector3d::UnitY());
@@ -71,8 +74,8 @@ void BodyReader::read_orientation(const double* estimate, BodyEstimate& body,
     return;
   }
   const std::array<BodyNumber, 4>& q = *states_.quaternion;
-  body.orientation.coeffs() << value_of(q[0], estimate), value_of(q[1], estimate),
-      value_of(q[2], estimate), value_of(q[3], estimate);
+  body.orientation.coeffs() << value_of(q[0], estimate, input), value_of(q[1], estimate, input),
+      value_of(q[2], estimate, input), value_of(q[3], estimate, input);
   const double length = body.orientation.norm();
   if (!(length >= kShortestQuaternion)) {
     body.orientation.setIdentity();
@@ -87,17 +90,17 @@ void BodyReader::read_orientation(const double* estimate, BodyEstimate& body,
   jacobian *= 2.0 / length;
 }
 
-void BodyReader::read(const double* estimate, const double* covariance, Eigen::Index n,
-                      BodyEstimate& body) const {
+void BodyReader::read(const double* estimate, const double* input, const double* covariance,
+                      Eigen::Index n, BodyEstimate& body) const {
   Eigen::Matrix<double, 6, 7> jacobian = Eigen::Matrix<double, 6, 7>::Zero();
   jacobian.topLeftCorner<3, 3>().setIdentity();
   Eigen::Matrix<double, 3, 4> orientation_jacobian;
-  body.position = values_of(states_.position, estimate);
-  read_orientation(estimate, body, orientation_jacobian);
+  body.position = values_of(states_.position, estimate, input);
+  read_orientation(estimate, input, body, orientation_jacobian);
   jacobian.bottomRightCorner<3, 4>() = orientation_jacobian;
 
-  body.linear_velocity = values_of(states_.linear_velocity, estimate);
-  body.angular_velocity = values_of(states_.angular_velocity, estimate);
+  body.linear_velocity = values_of(states_.linear_velocity, estimate, input);
+  body.angular_velocity = values_of(states_.angular_velocity, estimate, input);
   body.pose_covariance.setZero();
   body.twist_covariance.setZero();
   if (covariance != nullptr) {

@@ -34,7 +34,7 @@ EstimateOutputs::EstimateOutputs(ros::NodeHandle handle, const OutputsConfig& co
 void EstimateOutputs::take(const ObserverLaw& law, const Estimate& estimate) {
   const double* state = estimate.state.data();
   stamp_ = estimate.stamp;
-  reader_.read(state, law.covariance(state), law.estimate_size(), body_);
+  reader_.read(state, law.held_part(state), law.covariance(state), law.estimate_size(), body_);
 }
 
 void EstimateOutputs::publish() {

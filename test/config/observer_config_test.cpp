@@ -225,5 +225,14 @@ TEST(ShippedConfigTest, TheShippedConfigurationIsValid) {
                                        no_plant_plugins));
 }
 
+TEST(ShippedConfigTest, TheUnicyclesTwistIsItsInput) {
+  const std::string file = std::string(SDO_SOURCE_DIR) + "/config/husky_unicycle.yaml";
+  const ObserverConfig config =
+      read_observer_config(std::vector<std::string>{file}, no_plant_plugins);
+  ASSERT_TRUE(config.outputs);
+  EXPECT_EQ(0, *config.outputs->body.linear_velocity[0].input);
+  EXPECT_EQ(1, *config.outputs->body.angular_velocity[2].input);
+}
+
 }  // namespace
 }  // namespace sampled_data_observers

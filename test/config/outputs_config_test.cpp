@@ -56,6 +56,23 @@ TEST(OutputsConfigTest, ReadsAQuaternion) {
   EXPECT_EQ(0, *(*outputs.body.quaternion)[3].state);
 }
 
+TEST(OutputsConfigTest, TakesInputsWhereNoStateHasTheName) {
+  const std::string driven =
+      test::replaced(kGood, "states: [x, v, yaw],",
+                     "states: [x, v, yaw], inputs: [u, w], B: [[0, 0], [1, 0], [0, 1]],");
+  const std::string moved =
+      test::replaced(driven, "linear_velocity: {x: v}", "linear_velocity: {x: v, y: w}");
+  const BodyStates body = test::parse(moved).outputs->body;
+  EXPECT_EQ(1, *body.linear_velocity[0].state);
+  EXPECT_FALSE(body.linear_velocity[0].input);
+  EXPECT_EQ(1, *body.linear_velocity[1].input);
+  EXPECT_FALSE(body.linear_velocity[1].state);
+  EXPECT_FALSE(body.linear_velocity[2].input);
+  const std::string message = test::fault(test::replaced(moved, "y: w", "y: w1"));
+  EXPECT_NE(std::string::npos, message.find("a state (x, v, yaw) or of an input (u, w)"))
+      << message;
+}
+
 TEST(OutputsConfigTest, RefusesFaultsAndSaysWhatExists) {
   const std::vector<test::Fault> faults = {
       {"{x: x, z: 0.25}", "{x: x1}", {"test.yaml:", "outputs/position/x", "x, v, yaw", "'x1'"}},

@@ -30,12 +30,12 @@ BodyEstimate::Covariance covariance_by_differences(const BodyReader& reader,
   constexpr double kStep = 1e-6;
   Eigen::MatrixXd jacobian(6, estimate.size());
   BodyEstimate here;
-  reader.read(estimate.data(), nullptr, 0, here);
+  reader.read(estimate.data(), nullptr, nullptr, 0, here);
   for (Eigen::Index i = 0; i < estimate.size(); ++i) {
     Eigen::VectorXd moved = estimate;
     moved(i) += kStep;
     BodyEstimate there;
-    reader.read(moved.data(), nullptr, 0, there);
+    reader.read(moved.data(), nullptr, nullptr, 0, there);
     jacobian.col(i).head(3) = (there.position - here.position) / kStep;
     jacobian.col(i).tail(3) = rotation(here.orientation, there.orientation) / kStep;
   }
@@ -58,7 +58,7 @@ TEST(BodyReaderTest, MissingNumbersAreConstants) {
   states.position[2].constant = 0.3;
   const double estimate[] = {7.0, -2.0};
   BodyEstimate body;
-  BodyReader(states).read(estimate, nullptr, 2, body);
+  BodyReader(states).read(estimate, nullptr, nullptr, 2, body);
   EXPECT_EQ(Eigen::Vector3d(0.0, -2.0, 0.3), body.position);
   EXPECT_EQ(Eigen::Vector4d(0, 0, 0, 1), body.orientation.coeffs());
   EXPECT_EQ(Eigen::Vector3d::Zero(), body.linear_velocity);
@@ -70,7 +70,7 @@ TEST(BodyReaderTest, AnglesAreAboutFixedAxes) {
     states.roll_pitch_yaw[i] = state(static_cast<Eigen::Index>(i));
   const double estimate[] = {kQuarterTurn, 0.0, kQuarterTurn};
   BodyEstimate body;
-  BodyReader(states).read(estimate, nullptr, 3, body);
+  BodyReader(states).read(estimate, nullptr, nullptr, 3, body);
   // First about x: z of the body points to −y of the world. Then about z: to x.
   EXPECT_NEAR(1.0, (body.orientation * Eigen::Vector3d::UnitZ()).x(), 1e-12);
   EXPECT_NEAR(1.0, (body.orientation * Eigen::Vector3d::UnitX()).y(), 1e-12);
@@ -82,11 +82,11 @@ TEST(BodyReaderTest, ATooShortQuaternionIsTheIdentity) {
   BodyEstimate body;
   const double zero[] = {0.0, 0.0, 0.0, 0.0};
   const Eigen::MatrixXd covariance = some_covariance(4);
-  BodyReader(states).read(zero, covariance.data(), 4, body);
+  BodyReader(states).read(zero, nullptr, covariance.data(), 4, body);
   EXPECT_EQ(Eigen::Vector4d(0, 0, 0, 1), body.orientation.coeffs());
   EXPECT_TRUE(body.pose_covariance.allFinite());
   const double twice[] = {0.0, 2.0, 0.0, 0.0};
-  BodyReader(states).read(twice, covariance.data(), 4, body);
+  BodyReader(states).read(twice, nullptr, covariance.data(), 4, body);
   EXPECT_EQ(Eigen::Vector4d(0, 1, 0, 0), body.orientation.coeffs());
 }
 
@@ -99,7 +99,7 @@ TEST(BodyReaderTest, VelocitiesOfTheWorldAreTurnedIntoTheBody) {
   const double estimate[] = {kQuarterTurn, 3.0, 0.0};
   const Eigen::Matrix3d covariance = Eigen::Vector3d(0.5, 4.0, 1.0).asDiagonal();
   BodyEstimate body;
-  BodyReader(states).read(estimate, covariance.data(), 3, body);
+  BodyReader(states).read(estimate, nullptr, covariance.data(), 3, body);
   EXPECT_NEAR(0.0, body.linear_velocity.x(), 1e-12);
   EXPECT_NEAR(-3.0, body.linear_velocity.y(), 1e-12);
   EXPECT_NEAR(1.0, body.twist_covariance(0, 0), 1e-12);
@@ -117,7 +117,7 @@ TEST(BodyReaderTest, CovariancesOfAnglesAreCarriedOver) {
   estimate << 0.4, -0.7, 1.9, 1.0, 2.0, 3.0;
   const Eigen::MatrixXd covariance = some_covariance(6);
   BodyEstimate body;
-  reader.read(estimate.data(), covariance.data(), 6, body);
+  reader.read(estimate.data(), nullptr, covariance.data(), 6, body);
   const auto expected = covariance_by_differences(reader, estimate, covariance);
   EXPECT_TRUE(body.pose_covariance.isApprox(expected, 1e-5)) << body.pose_covariance - expected;
 }
@@ -131,7 +131,7 @@ TEST(BodyReaderTest, CovariancesOfAQuaternionAreCarriedOver) {
   estimate << 1.0, 0.4, -0.7, 0.5, 0.9;
   const Eigen::MatrixXd covariance = some_covariance(5);
   BodyEstimate body;
-  reader.read(estimate.data(), covariance.data(), 5, body);
+  reader.read(estimate.data(), nullptr, covariance.data(), 5, body);
   const auto expected = covariance_by_differences(reader, estimate, covariance);
   EXPECT_TRUE(body.pose_covariance.isApprox(expected, 1e-5)) << body.pose_covariance - expected;
 }
@@ -145,24 +145,44 @@ TEST(BodyReaderTest, ConfiguredVariancesStandWhereThereIsNoCovariance) {
   const double estimate[] = {0.0, 0.0};
   const Eigen::Matrix2d covariance = Eigen::Vector2d(0.5, 0.25).asDiagonal();
   BodyEstimate body;
-  BodyReader(states).read(estimate, covariance.data(), 2, body);
+  BodyReader(states).read(estimate, nullptr, covariance.data(), 2, body);
   EXPECT_EQ(diagonal({0.5, 2, 3, 4, 5, 0.25}), body.pose_covariance);
-  BodyReader(states).read(estimate, nullptr, 2, body);
+  BodyReader(states).read(estimate, nullptr, nullptr, 2, body);
   EXPECT_EQ(diagonal({1, 2, 3, 4, 5, 6}), body.pose_covariance);
   EXPECT_EQ(12.0, body.twist_covariance(5, 5));
+}
+
+TEST(BodyReaderTest, InputsStandForWhatIsNoState) {
+  BodyStates states;
+  states.roll_pitch_yaw[2] = state(0);
+  states.linear_velocity[0].input = 1;
+  states.angular_velocity[2].input = 0;
+  states.twist_variances = {7, 8, 9, 10, 11, 12};
+  states.velocity_in_world = true;
+  const double estimate[] = {kQuarterTurn};
+  const double input[] = {0.5, 2.0};
+  const double variance = 0.25;
+  BodyEstimate body;
+  BodyReader(states).read(estimate, input, &variance, 1, body);
+  // The body looks along y of the world: what moves along x of it moves to the right.
+  EXPECT_TRUE(body.linear_velocity.isApprox(Eigen::Vector3d(0.0, -2.0, 0.0), 1e-12));
+  EXPECT_EQ(Eigen::Vector3d(0.0, 0.0, 0.5), body.angular_velocity);
+  EXPECT_EQ(diagonal({7, 8, 9, 10, 11, 12}), body.twist_covariance);
 }
 
 TEST(BodyReaderTest, AllocatesNothing) {
   if (!test::allocations_are_counted()) GTEST_SKIP() << "a sanitizer allocates";
   BodyStates states;
+  states.linear_velocity[0].input = 0;
   states.quaternion = {state(0), state(1), state(2), state(3)};
   states.velocity_in_world = true;
   const BodyReader reader(states);
   const Eigen::MatrixXd covariance = some_covariance(4);
   const double estimate[] = {0.1, 0.2, 0.3, 0.4};
+  const double input = 1.0;
   BodyEstimate body;
   const std::size_t before = test::allocations();
-  reader.read(estimate, covariance.data(), 4, body);
+  reader.read(estimate, &input, covariance.data(), 4, body);
   EXPECT_EQ(before, test::allocations());
 }
 

@@ -118,6 +118,7 @@ TEST_F(StandardOutputsTest, FollowTheEstimateAndDiagnosticsSayHowItGoes) {
   EXPECT_TRUE(run_clock_until(
       100.1, [&] { return diagnosed("observer: estimates", Stale, "nothing was received"); }));
 
+  EXPECT_EQ(EventStatus::USED, client_.input(ros::Time(100.1), 0.25).outcome);
   client_.publish_sample(ros::Time(100.1), 2.0);
   ASSERT_TRUE(run_clock_until(101.0, [&] {
     return !odometry_.messages.empty() &&
@@ -140,6 +141,8 @@ TEST_F(StandardOutputsTest, FollowTheEstimateAndDiagnosticsSayHowItGoes) {
     EXPECT_EQ(1.0, odometry.pose.pose.orientation.w);
     EXPECT_EQ(estimate.state[1], odometry.twist.twist.linear.x);
     EXPECT_EQ(estimate.state[1], twist_.messages[i].twist.twist.linear.x);
+    EXPECT_EQ(0.25, odometry.twist.twist.angular.z);  // the input that holds
+    EXPECT_EQ(0.25, twist_.messages[i].twist.twist.angular.z);
     EXPECT_EQ(3.0, pose_.messages[i].pose.covariance[14]);
   }
   EXPECT_EQ("world", odometry_.messages[0].header.frame_id);

@@ -35,12 +35,16 @@ struct OutputsConfig {
   std::optional<TransformOutput> transform;
 };
 
+/// What the numbers of a body may be named.
+struct BodyNames {
+  std::vector<std::string> states;  ///< that are estimated
+  std::vector<std::string> inputs;
+};
+
 /// Reads the section `outputs`; nothing where there is none.
-/// @param states       names of the estimated states
 /// @param world_frame  the key `frame_id`
-/// @throws ConfigError for the first fault: a state that does not exist, a frame that is missing.
-std::optional<OutputsConfig> read_outputs(ConfigSection& root,
-                                          const std::vector<std::string>& states,
+/// @throws ConfigError for the first fault: a name that does not exist, a frame that is missing.
+std::optional<OutputsConfig> read_outputs(ConfigSection& root, const BodyNames& names,
                                           const std::string& world_frame);
 
 }  // namespace sampled_data_observers

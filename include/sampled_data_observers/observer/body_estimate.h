@@ -25,13 +25,15 @@ struct BodyEstimate {
   Covariance twist_covariance = Covariance::Zero();
 };
 
-/// One number of a body's pose or velocity: an estimated state or, without one, a constant.
+/// One number of a body's pose or velocity: an estimated state, an input or, without either, a
+/// constant.
 struct BodyNumber {
   std::optional<Eigen::Index> state;
+  std::optional<Eigen::Index> input;
   double constant = 0.0;
 };
 
-/// Which states of a plant are the pose and the velocity of a rigid body.
+/// Which states and inputs of a plant are the pose and the velocity of a rigid body.
 struct BodyStates {
   std::array<BodyNumber, 3> position;
   /// Roll, pitch and yaw: the body is rotated about the fixed axes x, y, z of the world, in this
@@ -51,22 +53,23 @@ struct BodyStates {
 /// Reads a body's pose and velocity off an estimate. Allocates nothing.
 class BodyReader {
  public:
-  /// @pre every state is an index of the estimates to be read
+  /// @pre every state is an index of the estimates to be read, and every input one of the inputs
   explicit BodyReader(const BodyStates& states);
 
   /// @param estimate    n states
+  /// @param input       the input that holds with them; may be null where no number is an input
   /// @param covariance  n x n, symmetric; null where the observer has none
   ///
   /// A quaternion is normalized, and is the identity where it is too short for that. Covariances
   /// are carried over to first order; the uncertainty of the orientation is left out of those of
   /// velocities given in the world frame.
-  void read(const double* estimate, const double* covariance, Eigen::Index n,
+  void read(const double* estimate, const double* input, const double* covariance, Eigen::Index n,
             BodyEstimate& body) const;
 
  private:
   using Numbers = std::array<BodyNumber, 7>;
 
-  void read_orientation(const double* estimate, BodyEstimate& body,
+  void read_orientation(const double* estimate, const double* input, BodyEstimate& body,
                         Eigen::Matrix<double, 3, 4>& jacobian) const;
 
   BodyStates states_;

@@ -26,8 +26,8 @@ class ObserverLaw : public HybridSystem {
   /// Whether the law knows the mode that a jump event names. @pre event_size() accepts the event
   virtual bool knows_mode(const Event& event) const = 0;
 
-  /// What is held in a state: the input and the continuous outputs. For laws of one plant it has
-  /// one form.
+  /// What is held in a state: the input, and behind it the continuous outputs. For laws of one
+  /// plant it has one form.
   virtual const double* held_part(const double* state) const = 0;
 
   /// Takes over what is held, as held_part() of a law of the same plant gives it.
