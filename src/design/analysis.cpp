@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "sampled_data_observers/design/certify.h"
+#include "sampled_data_observers/design/request_error.h"
 
 namespace sampled_data_observers {
 namespace {
@@ -93,7 +94,7 @@ Design analyze(const AnalysisProblem& problem, const SynthesisOptions& options) 
   try {
     theorem.require_applicable(problem.subject);
   } catch (const std::invalid_argument& fault) {
-    throw DesignError(theorem.name() + " is not for this plant: " + fault.what());
+    throw RequestError(theorem.name() + " is not for this plant: " + fault.what());
   }
   for (const DesignParameter& parameter : method.parameters(problem.subject)) {
     const bool is_found =

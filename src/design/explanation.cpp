@@ -18,6 +18,7 @@ constexpr int kTimes = 101;
 
 /// Why no observer whatever can converge, and what would change that.
 struct Obstacle {
+  std::string name;
   std::string why;
   std::string remedy;
 };
@@ -67,8 +68,8 @@ class Explanation {
     }
     if (!plant_.is_linear()) say_nonlinearity();
     say_methods();
-    say_what_to_try();
-    return out_.text();
+    if (obstacles_.empty()) say_what_to_try();
+    return verdict() + out_.text();
   }
 
  private:
@@ -136,7 +137,8 @@ class Explanation {
                                  : ", and not detectable."));
       if (!say_unseen(unseen, TimeDomain::kContinuous) && only_flows()) {
         obstacles_.push_back(
-            {"the sampled output never shows a mode of the flow that does not decay" + mode_name_,
+            {"not detectable",
+             "the sampled output never shows a mode of the flow that does not decay" + mode_name_,
              "measure something that the unseen modes move"});
       }
     }
@@ -157,8 +159,9 @@ class Explanation {
       }
       out_.paragraph(
           "Samples tau apart, (e^(A tau), C): least singular value of their "
-          "observability matrix over " +
-          times() + ": " + brief(least) + ", at tau = " + seconds(where) + ".");
+          "observability matrix, " +
+          std::string(unseen_modes(mode.A, mode.C).empty() ? "" : "on the states that y shows, ") +
+          "over " + times() + ": " + brief(least) + ", at tau = " + seconds(where) + ".");
     }
     const double beat = longest_beat(mode.A);
     const std::vector<PathologicalInterval> all =
@@ -197,7 +200,8 @@ class Explanation {
     const auto fatal = std::find_if(within.begin(), within.end(),
                                     [](const PathologicalInterval& one) { return !one.decays; });
     if (fatal == within.end() || !only_flows()) return;
-    obstacles_.push_back({"samples that come exactly every " + seconds(fatal->tau) + ", which " +
+    obstacles_.push_back({"not detectable at tau = " + seconds(fatal->tau),
+                          "samples that come exactly every " + seconds(fatal->tau) + ", which " +
                               times() + " allows, don't show something that does not decay",
                           "choose [T1, T2] without " + seconds(fatal->tau) +
                               " (such as T2 below the first "
@@ -265,7 +269,8 @@ class Explanation {
     const DiscretePair pair = pair_at_jumps(mode.A, *mode.A_d, mode.C_d, undetectable.front());
     say_unseen(unseen_modes(pair.F, pair.H), TimeDomain::kDiscrete);
     if (mode.C_c.rows() > 0 || mode.C.rows() > 0 || plant_.modes.size() > 1) return;
-    obstacles_.push_back({"jumps that come exactly every " + seconds(undetectable.front()) +
+    obstacles_.push_back({"not detectable at tau = " + seconds(undetectable.front()),
+                          "jumps that come exactly every " + seconds(undetectable.front()) +
                               " don't show something that does not decay",
                           "measure more at jumps, or add a continuous output"});
   }
@@ -339,6 +344,7 @@ class Explanation {
     for (const DesignMethod* method : design_methods()) {
       try {
         method->require_applicable(subject_);
+        if (!obstacles_.empty()) throw std::invalid_argument(obstacles_.front().name);
         std::string objectives;
         for (const Objective objective : method->objectives(subject_)) {
           objectives += (objectives.empty() ? "" : ", ") + std::string(to_string(objective));
@@ -351,13 +357,20 @@ class Explanation {
     }
   }
 
-  void say_what_to_try() {
-    out_.heading(obstacles_.empty() ? "WHAT TO TRY" : "NO OBSERVER CAN CONVERGE");
+  /// What stands before all else: what makes the rest pointless.
+  std::string verdict() const {
+    if (obstacles_.empty()) return "";
+    Paragraphs text;
+    text.heading("NO OBSERVER CAN CONVERGE");
     for (const Obstacle& obstacle : obstacles_) {
-      out_.bullet(obstacle.why);
-      out_.bullet("to change that: " + obstacle.remedy);
+      text.bullet(obstacle.why);
+      text.bullet("to change that: " + obstacle.remedy);
     }
-    if (!obstacles_.empty()) return;
+    return text.text() + "\n";
+  }
+
+  void say_what_to_try() {
+    out_.heading("WHAT TO TRY");
     if (applicable_ == 0) {
       out_.bullet("no method is about this plant; see above what each asks for");
       return;

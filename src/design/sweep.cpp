@@ -8,6 +8,7 @@
 #include <set>
 
 #include "sampled_data_observers/design/packing.h"
+#include "sampled_data_observers/design/request_error.h"
 #include "sampled_data_observers/design/workers.h"
 
 namespace sampled_data_observers {
@@ -124,6 +125,12 @@ bool is_better(Objective objective, double first, double second) {
 }
 
 std::vector<double> sweep_times(double low, double high, std::size_t points) {
+  if (low > high || (low == high && points > 1)) {
+    char text[96];
+    std::snprintf(text, sizeof text, "T2 LOW HIGH: expected LOW < HIGH, found %.9g and %.9g", low,
+                  high);
+    throw DesignError(text);
+  }
   std::vector<double> times;
   for (std::size_t i = 0; i < points; ++i) {
     const double share =
@@ -165,8 +172,7 @@ void require_sense(const SweepRequest& request) {
       throw DesignError(method->name() + " is not for this plant: " + fault.what());
     }
     if (!serves(*method, subject, request.objective)) {
-      throw DesignError(method->name() + " can't serve the objective " +
-                        to_string(request.objective) + " for this plant");
+      throw cannot_serve(*method, subject, request.objective);
     }
   }
   for (const auto& [name, value] : request.given) {

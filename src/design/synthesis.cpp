@@ -10,6 +10,7 @@
 #include "sampled_data_observers/design/analysis.h"
 #include "sampled_data_observers/design/packing.h"
 #include "sampled_data_observers/design/parameter_search.h"
+#include "sampled_data_observers/design/request_error.h"
 #include "sampled_data_observers/design/require_detectable.h"
 #include "sampled_data_observers/design/workers.h"
 
@@ -100,29 +101,24 @@ class Synthesis {
     try {
       method_.require_applicable(problem_.subject);
     } catch (const std::invalid_argument& fault) {
-      throw DesignError(method_.name() + " is not for this plant: " + fault.what());
+      throw RequestError(method_.name() + " is not for this plant: " + fault.what());
     }
     require_detectable(problem_.subject.plant);
     const std::vector<DesignParameter> known = method_.parameters(problem_.subject);
     for (const auto& [name, value] : problem_.given) {
       parameter_named(known, name);
       if (!std::isfinite(value)) {
-        throw DesignError("parameter " + name + ": expected a finite number");
+        throw RequestError("parameter " + name + ": expected a finite number");
       }
     }
     for (const std::string& name : problem_.searched) {
       if (!parameter_named(known, name).search) {
-        throw DesignError(method_.name() + " can't search for " + name + ": give a number");
+        throw RequestError(method_.name() + " can't search for " + name + ": give a number");
       }
     }
     const auto objectives = method_.objectives(problem_.subject);
     if (std::find(objectives.begin(), objectives.end(), problem_.objective) == objectives.end()) {
-      std::string names;
-      for (const Objective objective : objectives) {
-        names += (names.empty() ? "" : ", ") + std::string(to_string(objective));
-      }
-      throw DesignError(method_.name() + " can't serve the objective " +
-                        to_string(problem_.objective) + " for this plant; it can serve " + names);
+      throw cannot_serve(method_, problem_.subject, problem_.objective);
     }
   }
 
@@ -133,7 +129,7 @@ class Synthesis {
       if (parameter.name == name) return parameter;
       names += (names.empty() ? "" : ", ") + parameter.name;
     }
-    throw DesignError(method_.name() + " has no parameter '" + name + "'; it has " + names);
+    throw RequestError(method_.name() + " has no parameter '" + name + "'; it has " + names);
   }
 
   double starting_decay() const {
@@ -238,7 +234,7 @@ class Synthesis {
   std::string explanation() const {
     std::ostringstream text;
     text << method_.name() << " found no design that " << method_.theorem().name()
-         << " accepts, in " << attempts_ << " attempts:";
+         << " accepts, in " << attempts_ << (attempts_ == 1 ? " attempt:" : " attempts:");
     for (const auto& [message, count] : messages_) {
       text << "\n  " << count << " x " << (message.empty() ? "not verified" : message);
     }

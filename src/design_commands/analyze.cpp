@@ -14,7 +14,9 @@
 #include "sampled_data_observers/config/named_values.h"
 #include "sampled_data_observers/config/yaml_file.h"
 #include "sampled_data_observers/design/analysis.h"
+#include "sampled_data_observers/design/request_error.h"
 #include "sampled_data_observers/design/workers.h"
+#include "sampled_data_observers/replay/option_checks.h"
 #include "sampled_data_observers/ros/plant_plugins.h"
 
 namespace sampled_data_observers {
@@ -114,6 +116,9 @@ void print_result(Objective objective, const Design& design) {
     separator = ", ";
   }
   std::printf("%sT2 = %.6g s\n", separator, certificate.subject.T2);
+  if (design.has_no_maximum) {
+    std::printf("             the search ended here: no largest value was found\n");
+  }
 }
 
 void analyze_command(const AnalyzeArguments& arguments, const std::string& command_line) {
@@ -136,16 +141,14 @@ void analyze_command(const AnalyzeArguments& arguments, const std::string& comma
       const Design found = analyze(problem, options);
       print_result(objective, found);
       if (!main) main = found;
+    } catch (const RequestError&) {
+      throw;
     } catch (const DesignError& error) {
       std::printf("  %-9s  no proof: %s\n", to_string(objective), error.what());
     }
   }
   if (!main) throw ExitStatus{kNoDesign};
-  std::printf("By the proof for %s:\n", to_string(main->objective));
-  for (const GuaranteedFigure& figure :
-       problem.theorem->guaranteed_figures(main->certificate.subject, main->certificate.values)) {
-    std::printf("  %s: %.6g\n", figure.meaning.c_str(), figure.value);
-  }
+  print_figures(*main);
   if (arguments.output.empty()) return;
   save_gain_file(*main, files.front(), config.plant_hash, command_line, arguments.output);
   std::printf("written to %s\n", arguments.output.c_str());
@@ -177,12 +180,16 @@ void add_analyze(CLI::App& app, const std::string& command_line) {
       ->check(CLI::IsMember({"feasible", "min-gamma", "max-T2", "max-decay"}));
   command->add_option("-o,--output", arguments->output,
                       "Gain file to write, with the first of the proofs found");
-  command->add_option("--T1", arguments->T1, "Instead of that of the gain file [s]");
-  command->add_option("--T2", arguments->T2, "Instead of that of the gain file [s]");
+  command->add_option("--T1", arguments->T1, "Instead of that of the gain file [s]")
+      ->check(number_above(0));
+  command->add_option("--T2", arguments->T2, "Instead of that of the gain file [s]")
+      ->check(number_above(0));
   command->add_option("--set", arguments->assignments,
                       "Fix a parameter of the theorem, NAME=NUMBER; may be given several times");
-  command->add_option("--jobs", arguments->jobs, "Solvers at a time (default: all processors)");
-  command->add_option("--time-limit", arguments->time_limit, "For one attempt [s]");
+  command->add_option("--jobs", arguments->jobs, "Solvers at a time (default: all processors)")
+      ->check(whole_number_at_least(1));
+  command->add_option("--time-limit", arguments->time_limit, "For one attempt [s]")
+      ->check(number_at_least(0));
   command->callback([arguments, command_line] { analyze_command(*arguments, command_line); });
 }
 

@@ -11,6 +11,7 @@
 #include "sampled_data_observers/config/design_config.h"
 #include "sampled_data_observers/design/design_method.h"
 #include "sampled_data_observers/design/explanation.h"
+#include "sampled_data_observers/replay/option_checks.h"
 #include "sampled_data_observers/replay/plot_program.h"
 #include "sampled_data_observers/ros/plant_plugins.h"
 
@@ -71,10 +72,14 @@ void add_explain(CLI::App& app) {
   command->add_option("plant", arguments->files, "Files with plant, sensors and design")
       ->required()
       ->type_name("PLANT");
-  command->add_option("--T1", arguments->T1, "Instead of design/sampling/T1 [s]");
-  command->add_option("--T2", arguments->T2, "Instead of design/sampling/T2 [s]");
-  command->add_option("--plot", arguments->plot,
-                      "Draw observability over the time between events (.png, .pdf, .svg)");
+  command->add_option("--T1", arguments->T1, "Instead of design/sampling/T1 [s]")
+      ->check(number_above(0));
+  command->add_option("--T2", arguments->T2, "Instead of design/sampling/T2 [s]")
+      ->check(number_above(0));
+  command
+      ->add_option("--plot", arguments->plot,
+                   "Draw observability over the time between events (.png, .pdf, .svg)")
+      ->check(picture_file());
   command->callback([arguments] { explain_command(*arguments); });
 }
 

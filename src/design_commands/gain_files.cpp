@@ -1,6 +1,7 @@
 #include "gain_files.h"
 
 #include <CLI/Error.hpp>
+#include <cstdio>
 #include <ctime>
 #include <filesystem>
 #include <fstream>
@@ -78,6 +79,17 @@ std::string save_gain_file(const Design& design, const std::string& plant_file,
   file.close();
   if (!file) throw std::runtime_error("cannot write " + output);
   return text.str();
+}
+
+void print_figures(const Design& design) {
+  const Certificate& certificate = design.certificate;
+  const std::vector<GuaranteedFigure> figures =
+      certificate.theorem->guaranteed_figures(certificate.subject, certificate.values);
+  if (figures.empty()) return;
+  std::printf("By the proof for %s:\n", to_string(design.objective));
+  for (const GuaranteedFigure& figure : figures) {
+    std::printf("  %s: %.6g\n", figure.meaning.c_str(), figure.value);
+  }
 }
 
 }  // namespace sampled_data_observers

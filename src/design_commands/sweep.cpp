@@ -18,6 +18,7 @@
 #include "sampled_data_observers/design/csv.h"
 #include "sampled_data_observers/design/sweep_folder.h"
 #include "sampled_data_observers/design/workers.h"
+#include "sampled_data_observers/replay/option_checks.h"
 #include "sampled_data_observers/replay/plot_program.h"
 #include "sampled_data_observers/replay/progress_bar.h"
 #include "sampled_data_observers/ros/plant_plugins.h"
@@ -237,14 +238,19 @@ void add_sweep(CLI::App& app, const std::string& command_line) {
   command
       ->add_option("--T2", arguments->T2,
                    "LOW and HIGH of T2 [s] (default: design/sampling T1 and T2)")
-      ->expected(2);
-  command->add_option("--T1", arguments->T1,
-                      "T1 of all designs [s] (default: design/sampling, at most LOW)");
+      ->expected(2)
+      ->check(number_above(0));
+  command
+      ->add_option("--T1", arguments->T1,
+                   "T1 of all designs [s] (default: design/sampling, at most LOW)")
+      ->check(number_above(0));
   command->add_option("--points", arguments->points, "Number of T2")->check(CLI::Range(1, 100000));
   command->add_option("--set", arguments->assignments,
                       "Fix a parameter of the methods, NAME=NUMBER; may be given several times");
-  command->add_option("--jobs", arguments->jobs, "Points at a time (default: all processors)");
-  command->add_option("--time-limit", arguments->time_limit, "For one attempt [s]");
+  command->add_option("--jobs", arguments->jobs, "Points at a time (default: all processors)")
+      ->check(whole_number_at_least(1));
+  command->add_option("--time-limit", arguments->time_limit, "For one attempt [s]")
+      ->check(number_at_least(0));
   command->callback([arguments, command_line] { sweep_command(*arguments, command_line); });
 }
 

@@ -8,9 +8,12 @@
 #include "commands.h"
 #include "cross_check.h"
 #include "gain_files.h"
+#include "sampled_data_observers/certificate/matrix_functions.h"
 #include "sampled_data_observers/config/design_config.h"
+#include "sampled_data_observers/design/request_error.h"
 #include "sampled_data_observers/design/synthesis.h"
 #include "sampled_data_observers/design/workers.h"
+#include "sampled_data_observers/replay/option_checks.h"
 #include "sampled_data_observers/ros/plant_plugins.h"
 
 namespace sampled_data_observers {
@@ -29,6 +32,23 @@ struct SynthesizeArguments {
   double time_limit = 20.0;
   std::string cross_check;
 };
+
+/// Where only its bound keeps a gain small, the estimate may be of little use in noise.
+void note_gains_near_their_bound(const Design& design) {
+  constexpr double kNear = 0.8;
+  const auto bound = design.parameters.find("gain_bound");
+  if (bound == design.parameters.end()) return;
+  const Certificate& certificate = design.certificate;
+  for (const NamedShape& shape : certificate.theorem->gains(certificate.subject)) {
+    if (shape.name.front() != 'L') continue;  // the others have no bound
+    const double norm = norm2(certificate.values.at(shape.name));
+    if (norm < kNear * bound->second) continue;
+    std::printf(
+        "note: the norm of %s, %.4g, is near gain_bound = %.4g: hardly anything else limits it. A "
+        "smaller bound\n(--set gain_bound=NUMBER) makes the estimate less sensitive to noise.\n",
+        shape.name.c_str(), norm, bound->second);
+  }
+}
 
 void synthesize_command(const SynthesizeArguments& arguments, const std::string& command_line) {
   const DesignConfig config = read_design_config(arguments.files, load_plant_plugin);
@@ -57,14 +77,19 @@ void synthesize_command(const SynthesizeArguments& arguments, const std::string&
   Design design;
   try {
     design = synthesize(*find_design_method(arguments.method), problem, options);
+  } catch (const RequestError&) {
+    throw;
   } catch (const DesignError& error) {
     std::fprintf(stderr, "design: %s\n", error.what());
     throw ExitStatus{kNoDesign};
   }
   const std::string text = save_gain_file(design, arguments.files.front(), config.plant_hash,
                                           command_line, arguments.output);
-  std::printf("%s\nwritten to %s after %zu attempts in %.1f s\n", text.c_str(),
-              arguments.output.c_str(), design.attempts, design.seconds);
+  std::printf("%s\nwritten to %s after %zu attempt%s in %.1f s\n", text.c_str(),
+              arguments.output.c_str(), design.attempts, design.attempts == 1 ? "" : "s",
+              design.seconds);
+  print_figures(design);
+  note_gains_near_their_bound(design);
   if (!arguments.cross_check.empty()) {
     cross_check(*find_design_method(arguments.method), design, arguments.time_limit);
   }
@@ -91,9 +116,9 @@ void add_synthesize(CLI::App& app, const std::string& command_line) {
   command->add_option("--objective", arguments->objective, "What to look for")
       ->check(CLI::IsMember({"feasible", "min-gamma", "max-T2", "max-decay"}));
   command->add_option("--T1", arguments->T1, "Instead of design/sampling/T1 [s]")
-      ->check(CLI::PositiveNumber);
+      ->check(number_above(0));
   command->add_option("--T2", arguments->T2, "Instead of design/sampling/T2 [s]")
-      ->check(CLI::PositiveNumber);
+      ->check(number_above(0));
   command->add_option("--set", arguments->assignments,
                       "Fix a parameter of the method, NAME=NUMBER; may be given several times");
   command
@@ -101,8 +126,10 @@ void add_synthesize(CLI::App& app, const std::string& command_line) {
                    "Search for a parameter that has a default, such as a; may be given several "
                    "times")
       ->type_name("NAME");
-  command->add_option("--jobs", arguments->jobs, "Solvers at a time (default: all processors)");
-  command->add_option("--time-limit", arguments->time_limit, "For one attempt [s]");
+  command->add_option("--jobs", arguments->jobs, "Solvers at a time (default: all processors)")
+      ->check(whole_number_at_least(1));
+  command->add_option("--time-limit", arguments->time_limit, "For one attempt [s]")
+      ->check(number_at_least(0));
   command
       ->add_option("--cross-check", arguments->cross_check,
                    "Solve the design's semidefinite program with a second solver, too, and compare "

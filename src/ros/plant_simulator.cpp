@@ -104,7 +104,7 @@ void PlantSimulatorNodelet::run() {
     run_by_clock();
   }
   if (!running_) return;
-  NODELET_INFO("simulation ended: %s; %zu jumps", simulator_->describe_end().c_str(),
+  NODELET_INFO("the simulation %s; %zu jumps", simulator_->describe_end().c_str(),
                static_cast<std::size_t>(simulator_->jumps()));
   pause(0.5);  // lets the last messages reach recorders
   const bool is_own_node = getName() == ros::this_node::getName();

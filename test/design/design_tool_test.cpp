@@ -159,8 +159,87 @@ TEST_F(DesignTool, RefusesNumbersThatAreNone) {
   EXPECT_TRUE(in_file.says("plant/A")) << in_file.output;
   EXPECT_TRUE(in_file.says("finite number")) << in_file.output;
   const ToolRun given = synthesize(write("plant.yaml", oscillator()), "--set delta=nan");
-  EXPECT_EQ(given.status, 3);
+  EXPECT_EQ(given.status, 1);
   EXPECT_TRUE(given.says("parameter delta: expected a finite number")) << given.output;
+}
+
+TEST_F(DesignTool, RefusesOptionsThatAreNoNumbers) {
+  const std::string plant = write("plant.yaml", oscillator());
+  const std::string commands[] = {
+      "synthesize " + plant + " --method ferrante2019_proposition2 -o " + path("gains.yaml"),
+      "analyze " + path("gains.yaml"), "explain " + plant,
+      "sweep " + plant + " -o " + path("folder")};
+  for (const std::string& command : commands) {
+    for (const std::string option : {"--T1", "--T2"}) {
+      for (const std::string value : {"nan", "-1"}) {
+        const bool is_range = option == "--T2" && command.find("sweep") == 0;
+        const ToolRun refused = run(command + " " + option + " " + value + (is_range ? " 1" : ""));
+        EXPECT_GT(refused.status, 99) << command;
+        EXPECT_TRUE(refused.says(option + ": expected a number > 0, found " + value))
+            << refused.output;
+      }
+    }
+    if (command.find("explain") == 0) continue;
+    EXPECT_TRUE(run(command + " --time-limit nan").says("expected a number >= 0, found nan"));
+    EXPECT_TRUE(run(command + " --jobs 0").says("expected a whole number >= 1, found 0"));
+  }
+  EXPECT_FALSE(fs::exists(path("gains.yaml")));
+}
+
+TEST_F(DesignTool, SaysWhichObjectivesAMethodCanServe) {
+  const std::string plant = write("plant.yaml", oscillator());  // no disturbance
+  const std::string expected =
+      "can't serve the objective min-gamma for this plant; it can serve feasible, max-T2, "
+      "max-decay";
+  const ToolRun made = synthesize(plant, "--objective min-gamma");
+  EXPECT_EQ(made.status, 1);
+  EXPECT_TRUE(made.says(expected)) << made.output;
+  const ToolRun swept = run("sweep " + plant + " -o " + path("folder") +
+                            " --method ferrante2019_proposition2 --objective min-gamma");
+  EXPECT_EQ(swept.status, 1);
+  EXPECT_TRUE(swept.says(expected)) << swept.output;
+}
+
+TEST_F(DesignTool, SaysWhatADesignForTheLeastGainCosts) {
+  const std::string plant = write(
+      "plant.yaml", oscillator("  parameters", "  N: [[1], [0]]\n  C_p: [[1, 0]]\n  parameters"));
+  const ToolRun bounded = synthesize(plant, "--objective min-gamma --set gain_bound=3");
+  ASSERT_EQ(bounded.status, 0) << bounded.output;
+  EXPECT_TRUE(bounded.says("final error over noise")) << bounded.output;
+  EXPECT_TRUE(bounded.says("is near gain_bound = 3")) << bounded.output;
+  const ToolRun free = synthesize(plant, "--set gain_bound=1e6");
+  ASSERT_EQ(free.status, 0) << free.output;
+  EXPECT_FALSE(free.says("is near gain_bound")) << free.output;
+}
+
+TEST_F(DesignTool, SaysThatAnAnalysisFoundNoLargestValue) {
+  const std::string decaying = write("decaying.yaml",
+                                     "plant: {states: [z1, z2], A: [[-1, 0], [0, -2]]}\n"
+                                     "sensors: {s: {C: [[1, 0]], source: {topic: s}}}\n");
+  const std::string gains = write("gains.yaml",
+                                  "observer: IntersampleInjectionObserver\n"
+                                  "sampling: {T1: 0.1, T2: 0.3}\n"
+                                  "gains: {L: [[0], [0]], H: [[-1]]}\n");
+  const std::string command = "analyze " + gains + " --plant " + decaying +
+                              " --theorem ferrante2019_corollary1 --objective max-T2 --set "
+                              "lambda_t=0.05";
+  const ToolRun unlimited = run(command);
+  EXPECT_EQ(unlimited.status, 0) << unlimited.output;
+  EXPECT_TRUE(unlimited.says("no largest value was found")) << unlimited.output;
+  const ToolRun unknown = run(command + " --set foo=3");
+  EXPECT_EQ(unknown.status, 1) << unknown.output;
+}
+
+TEST_F(DesignTool, ExplainsFirstThatNothingCanConverge) {
+  const std::string plant =
+      write("plant.yaml", oscillator("[[0, 1], [-4, 0]]", "[[-0.1, 0], [0.2, 0.5]]"));
+  const ToolRun explained = run("explain " + plant);
+  EXPECT_EQ(explained.output.find("NO OBSERVER CAN CONVERGE"), 0u) << explained.output;
+  EXPECT_TRUE(explained.says("no: not detectable")) << explained.output;
+  EXPECT_FALSE(explained.says("applies: ")) << explained.output;
+  EXPECT_TRUE(explained.says("states that y shows")) << explained.output;
+  EXPECT_FALSE(run("explain " + write("plant.yaml", oscillator())).says("states that y shows"));
+  EXPECT_GT(run("explain " + plant + " --plot x.gif").status, 99);
 }
 
 TEST_F(DesignTool, NamesTheModeThatCannotBeDetected) {
@@ -228,7 +307,7 @@ TEST_F(DesignTool, NamesWhatIsMissing) {
 
 TEST_F(DesignTool, RefusesParametersThatAMethodDoesNotHave) {
   const ToolRun refused = synthesize(write("plant.yaml", oscillator()), "--set alpha=1");
-  EXPECT_EQ(refused.status, 3);
+  EXPECT_EQ(refused.status, 1);
   EXPECT_TRUE(refused.says("has no parameter 'alpha'; it has lambda_t, delta, gain_bound"))
       << refused.output;
 }

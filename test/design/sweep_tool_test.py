@@ -154,7 +154,8 @@ class SweepTest(ToolTest):
 
     def test_bad_requests_are_refused(self):
         self.assertIn("T1", self.sweep("out", *self.RANGE, "--T1", "0.3", status=1))
-        self.assertIn("increasing", self.sweep("out", "--T2", "0.4", "0.2", status=1))
+        self.assertIn("expected LOW < HIGH, found 0.4 and 0.2",
+                      self.sweep("out", "--T2", "0.4", "0.2", status=1))
         self.assertIn("parameter 'x'", self.sweep("out", *self.RANGE, "--set", "x=1", status=1))
         self.assertFalse(os.path.exists(self.path("out")))
 

@@ -38,9 +38,10 @@ struct Design {
 /// the T2 of the problem, or with a rate of 0.1/T2, and ends at 1024 times that). Then, with
 /// the gains fixed, looks for a proof that reaches further than the one that led to them, as Remark
 /// 9 of ferrante2019 proposes.
-/// @throws DesignError when the method is not about the plant or the objective, a parameter means
-/// nothing to it or is not finite, or no attempt led to gains that the theorem's own conditions
-/// accept; the message says what was tried and what to change.
+/// @throws RequestError when the method is not about the plant or the objective, or a parameter
+/// means nothing to it or is not finite; DesignError when the plant can't be observed, or no
+/// attempt led to gains that the theorem's own conditions accept; the message says what was tried
+/// and what to change.
 Design synthesize(const DesignMethod& method, const DesignProblem& problem,
                   const SynthesisOptions& options);
 
