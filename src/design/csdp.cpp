@@ -111,7 +111,8 @@ void use_one_thread() {
 LmiSolution solve_with_csdp(const LmiProgram& program, const SolverOptions& options) {
   use_one_thread();
   const auto start = std::chrono::steady_clock::now();
-  const StandardForm form = standard_form(program, options);
+  const std::vector<LmiProgram::Block> blocks = program.compile();
+  const StandardForm form = standard_form(program, blocks, options);
   const auto variables = static_cast<int>(form.objective.size());
   int n = 0;
   for (const AffineMatrix& block : form.blocks) n += static_cast<int>(block.constant.rows());
@@ -133,7 +134,7 @@ LmiSolution solve_with_csdp(const LmiProgram& program, const SolverOptions& opti
   const std::vector<double> x(y + 1, y + 1 + variables);
   free_prob(n, variables, C, a, constraints, X, y, Z);
 
-  take_variables(program, x, solution);
+  take_variables(program, blocks, x, solution);
   solution.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return solution;

@@ -157,7 +157,8 @@ LmiSolution solve_with_sdpa(const LmiProgram& program, double time_limit,
   const auto start = Clock::now();
   LmiSolution solution;
   solution.solver = "SDPA";
-  const StandardForm form = standard_form(program, options);
+  const std::vector<LmiProgram::Block> blocks = program.compile();
+  const StandardForm form = standard_form(program, blocks, options);
   const TemporaryFolder folder;
   const std::string result = folder.file("result");
   write_problem(form, folder.file("problem.dat-s"));
@@ -186,7 +187,7 @@ LmiSolution solve_with_sdpa(const LmiProgram& program, double time_limit,
   solution.dual_objective = std::strtod(text_after(output, "objValPrimal").c_str(), nullptr);
   solution.primal_objective = std::strtod(text_after(output, "objValDual").c_str(), nullptr);
   const std::vector<double> x = numbers_between_braces(output, "xVec");
-  if (x.size() == form.objective.size()) take_variables(program, x, solution);
+  if (x.size() == form.objective.size()) take_variables(program, blocks, x, solution);
   return solution;
 }
 

@@ -8,17 +8,18 @@
 
 namespace sampled_data_observers {
 
-StandardForm standard_form(const LmiProgram& program, const SolverOptions& options) {
+StandardForm standard_form(const LmiProgram& program, const std::vector<LmiProgram::Block>& blocks,
+                           const SolverOptions& options) {
   StandardForm form;
   const int variables = program.scalar_variables();
   const auto objective = program.compile_objective();
   // Without objective: maximize t, so that strict blocks are >= t I and t <= 1.
   const int t = objective ? -1 : variables;
   form.objective.assign(static_cast<std::size_t>(variables) + (objective ? 0U : 1U), 0.0);
-  for (LmiProgram::Block& block : program.compile()) {
-    AffineMatrix& matrix = block.matrix;
+  for (const LmiProgram::Block& block : blocks) {
     // No variable changes it, and it would only bound t.
-    if (matrix.is_constant()) continue;
+    if (block.matrix.is_constant()) continue;
+    AffineMatrix matrix = block.matrix;
     if (block.is_strict) {
       const auto size = static_cast<int>(matrix.constant.rows());
       for (int i = 0; i < size; ++i) {
@@ -53,12 +54,12 @@ std::vector<TriangleEntries> triangles_of(const AffineMatrix& block, std::size_t
   return entries;
 }
 
-void take_variables(const LmiProgram& program, const std::vector<double>& x,
-                    LmiSolution& solution) {
+void take_variables(const LmiProgram& program, const std::vector<LmiProgram::Block>& blocks,
+                    const std::vector<double>& x, LmiSolution& solution) {
   if (!std::all_of(x.begin(), x.end(), [](double value) { return std::isfinite(value); })) return;
   solution.values = program.unpack(x);
   solution.margin = std::numeric_limits<double>::infinity();
-  for (const LmiProgram::Block& block : program.compile()) {
+  for (const LmiProgram::Block& block : blocks) {
     const double least = min_eigenvalue(evaluate(block.matrix, x));
     if (block.is_strict) solution.margin = std::min(solution.margin, least);
     // A bound is met up to rounding.

@@ -16,7 +16,9 @@ struct StandardForm {
 
 /// Without objective, the last variable is how far the solution is inside the strict blocks, of
 /// which as much as possible is wanted, up to 1.
-StandardForm standard_form(const LmiProgram& program, const SolverOptions& options);
+/// @param blocks  of the compiled program
+StandardForm standard_form(const LmiProgram& program, const std::vector<LmiProgram::Block>& blocks,
+                           const SolverOptions& options);
 
 /// Entries of the upper triangle of a symmetric matrix.
 using TriangleEntries = std::map<std::pair<int, int>, double>;
@@ -26,6 +28,7 @@ std::vector<TriangleEntries> triangles_of(const AffineMatrix& block, std::size_t
 
 /// Puts what a solver found into a solution, unless it is not finite, with a judgement of the
 /// program's own blocks.
-void take_variables(const LmiProgram& program, const std::vector<double>& x, LmiSolution& solution);
+void take_variables(const LmiProgram& program, const std::vector<LmiProgram::Block>& blocks,
+                    const std::vector<double>& x, LmiSolution& solution);
 
 }  // namespace sampled_data_observers
