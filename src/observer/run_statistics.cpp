@@ -8,6 +8,9 @@ namespace {
 
 constexpr std::memory_order kRelaxed = std::memory_order_relaxed;
 
+/// So many characters of a missing transform are kept.
+constexpr std::size_t kLongestTransform = 160;
+
 void increment(std::atomic<std::uint64_t>& counter) { counter.fetch_add(1, kRelaxed); }
 
 std::optional<Stamp> as_stamp(Stamp stamp) {
@@ -28,6 +31,7 @@ void ChannelStatistics::add(const ChannelStatistics& other) {
   long_intervals += other.long_intervals;
   violations.add(other.violations);
   rewound.add(other.rewound);
+  missing_transform = other.missing_transform;
 }
 
 void RunStatistics::add(const RunStatistics& later) {
@@ -39,6 +43,17 @@ void RunStatistics::add(const RunStatistics& later) {
   newest_estimate = later.newest_estimate;
   error_bound = later.error_bound;
   bound_lost_since = later.bound_lost_since;
+}
+
+StatisticsRecorder::StatisticsRecorder(std::size_t channels) : channels_(channels) {
+  for (Channel& channel : channels_) channel.missing_transform.reserve(kLongestTransform);
+}
+
+void StatisticsRecorder::record_missing_transform(std::size_t index,
+                                                  const std::string& transform) noexcept {
+  Channel& channel = channels_[index];
+  const std::unique_lock<std::mutex> lock(channel.missing_transform_mutex, std::try_to_lock);
+  if (lock.owns_lock()) channel.missing_transform.assign(transform, 0, kLongestTransform);
 }
 
 void StatisticsRecorder::record_event(std::size_t index, const Event& event,
@@ -82,6 +97,8 @@ void StatisticsRecorder::take(RunStatistics& statistics) noexcept {
     to.long_intervals = from.long_intervals.exchange(0, kRelaxed);
     to.violations = from.violations.take();
     to.rewound = from.rewound.take();
+    const std::lock_guard<std::mutex> lock(from.missing_transform_mutex);
+    to.missing_transform = from.missing_transform;
   }
   statistics.lateness = lateness_.take();
   statistics.held = held_.exchange(0, kRelaxed);

@@ -35,9 +35,10 @@ class Replay {
     if (has_frames(config)) transform_topics_ = transform_topics();
     for (const BagChannel& bound : channels_) {
       if (!bound.is_recorded) summary_.not_recorded[bound.channel.name] = bound.topic;
-      intakes_.emplace_back(bound.channel, bound.source,
-                            [this](const EventChannel& channel, const Event& event,
-                                   Reading reading) { handle(channel, event, reading); });
+      intakes_.emplace_back(
+          bound.channel, bound.source,
+          [this](const EventChannel& channel, const Event& event, Reading reading,
+                 const std::string& missing) { handle(channel, event, reading, missing); });
     }
     if (!options.truth_topic.empty()) {
       truth_ = truth_from_topic(config, bag_, options.truth_topic, options.truth_fields);
@@ -166,11 +167,12 @@ class Replay {
     return std::count(transform_topics_.begin(), transform_topics_.end(), topic) > 0;
   }
 
-  void handle(const EventChannel& channel, const Event& event, Reading reading) {
+  void handle(const EventChannel& channel, const Event& event, Reading reading,
+              const std::string& missing) {
     const EventReport report =
         reading == Reading::kEvent
             ? runtime_.receive(channel, event, *clock_, status_)
-            : runtime_.reject(channel, event, outcome_of(reading), *clock_, status_);
+            : runtime_.reject(channel, event, outcome_of(reading), missing, *clock_, status_);
     if (output_.isOpen()) output_.write(resolved("events"), to_ros_time(*clock_), status_);
     count(event, report);
     const bool is_measurement =
@@ -185,7 +187,7 @@ class Replay {
   void count(const Event& event, const EventReport& report) {
     const bool is_sample = event.kind == EventKind::kSample;
     if (!report.used()) {
-      ++summary_.rejected[describe(report)];
+      ++summary_.rejected[status_.reason];
       if (is_sample) ++summary_.samples_rejected;
       return;
     }

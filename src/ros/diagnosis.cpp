@@ -70,9 +70,11 @@ std::string in_words(EventOutcome outcome) {
   return describe(report);
 }
 
-std::string with_remedy(EventOutcome outcome) {
+/// An outcome in words, what it was about (which may be empty), and what to do.
+std::string with_remedy(EventOutcome outcome, const std::string& detail) {
   const std::string advice = remedy(outcome);
-  return in_words(outcome) + (advice.empty() ? "" : " (" + advice + ")");
+  return in_words(outcome) + (detail.empty() ? "" : ": " + detail) +
+         (advice.empty() ? "" : " (" + advice + ")");
 }
 
 }  // namespace
@@ -113,6 +115,17 @@ const char* remedy(EventOutcome outcome) {
   return "";
 }
 
+std::string describe_wrong_type(const std::string& topic, const std::string& published,
+                                const std::string& expected) {
+  return topic + " is published as " + published + ", expected " + expected;
+}
+
+std::string describe_old_stamps(const std::string& topic, Duration behind) {
+  return "stamps on " + topic + " are " + seconds(behind) +
+         " older than the clock: play the bag with --clock and /use_sim_time true, or compare the "
+         "clocks of the hosts";
+}
+
 Diagnosis::Diagnosis(DiagnosisSubject subject)
     : subject_(std::move(subject)),
       window_(subject_.channels.size()),
@@ -121,7 +134,7 @@ Diagnosis::Diagnosis(DiagnosisSubject subject)
 
 void Diagnosis::update(const RunStatistics& window, Stamp now, Duration elapsed) {
   if (now < now_) {  // time went back: what was in the future says nothing
-    std::fill(memory_.begin(), memory_.end(), ChannelMemory());
+    for (ChannelMemory& memory : memory_) memory.forget_events();
     restored_ = 0;
   }
   window_ = window;
@@ -129,7 +142,12 @@ void Diagnosis::update(const RunStatistics& window, Stamp now, Duration elapsed)
   now_ = now;
   elapsed_ = elapsed;
   for (std::size_t i = 0; i < memory_.size(); ++i) {
-    if (window.channels[i].received() > 0) memory_[i].received = now;
+    if (window.channels[i].received() > 0) {
+      const Range& latency = window.channels[i].latency;
+      const bool is_behind = latency.count > 0 && latency.smallest > subject_.history;
+      memory_[i].received = now;
+      memory_[i].behind = is_behind && window.channels[i].used() > 0 ? latency.smallest : 0;
+    }
     if (window.channels[i].used() > 0) memory_[i].used = now;
   }
   const std::optional<Suspension> found = find_suspension();
@@ -140,6 +158,10 @@ void Diagnosis::update(const RunStatistics& window, Stamp now, Duration elapsed)
     restored_ = now;
     suspension_.reset();
   }
+}
+
+void Diagnosis::set_published_type(std::size_t channel, std::string type) {
+  memory_[channel].published_type = std::move(type);
 }
 
 std::optional<Diagnosis::Suspension> Diagnosis::find_suspension() const {
@@ -174,6 +196,8 @@ std::string Diagnosis::why_bound_is_lost() const {
     return "times between samples of " + subject_.channels[i].name + " from " +
            extremes(statistics.interval) + " left [T1, T2]";
   }
+  const std::string old_stamps = why_stamps_are_old();
+  if (!old_stamps.empty()) return old_stamps;
   if (window_.held > 0) return "the model's flow is not finite";
   return "a time without samples above T2, a jump without its outputs, or a bound too large for "
          "the theorem";
@@ -187,18 +211,41 @@ std::string Diagnosis::rejections(const ChannelStatistics& statistics) const {
       commonest = code;
     }
   }
-  return commonest == kOutcomeCodes ? "" : with_remedy(static_cast<EventOutcome>(commonest));
+  if (commonest == kOutcomeCodes) return "";
+  const auto outcome = static_cast<EventOutcome>(commonest);
+  const bool lacks_transform = outcome == EventOutcome::kNoTransform;
+  return with_remedy(outcome, lacks_transform ? statistics.missing_transform : "");
+}
+
+/// Empty where the type is right, or nothing is published.
+std::string Diagnosis::wrong_type(std::size_t channel) const {
+  const DiagnosisSubject::Channel& expected = subject_.channels[channel];
+  const std::string& published = memory_[channel].published_type;
+  if (published.empty() || published == expected.type) return "";
+  return describe_wrong_type(expected.topic, published, expected.type);
+}
+
+/// Empty where those of no channel are.
+std::string Diagnosis::why_stamps_are_old() const {
+  for (std::size_t i = 0; i < memory_.size(); ++i) {
+    if (memory_[i].behind > 0)
+      return describe_old_stamps(subject_.channels[i].topic, memory_[i].behind);
+  }
+  return "";
 }
 
 std::string Diagnosis::why_no_estimate() const {
   std::string silent;
+  std::string mistyped;
   for (std::size_t i = 0; i < subject_.channels.size(); ++i) {
     const ChannelStatistics& statistics = totals_.channels[i];
     const std::string reason = rejections(statistics);
     if (!reason.empty())
       return "messages on " + subject_.channels[i].topic + " rejected: " + reason;
+    if (mistyped.empty()) mistyped = wrong_type(i);
     silent += " " + subject_.channels[i].topic;
   }
+  if (!mistyped.empty()) return mistyped;
   return "nothing was received on" + silent + ": are their publishers running (rostopic info)?";
 }
 
@@ -207,6 +254,7 @@ Finding Diagnosis::estimates() const {
   const double rate = 1.0 / to_seconds(subject_.period);
   const double published = static_cast<double>(window_.lateness.count);
   const double expected = rate * to_seconds(elapsed_);
+  const std::string old_stamps = why_stamps_are_old();
   const Duration latest = window_.lateness.count > 0 ? window_.lateness.largest : 0;
   if (now_ == 0) {
     finding = {HealthLevel::kStale, std::string("no time yet: ") + kNoClock, {}};
@@ -225,6 +273,8 @@ Finding Diagnosis::estimates() const {
                "no estimate since " + instant(*window_.newest_estimate) +
                    ": is the observer switched off, or time before its history?",
                {}};
+  } else if (!old_stamps.empty()) {
+    finding = {HealthLevel::kWarn, old_stamps, {}};
   } else if (window_.held > 0) {
     finding = {HealthLevel::kWarn,
                "the model's flow is not finite: the last estimate is held until the next sample",
@@ -269,7 +319,11 @@ Finding Diagnosis::channel(std::size_t index) const {
   const Stamp received = memory_[index].received;
   const bool is_measured = channel.kind == EventKind::kSample || channel.kind == EventKind::kOutput;
   Finding finding;
-  if (total.received() == 0) {
+  const std::string mistyped = wrong_type(index);
+  if (total.received() == 0 && !mistyped.empty()) {
+    finding.level = HealthLevel::kError;
+    finding.message = mistyped;
+  } else if (total.received() == 0) {
     finding.message = "nothing received on " + channel.topic;
     if (channel.kind != EventKind::kJump && channel.kind != EventKind::kJumpOutput) {
       finding.level = is_measured ? HealthLevel::kStale : HealthLevel::kWarn;
@@ -283,6 +337,9 @@ Finding Diagnosis::channel(std::size_t index) const {
     finding.message = std::to_string(rejected(statistics)) + " of " +
                       std::to_string(statistics.received()) +
                       " rejected: " + rejections(statistics);
+  } else if (memory_[index].behind > 0) {
+    finding.level = HealthLevel::kWarn;
+    finding.message = describe_old_stamps(channel.topic, memory_[index].behind);
   } else if (is_measured && now_ - received > std::max(subject_.sampling.T2, kSilence)) {
     finding.level = HealthLevel::kStale;
     finding.message = "nothing for " + seconds(now_ - received) + " on " + channel.topic +

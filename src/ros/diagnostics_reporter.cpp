@@ -20,10 +20,12 @@ void copy(const Finding& finding, diagnostic_updater::DiagnosticStatusWrapper& s
 DiagnosisSubject diagnosis_subject(const ObserverConfig& config) {
   DiagnosisSubject subject;
   for (const EventChannel& channel : event_channels(config)) {
-    subject.channels.push_back({channel.name, channel.source.topic, channel.kind});
+    subject.channels.push_back(
+        {channel.name, channel.source.topic, channel.kind, channel.source.type});
   }
   subject.period = config.period;
   subject.sampling = config.options.sampling;
+  subject.history = config.options.history.history;
   subject.guarantee = config.guarantee;
   subject.warning = config.warning;
   return subject;
@@ -48,6 +50,11 @@ DiagnosticsReporter::DiagnosticsReporter(const ros::NodeHandle& handle,
                                                      &DiagnosticsReporter::report, this);
 }
 
+void DiagnosticsReporter::note_published_type(std::size_t channel, const std::string& type) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  diagnosis_.set_published_type(channel, type);
+}
+
 void DiagnosticsReporter::report(const ros::SteadyTimerEvent&) {
   const Stamp now = to_stamp(ros::Time::now());
   if (last_now_ == 0 && now > 0) {  // time begins: wait for the first second of it
@@ -55,6 +62,7 @@ void DiagnosticsReporter::report(const ros::SteadyTimerEvent&) {
     return;
   }
   recorder_.take(window_);
+  const std::lock_guard<std::mutex> lock(mutex_);
   diagnosis_.update(window_, now, now - last_now_);
   last_now_ = now;
   updater_.force_update();

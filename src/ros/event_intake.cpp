@@ -11,16 +11,19 @@ EventIntake::EventIntake(EventChannel channel, std::shared_ptr<MessageSource> so
     : channel_(std::move(channel)),
       source_(std::move(source)),
       handle_(std::move(handle)),
-      waiting_(channel_.source.frames.any() ? kQueueLength : 0, channel_.source.frames.timeout) {}
+      waiting_(channel_.source.frames.any() ? kQueueLength : 0, channel_.source.frames.timeout) {
+  missing_.reserve(kLongestPair);
+}
 
 void EventIntake::take(const MessagePointer& message, Stamp receipt, Stamp now) {
   Event event = make_event();
   const Reading reading = source_->read(message, receipt, event);
   if (reading == Reading::kPassedOver) return;
-  if (reading == Reading::kNoTransform && waiting_.push({message, receipt, event.stamp}, now)) {
+  if (reading == Reading::kNoTransform) {
+    if (!waiting_.push({message, receipt, event.stamp}, now)) drop(message, event.stamp);
     return;
   }
-  handle_(channel_, event, reading);
+  handle_(channel_, event, reading, {});
 }
 
 void EventIntake::retry(Stamp now) {
@@ -28,7 +31,7 @@ void EventIntake::retry(Stamp now) {
     Event event = make_event();
     const Reading reading = source_->read(waiting.message, waiting.receipt, event);
     if (reading == Reading::kNoTransform) return false;
-    if (reading != Reading::kPassedOver) handle_(channel_, event, reading);
+    if (reading != Reading::kPassedOver) handle_(channel_, event, reading, {});
     return true;
   };
   waiting_.go_through(now, use, [this](const Waiting& waiting) { drop(waiting); });
@@ -45,10 +48,11 @@ Event EventIntake::make_event() const {
   return event;
 }
 
-void EventIntake::drop(const Waiting& waiting) {
+void EventIntake::drop(const MessagePointer& message, Stamp stamp) {
   Event event = make_event();
-  event.stamp = waiting.stamp;
-  handle_(channel_, event, Reading::kNoTransform);
+  event.stamp = stamp;
+  source_->name_missing_transform(message, stamp, missing_);
+  handle_(channel_, event, Reading::kNoTransform, missing_);
 }
 
 }  // namespace sampled_data_observers

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "sampled_data_observers/ros/clock_watch.h"
+#include "sampled_data_observers/ros/diagnosis.h"
 #include "sampled_data_observers/ros/queue_length.h"
 #include "sampled_data_observers/ros/time_conversion.h"
 
@@ -16,7 +17,8 @@ constexpr std::size_t kStatusesHeld = 16;
 
 EventStatus status_prototype() {
   EventStatus status;
-  status.source = status.reason = std::string(64, ' ');  // room, so that writing allocates nothing
+  status.source = status.reason =
+      std::string(64 + kLongestPair, ' ');  // room, so that writing allocates nothing
   return status;
 }
 
@@ -29,6 +31,7 @@ EventSubscriptions::EventSubscriptions(const ros::NodeHandle& handle, const Obse
       runtime_(runtime),
       publication_(publication),
       name_(std::move(name)),
+      history_(config.options.history.history),
       statuses_(status_prototype(), kStatusesHeld),
       transforms_(std::make_shared<TransformBuffer>(config.static_transforms)) {
   for (const EventChannel& channel : event_channels(config)) add(channel);
@@ -47,9 +50,9 @@ void EventSubscriptions::start() {
 void EventSubscriptions::add(const EventChannel& channel) {
   const std::shared_ptr<MessageSource> source = make_message_source(channel.source, transforms_);
   const auto intake = std::make_shared<EventIntake>(
-      channel, source, [this](const EventChannel& from, const Event& event, Reading reading) {
-        handle(from, event, reading);
-      });
+      channel, source,
+      [this](const EventChannel& from, const Event& event, Reading reading,
+             const std::string& missing) { handle(from, event, reading, missing); });
   const auto deliver = [this, intake](const MessagePointer& message, Stamp receipt) {
     const Stamp now = to_stamp(ros::Time::now());
     if (now == 0) {
@@ -123,20 +126,28 @@ void EventSubscriptions::run_deferred() {
   deferred_.clear();
 }
 
-void EventSubscriptions::handle(const EventChannel& channel, const Event& event, Reading reading) {
+void EventSubscriptions::handle(const EventChannel& channel, const Event& event, Reading reading,
+                                const std::string& missing) {
   const boost::shared_ptr<EventStatus> status = statuses_.take();
   EventReport report;
+  Duration latency = 0;
   {
     const SharedRuntime::Access access = runtime_.access();
-    report = reading == Reading::kEvent
-                 ? access->receive(channel, event, access.now(), *status)
-                 : access->reject(channel, event, outcome_of(reading), access.now(), *status);
-    runtime_.statistics().record_event(channel.index, event, report, access.now() - event.stamp);
+    report = reading == Reading::kEvent ? access->receive(channel, event, access.now(), *status)
+                                        : access->reject(channel, event, outcome_of(reading),
+                                                         missing, access.now(), *status);
+    if (!missing.empty()) runtime_.statistics().record_missing_transform(channel.index, missing);
+    latency = access.now() - event.stamp;
+    runtime_.statistics().record_event(channel.index, event, report, latency);
   }
   if (!report.used()) {
     ROS_WARN_THROTTLE_NAMED(5.0, name_, "event from %s rejected: %s (stamp %.9f s, latency %.9f s)",
-                            channel.name.c_str(), describe(report), to_seconds(event.stamp),
+                            channel.name.c_str(), status->reason.c_str(), to_seconds(event.stamp),
                             status->latency);
+  }
+  if (report.used() && latency > history_ && !has_told_of_old_stamps_) {
+    has_told_of_old_stamps_ = true;
+    ROS_WARN_NAMED(name_, "%s", describe_old_stamps(channel.source.topic, latency).c_str());
   }
   if (report.recovers()) {
     ROS_WARN_THROTTLE_NAMED(5.0, name_, "sample of %s %s (stamp %.9f s)", channel.name.c_str(),

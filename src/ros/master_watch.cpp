@@ -11,6 +11,8 @@
 
 #include <utility>
 
+#include "sampled_data_observers/ros/diagnosis.h"
+
 namespace sampled_data_observers {
 namespace {
 
@@ -32,6 +34,16 @@ bool call_master(const std::string& method, std::vector<std::string> arguments,
   return ros::master::execute(method, list_of(arguments), response, payload, wait);
 }
 
+/// The type of a topic among pairs of topic and type; empty where it is not there, or unknown.
+std::string type_of(const std::string& topic, XmlRpc::XmlRpcValue& published) {
+  for (int i = 0; i < published.size(); ++i) {
+    if (static_cast<std::string>(published[i][0]) != topic) continue;
+    const std::string type = published[i][1];
+    return type == "*" ? "" : type;
+  }
+  return "";
+}
+
 /// As the master tells subscribers of new publishers: that is how roscpp learns of them.
 void tell_of_publishers(const std::string& topic, const XmlRpc::XmlRpcValue& publishers) {
   const ros::XMLRPCManagerPtr& manager = ros::XMLRPCManager::instance();
@@ -49,18 +61,41 @@ void tell_of_publishers(const std::string& topic, const XmlRpc::XmlRpcValue& pub
 }  // namespace
 
 MasterWatch::MasterWatch(const ros::NodeHandle& handle, std::vector<std::string> services,
-                         std::string name)
-    : services_(std::move(services)), name_(std::move(name)) {
+                         std::vector<ExpectedType> topics, TypeReceiver take_type, std::string name)
+    : services_(std::move(services)),
+      topics_(std::move(topics)),
+      take_type_(std::move(take_type)),
+      warned_(topics_.size()),
+      name_(std::move(name)) {
   timer_ = handle.createSteadyTimer(ros::WallDuration(kPeriod),
                                     [this](const ros::SteadyTimerEvent&) { check(); });
 }
 
-void MasterWatch::check() const {
+void MasterWatch::check() {
+  check_types();
   XmlRpc::XmlRpcValue response;
   XmlRpc::XmlRpcValue payload;
   if (call_master("lookupService", {services_.front()}, response, payload)) return;
   const bool answered = response.valid();
   if (answered) register_again();
+}
+
+void MasterWatch::check_types() {
+  XmlRpc::XmlRpcValue response;
+  XmlRpc::XmlRpcValue published;
+  const std::string everywhere;
+  if (!call_master("getPublishedTopics", {everywhere}, response, published)) return;
+  for (std::size_t i = 0; i < topics_.size(); ++i) {
+    const std::string type = type_of(topics_[i].topic, published);
+    take_type_(i, type);
+    if (type.empty() || type == topics_[i].type) {
+      warned_[i].clear();
+    } else if (type != warned_[i]) {
+      warned_[i] = type;
+      ROS_WARN_NAMED(name_, "%s",
+                     describe_wrong_type(topics_[i].topic, type, topics_[i].type).c_str());
+    }
+  }
 }
 
 void MasterWatch::register_again() const {

@@ -52,11 +52,20 @@ void ObserverNodelet::start(const ConfigNode& tree, const ObserverConfig& config
   gains_ = std::make_unique<GainReloader>(tree, config, *runtime_);
   // Their queue has threads of its own, so that events go on while a service works.
   services_ = std::make_unique<ObserverServices>(getMTNodeHandle(), *runtime_, *gains_, getName());
-  master_watch_ = std::make_unique<MasterWatch>(getMTNodeHandle(), services_->names(), getName());
   clock_watch_ = std::make_unique<ClockWatch>(getMTNodeHandle(), getName());
   diagnostics_ =
       std::make_unique<DiagnosticsReporter>(getMTNodeHandle(), getMTPrivateNodeHandle(), getName(),
                                             diagnosis_subject(config), runtime_->statistics());
+  std::vector<ExpectedType> topics;
+  for (const EventChannel& channel : event_channels(config)) {
+    topics.push_back({handle.resolveName(channel.source.topic), channel.source.type});
+  }
+  master_watch_ = std::make_unique<MasterWatch>(
+      getMTNodeHandle(), services_->names(), std::move(topics),
+      [this](std::size_t channel, const std::string& type) {
+        diagnostics_->note_published_type(channel, type);
+      },
+      getName());
   publication_->start(config, getName());
   subscriptions_->start();
   NODELET_INFO("%s: %zu states, estimates at %.6g Hz on %s", type_.c_str(),

@@ -143,10 +143,12 @@ EventReport ObserverRuntime::receive(const EventChannel& channel, const Event& e
 }
 
 EventReport ObserverRuntime::reject(const EventChannel& channel, const Event& event,
-                                    EventOutcome outcome, Stamp now, EventStatus& status) {
+                                    EventOutcome outcome, const std::string& detail, Stamp now,
+                                    EventStatus& status) {
   EventReport report;
   report.outcome = outcome;
   write(channel, event, report, now, status);
+  if (!detail.empty()) status.reason.append(": ").append(detail);
   return report;
 }
 

@@ -31,7 +31,23 @@ geometry_msgs::TransformStamped to_message(const StaticTransform& from) {
   return message;
 }
 
+void append_name(const std::string& frame, std::string& text) {
+  constexpr std::size_t kLongest = 70;
+  if (frame.empty()) {
+    text.append("(no frame)");
+  } else {
+    text.append(frame, 0, kLongest);
+  }
+}
+
 }  // namespace
+
+void write_pair(const std::string& from, const std::string& to, std::string& text) {
+  text.clear();
+  append_name(from, text);
+  text.append(" -> ");
+  append_name(to, text);
+}
 
 TransformBuffer::TransformBuffer(const std::vector<StaticTransform>& transforms) {
   const bool is_static = true;

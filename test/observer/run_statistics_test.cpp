@@ -155,13 +155,30 @@ TEST(StatisticsRecorderTest, KnowsSinceWhenTheBoundIsLost) {
   EXPECT_FALSE(window.bound_lost_since);
 }
 
+TEST(StatisticsRecorderTest, KeepsTheLastMissingTransformOfEachChannel) {
+  StatisticsRecorder recorder(2);
+  RunStatistics window(2);
+  recorder.record_missing_transform(1, "lens -> map");
+  recorder.record_missing_transform(1, "lens -> odom");
+  recorder.take(window);
+  EXPECT_EQ("", window.channels[0].missing_transform);
+  EXPECT_EQ("lens -> odom", window.channels[1].missing_transform);
+  recorder.take(window);
+  RunStatistics totals(2);
+  totals.add(window);
+  EXPECT_EQ("lens -> odom", totals.channels[1].missing_transform);
+}
+
 TEST(StatisticsRecorderTest, AllocatesNothing) {
   if (!test::allocations_are_counted()) GTEST_SKIP() << "a sanitizer allocates";
   const BoundLaw law;
   const Estimate some = estimate(10, 0.5);
   StatisticsRecorder recorder(1);
   RunStatistics window(1);
+  const std::string transform(100, 'x');
+  window.channels[0].missing_transform = transform;  // has room for the next
   const std::size_t before = test::allocations();
+  recorder.record_missing_transform(0, transform);
   recorder.record_event(0, sample(100), used_after(30, IntervalCheck::kLong), 5);
   recorder.record_estimate(law, some, 3);
   recorder.record_tick(100);

@@ -103,6 +103,33 @@ class ExampleTest(ReplayTestCase):
         self.assertEqual(summary["estimates"], alone["estimates"])
         self.assertEqual(summary["final_state"], alone["final_state"])
 
+    def test_the_transform_that_every_sample_lacks_is_named(self):
+        import rosbag
+        import rospy
+        from geometry_msgs.msg import PointStamped
+
+        with rosbag.Bag(self.path("gps.bag"), "w") as bag:
+            for second in range(1, 11):
+                message = PointStamped()
+                message.header.stamp = rospy.Time(second)
+                message.header.frame_id = "gps_origin"
+                bag.write("/gps", message, message.header.stamp)
+        with open(self.path("gps.yaml"), "w") as config:
+            config.write("""
+                observer: ConstantGainObserver
+                plant: {states: [p], A: [[0]]}
+                sensors:
+                  gps:
+                    C: [[1]]
+                    source: {topic: gps, type: geometry_msgs/PointStamped, fields: [point.x],
+                             frame: mapp}
+                sampling: {T1: 1, T2: 1}
+                gains: {L: [[1]]}
+                """)
+        summary = self.replay(self.path("gps.bag"), [self.path("gps.yaml")], "replayed.bag")
+        self.assertEqual({"no transform into the configured frame came in time: "
+                          "gps_origin -> mapp": 10}, summary["rejected"])
+
     def test_the_bag_that_is_read_is_never_written(self):
         run_tool("simulate", MASS_SPRING[0], "-o", self.path("example.bag"), "--duration", "3")
         os.symlink(self.path("example.bag"), self.path("link.png"))

@@ -30,9 +30,10 @@ class DiagnosisTest : public ::testing::Test {
  protected:
   static DiagnosisSubject subject() {
     DiagnosisSubject subject;
-    subject.channels = {{"position", "/position", EventKind::kSample},
-                        {"input", "/input", EventKind::kInput},
-                        {"jumps", "/jumps", EventKind::kJump}};
+    subject.channels = {{"position", "/position", EventKind::kSample, "geometry_msgs/PoseStamped"},
+                        {"input", "/input", EventKind::kInput, "geometry_msgs/TwistStamped"},
+                        {"jumps", "/jumps", EventKind::kJump, "sampled_data_observers/JumpEvent"}};
+    subject.history = 2 * kSecond;
     subject.period = kSecond / 100;
     subject.sampling = {kSecond / 100, kSecond / 2};
     subject.guarantee = "a theorem";
@@ -130,6 +131,54 @@ TEST_F(DiagnosisTest, SaysWhySamplesWereRejected) {
   expect(HealthLevel::kOk, {"used"}, diagnosis_.channel(0));
   EXPECT_EQ("3", value(diagnosis_.channel(0),
                        "in all: older than the history window, the start or the last reset"));
+}
+
+TEST_F(DiagnosisTest, NamesTheTransformThatIsMissing) {
+  RunStatistics window(3);
+  outcome(window, EventOutcome::kNoTransform) = 4;
+  window.channels[0].missing_transform = "gps_origin -> mapp";
+  update(window);
+  expect(HealthLevel::kError, {"in time: gps_origin -> mapp (", "tf_echo"}, diagnosis_.channel(0));
+  expect(HealthLevel::kError, {"gps_origin -> mapp"}, diagnosis_.estimates());
+  outcome(window, EventOutcome::kNoStamp) = 5;
+  update(window);
+  EXPECT_EQ(std::string::npos, diagnosis_.channel(0).message.find("mapp"));
+}
+
+TEST_F(DiagnosisTest, NamesTheWrongTypeOfATopicThatNothingComesFrom) {
+  diagnosis_.set_published_type(0, "sensor_msgs/Imu");
+  diagnosis_.set_published_type(1, "geometry_msgs/TwistStamped");
+  update(RunStatistics(3));
+  const char* wrong =
+      "/position is published as sensor_msgs/Imu, expected geometry_msgs/PoseStamped";
+  expect(HealthLevel::kError, {wrong}, diagnosis_.channel(0));
+  expect(HealthLevel::kWarn, {"nothing received on /input"}, diagnosis_.channel(1));
+  expect(HealthLevel::kStale, {wrong}, diagnosis_.estimates());
+  diagnosis_.set_published_type(0, "");
+  expect(HealthLevel::kStale, {"nothing received on /position"}, diagnosis_.channel(0));
+  diagnosis_.set_published_type(0, "sensor_msgs/Imu");
+  update(good());  // from another publisher
+  expect(HealthLevel::kOk, {"used"}, diagnosis_.channel(0));
+}
+
+TEST_F(DiagnosisTest, StampsOlderThanTheHistoryAreTheCauseAndNotTheModel) {
+  RunStatistics window = good();
+  window.held = 50;
+  window.channels[0].latency = {10, 0, 3 * kSecond, 9 * kSecond};
+  update(window);
+  const std::vector<const char*> cause = {"stamps on /position are 3 s older than the clock",
+                                          "--clock", "/use_sim_time true"};
+  expect(HealthLevel::kWarn, cause, diagnosis_.estimates());
+  expect(HealthLevel::kWarn, cause, diagnosis_.channel(0));
+  window.channels[0] = ChannelStatistics();  // a second without messages changes nothing
+  update(window);
+  expect(HealthLevel::kWarn, cause, diagnosis_.estimates());
+  update(good());
+  expect(HealthLevel::kOk, {"published"}, diagnosis_.estimates());
+  window = good();
+  window.channels[0].latency = {10, 0, kSecond, 9 * kSecond};  // one was late, but not all
+  update(window);
+  expect(HealthLevel::kOk, {"published"}, diagnosis_.estimates());
 }
 
 TEST_F(DiagnosisTest, DuplicatesAloneAreNoFault) {

@@ -2,6 +2,7 @@
 #include "sampled_data_observers/ros/event_intake.h"
 
 #include <geometry_msgs/PointStamped.h>
+#include <geometry_msgs/PoseStamped.h>
 #include <gtest/gtest.h>
 
 #include <boost/make_shared.hpp>
@@ -35,14 +36,16 @@ class EventIntakeTest : public testing::Test {
     Stamp stamp = 0;
     Reading reading = Reading::kEvent;
     double value = 0.0;
+    std::string missing;
   };
 
   EventIntake intake(const EventChannel& channel) {
     return {channel, make_message_source(channel.source, transforms_),
-            [this](const EventChannel& from, const Event& event, Reading reading) {
+            [this](const EventChannel& from, const Event& event, Reading reading,
+                   const std::string& missing) {
               EXPECT_EQ("camera", from.name);
-              handled_.push_back(
-                  {event.stamp, reading, reading == Reading::kEvent ? event.values[0] : 0.0});
+              const double value = reading == Reading::kEvent ? event.values[0] : 0.0;
+              handled_.push_back({event.stamp, reading, value, missing});
             }};
   }
 
@@ -108,6 +111,48 @@ TEST_F(EventIntakeTest, WhatWaitedInVainIsReportedWithItsStamp) {
   EXPECT_EQ(kSecond, handled_[0].stamp);
   EXPECT_EQ(Reading::kNoTransform, handled_[0].reading);
   EXPECT_EQ(EventOutcome::kNoTransform, outcome_of(handled_[0].reading));
+  EXPECT_EQ("camera -> map", handled_[0].missing);
+}
+
+TEST_F(EventIntakeTest, WhatMayNotWaitIsReportedAtOnceWithTheFrameItHasNot) {
+  EventChannel channel = camera();
+  channel.source.frames.timeout = 0;
+  EventIntake intake = this->intake(channel);
+  const auto message = boost::make_shared<geometry_msgs::PointStamped>();
+  message->header.stamp = to_ros_time(kSecond);
+  intake.take(message, 0, kSecond);
+  ASSERT_EQ(1u, handled_.size());
+  EXPECT_EQ(Reading::kNoTransform, handled_[0].reading);
+  EXPECT_EQ(kSecond, handled_[0].stamp);
+  EXPECT_EQ("(no frame) -> map", handled_[0].missing);
+}
+
+TEST_F(EventIntakeTest, OfTwoTransformsThatWhichIsMissingIsNamed) {
+  EventChannel channel = camera();
+  channel.source.type = "geometry_msgs/PoseStamped";
+  channel.source.fields = {"pose.position.x"};
+  channel.source.frames.sensor_frame = "marker";
+  channel.source.frames.body_frame = "base";
+  channel.source.frames.timeout = 0;
+  EventIntake intake = this->intake(channel);
+  const auto message = boost::make_shared<geometry_msgs::PoseStamped>();
+  message->header.stamp = to_ros_time(kSecond);
+  message->header.frame_id = "camera";
+  message->pose.orientation.w = 1.0;
+  intake.take(message, 0, kSecond);
+  know_transform_at(kSecond);
+  intake.take(message, 0, kSecond);
+  ASSERT_EQ(2u, handled_.size());
+  EXPECT_EQ("camera -> map", handled_[0].missing);
+  EXPECT_EQ("base -> marker", handled_[1].missing);
+}
+
+TEST(FramePairTest, LongNamesAreCutToTheRoomThereIs) {
+  std::string text;
+  text.reserve(kLongestPair);
+  const std::string name(1000, 'x');
+  write_pair(name, name, text);
+  EXPECT_EQ(kLongestPair, text.size());
 }
 
 TEST_F(EventIntakeTest, NothingWaitsAfterGivingUp) {
@@ -125,6 +170,7 @@ TEST_F(EventIntakeTest, AMessageWithoutStampWaitsForNothing) {
   EventIntake intake = this->intake(camera());
   intake.take(point(0), 0, kSecond);
   ASSERT_EQ(1u, handled_.size());
+  EXPECT_EQ("", handled_[0].missing);
   EXPECT_EQ(Reading::kEvent, handled_[0].reading);  // which the estimator rejects
   EXPECT_EQ(0, handled_[0].stamp);
 }

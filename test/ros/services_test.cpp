@@ -1,6 +1,7 @@
 // The services that change a running observer, and estimates at once after events.
 #include <gtest/gtest.h>
 #include <ros/ros.h>
+#include <rosgraph_msgs/Log.h>
 #include <sampled_data_observers/EnableSensor.h>
 #include <sampled_data_observers/ReloadGains.h>
 #include <std_srvs/SetBool.h>
@@ -25,6 +26,24 @@ ReloadGains::Response reload(const std::string& file) {
   ReloadGains::Request request;
   request.file = file;
   return call<ReloadGains>("reload_gains", request);
+}
+
+// First, while no other stamp is known: as a bag is that is played by the wall clock.
+TEST(OldStampsTest, TheLogSaysThatTheFirstEventsAreOld) {
+  std::string warning;
+  const auto take = [&](const rosgraph_msgs::LogConstPtr& entry) {
+    if (entry->msg.find("older than the clock") != std::string::npos) warning = entry->msg;
+  };
+  const ros::Subscriber log =
+      ros::NodeHandle().subscribe<rosgraph_msgs::Log>("/rosout", 100, take);
+  test::ObserverClient client;
+  ASSERT_TRUE(client.connect());
+  // That of this test, and that of the observer.
+  ASSERT_TRUE(test::spin_until([&] { return log.getNumPublishers() >= 2; }));
+  EXPECT_EQ(EventStatus::USED, client.sample(ros::Time(1.4e9), {1.0}).outcome);
+  ASSERT_TRUE(test::spin_until([&] { return !warning.empty(); }));
+  EXPECT_EQ(0u, warning.find("stamps on position are "));
+  EXPECT_NE(std::string::npos, warning.find("play the bag with --clock"));
 }
 
 class ServicesTest : public ::testing::Test {

@@ -1,5 +1,7 @@
 // A measurement in the frame of a sensor that turns, with transforms that come late or never.
+#include <diagnostic_msgs/DiagnosticArray.h>
 #include <geometry_msgs/PointStamped.h>
+#include <std_msgs/Float64.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include <cmath>
@@ -8,6 +10,26 @@
 
 namespace sampled_data_observers {
 namespace {
+
+/// Waits until diagnostics say something.
+bool is_diagnosed(const std::string& part) {
+  bool found = false;
+  const auto take = [&](const diagnostic_msgs::DiagnosticArrayConstPtr& array) {
+    for (const diagnostic_msgs::DiagnosticStatus& status : array->status) {
+      found |= status.message.find(part) != std::string::npos;
+    }
+  };
+  const ros::Subscriber subscriber =
+      ros::NodeHandle().subscribe<diagnostic_msgs::DiagnosticArray>("/diagnostics", 100, take);
+  return test::spin_until([&] { return found; });
+}
+
+// First, while nothing was received yet.
+TEST(WrongTypeTest, DiagnosticsNameTheTypeThatIsPublishedAndTheOneExpected) {
+  const ros::Publisher publisher = ros::NodeHandle().advertise<std_msgs::Float64>("camera", 1);
+  EXPECT_TRUE(
+      is_diagnosed("camera is published as std_msgs/Float64, expected geometry_msgs/PointStamped"));
+}
 
 class TransformsTest : public testing::Test {
  protected:
@@ -87,8 +109,11 @@ TEST_F(TransformsTest, MeasurementsWaitForTheirTransformsAndTheEstimateForNothin
   EXPECT_EQ(EventStatus::NO_TRANSFORM, statuses_[1].outcome) << statuses_[1].reason;
   EXPECT_EQ(never, statuses_[1].header.stamp);
   EXPECT_GT(statuses_[1].latency, 0.5);
+  EXPECT_NE(std::string::npos, statuses_[1].reason.find("in time: lens -> map"));
   EXPECT_GT(estimates_.size(), 30u);
   EXPECT_EQ(1u, estimates_.back().samples);
+  measure(never);
+  EXPECT_TRUE(is_diagnosed("in time: lens -> map"));
 }
 
 }  // namespace

@@ -3,7 +3,9 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <mutex>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "sampled_data_observers/observer/estimator.h"
@@ -28,6 +30,8 @@ struct ChannelStatistics {
   Range violations;
   /// Numbers of later events that were applied again, for each late event.
   Range rewound;
+  /// The transform for which an event was rejected last, ever; empty: none was.
+  std::string missing_transform;
 
   std::uint64_t received() const;
   std::uint64_t count(EventOutcome outcome) const {
@@ -65,11 +69,14 @@ struct RunStatistics {
 /// thread at a time may take.
 class StatisticsRecorder {
  public:
-  explicit StatisticsRecorder(std::size_t channels) : channels_(channels) {}
+  explicit StatisticsRecorder(std::size_t channels);
 
   /// @param latency  time of arrival minus stamp [ns]
   void record_event(std::size_t channel, const Event& event, const EventReport& report,
                     Duration latency) noexcept;
+
+  /// The transform for which an event is rejected. Left out where take() just reads the last one.
+  void record_missing_transform(std::size_t channel, const std::string& transform) noexcept;
 
   /// An estimate that was published.
   /// @param lateness  how long after it was due [ns]
@@ -91,6 +98,8 @@ class StatisticsRecorder {
     std::atomic<std::uint64_t> long_intervals{0};
     RangeRecorder violations;
     RangeRecorder rewound;
+    std::mutex missing_transform_mutex;
+    std::string missing_transform;
   };
 
   std::vector<Channel> channels_;

@@ -20,6 +20,10 @@ class DetectedJumps : public MessageSource {
   const char* md5sum() const override { return signal_->md5sum(); }
   MessagePointer deserialize(std::uint8_t* data, std::uint32_t size) const override;
   Reading read(const MessagePointer& message, Stamp receipt, Event& event) override;
+  void name_missing_transform(const MessagePointer& message, Stamp stamp,
+                              std::string& text) const override {
+    signal_->name_missing_transform(message, stamp, text);
+  }
 
  private:
   std::unique_ptr<MessageSource> signal_;

@@ -27,12 +27,16 @@ struct DiagnosisSubject {
     std::string name;
     std::string topic;
     EventKind kind = EventKind::kSample;
+    /// Of its messages, as "package/Type".
+    std::string type;
   };
 
   std::vector<Channel> channels;
   /// Of the estimates [ns].
   Duration period = 0;
   SamplingBounds sampling;
+  /// The history window [ns].
+  Duration history = 0;
   /// As in ObserverConfig.
   std::string guarantee;
   std::string warning;
@@ -49,6 +53,9 @@ class Diagnosis {
   /// @param elapsed  ROS time since the last call [ns]; 0 where time stands still
   void update(const RunStatistics& window, Stamp now, Duration elapsed);
 
+  /// Takes in the type under which the topic of a channel is published; empty where nobody does.
+  void set_published_type(std::size_t channel, std::string type);
+
   /// "estimates": whether they come at their rate and in time.
   Finding estimates() const;
   /// What becomes of the messages of one channel.
@@ -60,9 +67,15 @@ class Diagnosis {
 
  private:
   struct ChannelMemory {
+    std::string published_type;
     /// When the last window with a message, and the last with a used one, ended; 0: never.
     Stamp received = 0;
     Stamp used = 0;
+    /// How far all stamps of the last window with a message lie behind the clock, where that is
+    /// more than the history window; 0: they do not.
+    Duration behind = 0;
+
+    void forget_events() { received = used = behind = 0; }
   };
   /// What the certificate rests on and does not hold.
   struct Suspension {
@@ -73,6 +86,8 @@ class Diagnosis {
   std::optional<Suspension> find_suspension() const;
   std::string why_bound_is_lost() const;
   std::string why_no_estimate() const;
+  std::string wrong_type(std::size_t channel) const;
+  std::string why_stamps_are_old() const;
   std::string rejections(const ChannelStatistics& statistics) const;
 
   const DiagnosisSubject subject_;
@@ -86,6 +101,13 @@ class Diagnosis {
   Stamp restored_ = 0;
   Suspension last_suspension_;
 };
+
+/// What is said of a topic with another type of messages than what is configured.
+std::string describe_wrong_type(const std::string& topic, const std::string& published,
+                                const std::string& expected);
+
+/// What is said of a topic whose stamps lie so far behind the clock.
+std::string describe_old_stamps(const std::string& topic, Duration behind);
 
 /// What a person can do about events with this outcome; empty where nothing need be done.
 const char* remedy(EventOutcome outcome);

@@ -4,6 +4,7 @@
 #include <ros/node_handle.h>
 #include <ros/steady_timer.h>
 
+#include <mutex>
 #include <string>
 
 #include "sampled_data_observers/config/observer_config.h"
@@ -25,10 +26,14 @@ class DiagnosticsReporter {
                       const std::string& name, DiagnosisSubject subject,
                       StatisticsRecorder& recorder);
 
+  /// See Diagnosis::set_published_type(). For any thread that is not in a hurry.
+  void note_published_type(std::size_t channel, const std::string& type);
+
  private:
   void report(const ros::SteadyTimerEvent&);
 
   StatisticsRecorder& recorder_;
+  std::mutex mutex_;  ///< of the diagnosis
   Diagnosis diagnosis_;
   RunStatistics window_;
   Stamp last_now_ = 0;

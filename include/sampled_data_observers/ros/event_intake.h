@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 
 #include "sampled_data_observers/hybrid/waiting_queue.h"
 #include "sampled_data_observers/ros/message_source.h"
@@ -14,8 +15,10 @@ namespace sampled_data_observers {
 class EventIntake {
  public:
   /// Takes what became of a message. The event has a stamp and, where it is one, values that live
-  /// until the handler returns.
-  using Handler = std::function<void(const EventChannel&, const Event&, Reading)>;
+  /// until the handler returns. The text says which transform is missing, for kNoTransform, and is
+  /// empty otherwise.
+  using Handler =
+      std::function<void(const EventChannel&, const Event&, Reading, const std::string&)>;
 
   EventIntake(EventChannel channel, std::shared_ptr<MessageSource> source, Handler handle);
 
@@ -37,12 +40,14 @@ class EventIntake {
   };
 
   Event make_event() const;
-  void drop(const Waiting& waiting);
+  void drop(const MessagePointer& message, Stamp stamp);
+  void drop(const Waiting& waiting) { drop(waiting.message, waiting.stamp); }
 
   EventChannel channel_;
   std::shared_ptr<MessageSource> source_;
   Handler handle_;
   WaitingQueue<Waiting> waiting_;
+  std::string missing_;
 };
 
 }  // namespace sampled_data_observers

@@ -39,12 +39,16 @@ class EventSubscriptions {
   void run_deferred();
   void watch_clock(Stamp now);
   void retry_waiting();
-  void handle(const EventChannel& channel, const Event& event, Reading reading);
+  void handle(const EventChannel& channel, const Event& event, Reading reading,
+              const std::string& missing);
 
   ros::NodeHandle handle_;
   SharedRuntime& runtime_;
   EstimatePublication& publication_;
   const std::string name_;
+  const Duration history_;
+  /// Whether the log said that events are used whose stamps lie behind the clock by more than that.
+  bool has_told_of_old_stamps_ = false;
   MessagePool<EventStatus> statuses_;
   ros::Publisher status_publisher_;
   std::shared_ptr<TransformBuffer> transforms_;

@@ -3,26 +3,45 @@
 #include <ros/node_handle.h>
 #include <ros/steady_timer.h>
 
+#include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
 namespace sampled_data_observers {
 
+/// A topic, and the type of message that is expected on it.
+struct ExpectedType {
+  std::string topic;  ///< resolved
+  std::string type;
+};
+
 /// Looks every few seconds whether the ROS master still knows this nodelet. roscpp registers topics
 /// and services once only, so that after a restart of the master nobody would find them any more,
 /// although connections stay. Then all topics of this process and the services of this nodelet are
-/// registered again.
+/// registered again. It also asks of what type the topics are that this nodelet subscribes to: what
+/// is of another never arrives, and only its publisher is told.
 class MasterWatch {
  public:
+  /// Takes the place of a topic among those expected and the type under which it is published now;
+  /// empty where it is not.
+  using TypeReceiver = std::function<void(std::size_t, const std::string&)>;
+
   /// @param services  of this nodelet, at least one
   /// @param name      of the nodelet, for its log
-  MasterWatch(const ros::NodeHandle& handle, std::vector<std::string> services, std::string name);
+  MasterWatch(const ros::NodeHandle& handle, std::vector<std::string> services,
+              std::vector<ExpectedType> topics, TypeReceiver take_type, std::string name);
 
  private:
-  void check() const;
+  void check();
+  void check_types();
   void register_again() const;
 
   const std::vector<std::string> services_;
+  const std::vector<ExpectedType> topics_;
+  const TypeReceiver take_type_;
+  /// The type that was last warned of, for each topic; empty: none.
+  std::vector<std::string> warned_;
   const std::string name_;
   ros::SteadyTimer timer_;
 };

@@ -58,6 +58,11 @@ class MessageSource {
   /// @param message  one that this source gave
   /// @param receipt  the event's stamp where the source is configured so
   virtual Reading read(const MessagePointer& message, Stamp receipt, Event& event) = 0;
+
+  /// Writes which transform a message lacks (see write_pair()).
+  /// @pre read() gave kNoTransform for it, and this stamp
+  virtual void name_missing_transform(const MessagePointer& message, Stamp stamp,
+                                      std::string& text) const = 0;
 };
 
 /// The source that a configuration asks for.

@@ -73,6 +73,22 @@ class MessageTransformer {
     return &transformed_;
   }
 
+  /// Writes which transform transform() did not find, "from -> to", into a text with room for
+  /// kLongestPair characters: names are cut where they are too long for it.
+  /// @pre the source has frames
+  void name_missing(const M& message, Stamp stamp, const TransformBuffer& transforms,
+                    std::string& text) const {
+    if constexpr (HasBody<M>::value) {
+      const bool is_of_body =
+          !frames_.body_frame.empty() &&
+          (frames_.frame.empty() || transforms.find(frames_.frame, message.header.frame_id, stamp));
+      if (is_of_body) return write_pair(frames_.body_frame, sensor_frame(message), text);
+    }
+    if constexpr (HasFrame<M>::value) {
+      write_pair(message.header.frame_id, frames_.frame, text);
+    }
+  }
+
  private:
   const std::string& sensor_frame(const M& message) const {
     if constexpr (HasChildFrame<M>::value) {

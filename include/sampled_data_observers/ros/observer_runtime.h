@@ -45,8 +45,9 @@ class ObserverRuntime {
                       EventStatus& status);
 
   /// Reports what can't be taken in as an event, with the stamp of `event`.
+  /// @param detail  what is said beside the outcome; may be empty
   static EventReport reject(const EventChannel& channel, const Event& event, EventOutcome outcome,
-                            Stamp now, EventStatus& status);
+                            const std::string& detail, Stamp now, EventStatus& status);
 
   /// The next estimate due at `now`, if any: to be called until there is none. With
   /// `publish_on_event` the last one is that of `now`, where an event was used since the last call.

@@ -14,6 +14,13 @@
 
 namespace sampled_data_observers {
 
+/// Characters of "from -> to", written by write_pair().
+constexpr std::size_t kLongestPair = 144;
+
+/// Writes the names of two frames, cut so that they fit, into a text with that much room: then it
+/// allocates nothing.
+void write_pair(const std::string& from, const std::string& to, std::string& text);
+
 /// The transforms that are known: those of the configuration, and what came on /tf and /tf_static,
 /// of which it keeps the last 10 s. It is filled by whoever reads these topics, live or from a bag,
 /// so that both know the same.

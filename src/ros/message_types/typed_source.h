@@ -78,6 +78,11 @@ class TypedSource : public MessageSource {
     return !counts || thinned_.keep(event.stamp) ? Reading::kEvent : Reading::kPassedOver;
   }
 
+  void name_missing_transform(const MessagePointer& message, Stamp stamp,
+                              std::string& text) const override {
+    transformer_.name_missing(*static_cast<const M*>(message.get()), stamp, *transforms_, text);
+  }
+
  private:
   std::string topic_;
   bool by_receipt_;
