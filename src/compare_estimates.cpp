@@ -42,11 +42,9 @@ int run(int argc, char** argv) {
   }
   if (result.identical > 0 && share >= at_least) return 0;
   std::printf(
-      "they agree, but on too few: expected %.9g %% of all (--at-least). Of the others, %zu rest "
-      "on "
-      "different events\nand %zu are in one bag only. With a publish_delay above the latency of "
-      "all "
-      "messages, estimates wait for their events.\n",
+      "they agree, but on too few: expected %.9g %% of all (--at-least). Of the others, %zu rest\n"
+      "on different events and %zu are in one bag only. With a publish_delay above the latency of\n"
+      "all messages, estimates wait for their events.\n",
       at_least, result.common - result.same_events, all - result.common);
   return 1;
 }
