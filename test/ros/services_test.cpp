@@ -34,8 +34,7 @@ TEST(OldStampsTest, TheLogSaysThatTheFirstEventsAreOld) {
   const auto take = [&](const rosgraph_msgs::LogConstPtr& entry) {
     if (entry->msg.find("older than the clock") != std::string::npos) warning = entry->msg;
   };
-  const ros::Subscriber log =
-      ros::NodeHandle().subscribe<rosgraph_msgs::Log>("/rosout", 100, take);
+  const ros::Subscriber log = ros::NodeHandle().subscribe<rosgraph_msgs::Log>("/rosout", 100, take);
   test::ObserverClient client;
   ASSERT_TRUE(client.connect());
   // That of this test, and that of the observer.

@@ -20,8 +20,8 @@ struct DesignConfig {
 };
 
 /// Reads plant, sensors and the section `design` (sampling, N, C_p, parameters, and A and A_d, see
-/// StatedErrorMaps) of YAML files, and the observer's `sampling` where `design` has none; leaves the
-/// other sections alone.
+/// StatedErrorMaps) of YAML files, and the observer's `sampling` where `design` has none; leaves
+/// the other sections alone.
 /// @throws ConfigError for the first fault found.
 DesignConfig read_design_config(const std::vector<std::string>& files,
                                 const PlantPluginLoader& load_plugin);
