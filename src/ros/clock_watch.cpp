@@ -8,7 +8,7 @@
 namespace sampled_data_observers {
 namespace {
 
-constexpr double kPeriod = 3.0;  // s, of wall time
+constexpr double kPatience = 3.0;  // s, of wall time
 /// One in so many checks is logged.
 constexpr int kChecksPerWarning = 10;
 
@@ -16,7 +16,7 @@ constexpr int kChecksPerWarning = 10;
 
 ClockWatch::ClockWatch(const ros::NodeHandle& handle, std::string name) : name_(std::move(name)) {
   if (!ros::Time::isSimTime()) return;
-  timer_ = handle.createSteadyTimer(ros::WallDuration(kPeriod),
+  timer_ = handle.createSteadyTimer(ros::WallDuration(kPatience),
                                     [this](const ros::SteadyTimerEvent&) { check(); });
 }
 

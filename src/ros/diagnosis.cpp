@@ -196,7 +196,7 @@ std::string Diagnosis::why_bound_is_lost() const {
     return "times between samples of " + subject_.channels[i].name + " from " +
            extremes(statistics.interval) + " left [T1, T2]";
   }
-  const std::string old_stamps = why_stamps_are_old();
+  std::string old_stamps = why_stamps_are_old();
   if (!old_stamps.empty()) return old_stamps;
   if (window_.held > 0) return "the model's flow is not finite";
   return "a time without samples above T2, a jump without its outputs, or a bound too large for "

@@ -36,7 +36,8 @@ bool call_master(const std::string& method, std::vector<std::string> arguments,
 
 /// The type of a topic among pairs of topic and type; empty where it is not there, or unknown.
 std::string type_of(const std::string& topic, XmlRpc::XmlRpcValue& published) {
-  for (int i = 0; i < published.size(); ++i) {
+  const int count = published.size();  // of a list: no iterators
+  for (int i = 0; i < count; ++i) {
     if (static_cast<std::string>(published[i][0]) != topic) continue;
     const std::string type = published[i][1];
     return type == "*" ? "" : type;
