@@ -30,8 +30,9 @@ Reading DetectedJumps::read(const MessagePointer& message, Stamp receipt, Event&
   const Reading reading = signal_->read(message, receipt, sample);
   event.stamp = sample.stamp;
   if (reading != Reading::kEvent) return reading;
-  // Behind such a stamp all others would be out of order.
-  if (sample.stamp - receipt > future_tolerance_) return Reading::kInFuture;
+  // Behind such a stamp all others would be out of order. Before a simulated clock begins, nobody
+  // can tell.
+  if (receipt > 0 && sample.stamp - receipt > future_tolerance_) return Reading::kInFuture;
   double value = 0.0;
   formula_->evaluate(sample.values, nullptr, &value);
   switch (detector_.add(sample.stamp, value)) {

@@ -61,7 +61,8 @@ void TransformBuffer::take(const tf2_msgs::TFMessage& message, bool is_static, S
   const Stamp latest = now + static_cast<Duration>(buffer_.getCacheLength().toNSec());
   for (const geometry_msgs::TransformStamped& transform : message.transforms) {
     if (configured_children_.count(without_slash(transform.child_frame_id)) != 0) continue;
-    if (!is_static && to_stamp(transform.header.stamp) > latest) continue;
+    const bool is_far_ahead = now > 0 && to_stamp(transform.header.stamp) > latest;
+    if (!is_static && is_far_ahead) continue;
     buffer_.setTransform(transform, "tf", is_static);
   }
 }

@@ -92,6 +92,9 @@ TEST(DetectedJumpsTest, AreTheCrossingsOfTheSignal) {
   // The clock is set back: what was before counts no more.
   EXPECT_EQ(Reading::kPassedOver, reading(100, 0.0, 200).reading);
   EXPECT_EQ(150, reading(200, 10.0, 201).event.stamp);
+  // A simulated clock has not begun.
+  EXPECT_EQ(Reading::kPassedOver, reading(600'000'000, 0.0, 0).reading);
+  EXPECT_EQ(Reading::kEvent, reading(600'001'000, 10.0, 0).reading);
 }
 
 TEST(DetectedJumpsTest, CarryTheOutputsThatTheirMessageTells) {

@@ -302,6 +302,12 @@ TEST(TransformBufferTest, ATransformFromFarAheadDoesNotTakeThePlaceOfThePresentO
   EXPECT_FALSE(buffer.find("map", "camera", 1000 * kSecond));
 }
 
+TEST(TransformBufferTest, BeforeASimulatedClockBeginsNoneIsFromFarAhead) {
+  TransformBuffer buffer({});
+  buffer.take(tf("map", "camera", 1000.0, 4.0), false, 0);
+  EXPECT_TRUE(buffer.find("map", "camera", 1000 * kSecond));
+}
+
 TEST(TransformBufferTest, TheConfigurationOverrulesTheTopics) {
   TransformBuffer buffer({static_transform("base_link", "camera", 1.0)});
   buffer.take(tf("base_link", "/camera", 1.0, 5.0), true, kSecond);

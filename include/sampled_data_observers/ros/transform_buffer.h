@@ -30,7 +30,8 @@ class TransformBuffer {
 
   /// Takes in transforms that arrive at `now`. Those of children that the configuration has
   /// transforms for are left out: it overrules the topics. So are moving ones from so far ahead
-  /// that those of the present would be forgotten for them.
+  /// that those of the present would be forgotten for them; before a simulated clock begins, when
+  /// `now` is 0, nobody can tell.
   void take(const tf2_msgs::TFMessage& message, bool is_static, Stamp now);
 
   /// The pose of frame `source` in frame `target` at a stamp; nothing where it is not known (yet).
