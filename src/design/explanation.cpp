@@ -342,19 +342,28 @@ class Explanation {
     out_.heading("METHODS");
     const std::vector<std::size_t> widths = {34};
     for (const DesignMethod* method : design_methods()) {
-      try {
-        method->require_applicable(subject_);
-        if (!obstacles_.empty()) throw std::invalid_argument(obstacles_.front().name);
-        std::string objectives;
-        for (const Objective objective : method->objectives(subject_)) {
-          objectives += (objectives.empty() ? "" : ", ") + std::string(to_string(objective));
-        }
-        out_.row({method->name(), "applies: " + objectives}, widths);
-        ++applicable_;
-      } catch (const std::invalid_argument& fault) {
-        out_.row({method->name(), std::string("no: ") + fault.what()}, widths);
+      const std::string why_not = objection_to(*method);
+      if (!why_not.empty()) {
+        out_.row({method->name(), "no: " + why_not}, widths);
+        continue;
       }
+      std::string objectives;
+      for (const Objective objective : method->objectives(subject_)) {
+        objectives += (objectives.empty() ? "" : ", ") + std::string(to_string(objective));
+      }
+      out_.row({method->name(), "applies: " + objectives}, widths);
+      ++applicable_;
     }
+  }
+
+  /// Why a method can't serve; empty where nothing is against it.
+  std::string objection_to(const DesignMethod& method) const {
+    try {
+      method.require_applicable(subject_);
+    } catch (const std::invalid_argument& fault) {
+      return fault.what();
+    }
+    return obstacles_.empty() ? "" : obstacles_.front().name;
   }
 
   /// What stands before all else: what makes the rest pointless.

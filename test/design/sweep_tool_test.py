@@ -2,13 +2,14 @@
 """`design sweep` and `design explain` as a person runs them: sweep_tool_test.py DESIGN"""
 import csv
 import os
-import shutil
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "support"))
+from folder_test import FolderTest  # noqa: E402
 
 DESIGN = ""  # the tool
 INTERRUPTED = 130
@@ -42,19 +43,10 @@ sensors:
 """
 
 
-class ToolTest(unittest.TestCase):
+class ToolTest(FolderTest):
     def setUp(self):
-        self.folder = tempfile.mkdtemp()
-        self.addCleanup(shutil.rmtree, self.folder)
+        super().setUp()
         self.plant = self.write("plant.yaml", OSCILLATOR)
-
-    def path(self, name):
-        return os.path.join(self.folder, name)
-
-    def write(self, name, text):
-        with open(self.path(name), "w") as file:
-            file.write(text)
-        return self.path(name)
 
     def read(self, name):
         with open(self.path(name)) as file:

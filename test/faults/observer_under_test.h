@@ -36,7 +36,7 @@ class ObserverUnderTest {
   typename Service::Response call(const std::string& name,
                                   const typename Service::Request& request) const {
     // A server closes connections that are not persistent as soon as it has answered, so that
-    // roscpp's clients sometimes miss the answer (ros_comm's issue 1976).
+    // roscpp's clients sometimes miss the answer.
     const bool persistent = true;
     ros::NodeHandle handle;
     ros::ServiceClient client = handle.serviceClient<Service>(name, persistent);

@@ -2,11 +2,12 @@
 """The tools for bags as a person runs them: tools_test.py SIMULATE REPLAY COMPARE_ESTIMATES"""
 import json
 import os
-import shutil
 import subprocess
 import sys
-import tempfile
 import unittest
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "support"))
+from folder_test import FolderTest  # noqa: E402
 
 TOOLS = {}
 WRONG_USAGE = range(100, 128)
@@ -33,20 +34,11 @@ JUMPING = SCENARIO.replace("B: [[0], [1]]}",
                            "B: [[0], [1]], jump_map: {A_d: [[1, 0], [0, 1]]}}\njumps: {}")
 
 
-class ToolsTest(unittest.TestCase):
+class ToolsTest(FolderTest):
     def setUp(self):
-        self.folder = tempfile.mkdtemp()
-        self.addCleanup(shutil.rmtree, self.folder)
+        super().setUp()
         self.scenario = self.write("scenario.yaml", SCENARIO)
         self.observer = self.write("observer.yaml", OBSERVER.replace("DELAY", "0"))
-
-    def path(self, name):
-        return os.path.join(self.folder, name)
-
-    def write(self, name, text):
-        with open(self.path(name), "w") as file:
-            file.write(text)
-        return self.path(name)
 
     def run_tool(self, tool, *arguments):
         result = subprocess.run([TOOLS[tool], *arguments], stdout=subprocess.PIPE,

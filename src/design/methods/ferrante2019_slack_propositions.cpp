@@ -10,8 +10,8 @@
 namespace sampled_data_observers {
 namespace {
 
-/// How a proposition chooses the slack matrices of (37) that are left when X1 = X, X2 = 0, X3 = a
-/// X, X4 = 0 and X^T L = J.
+/// How a proposition chooses the slack matrices of (37). Common to all are X1 = X, X2 = X4 = 0,
+/// X3 = a X and Xᵀ L = J.
 enum class Choice {
   kProposition3,  ///< X6 = Y6 = U, X8 = Y8 = 0, and X5 = X7 = Y5 = Y7 = 0
   kProposition4,  ///< X6 = Y6 = X8 = Y8 = U, and X5 = X7 = Y5 = Y7 = 0
@@ -55,7 +55,7 @@ class SlackProposition : public Ferrante2019Proposition {
     const double a = parameters.at("a");
     if (choice_ != Choice::kProposition5) {
       program.matrix("U", m, m);
-      program.matrix("W", m, m);  // U^T H
+      program.matrix("W", m, m);  // Uᵀ H
     }
     program.require_negative("(36), first", inequality(plant, 1.0, a));
     program.require_negative("(36), second", inequality(plant, std::exp(delta * subject.T2), a));
