@@ -1,0 +1,132 @@
+#!/usr/bin/env python3
+"""The independent check of claims, and a short campaign: attack_test.py DESIGN"""
+
+import copy
+import glob
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+FOLDER = os.path.dirname(os.path.realpath(__file__))
+ROOT = os.path.dirname(os.path.dirname(FOLDER))
+sys.path.insert(0, FOLDER)
+
+import yaml  # noqa: E402
+from mpmath import mp, mpf  # noqa: E402
+
+from conditions import OverTimes  # noqa: E402
+from high_precision import exponential, matrix, minus, norm_1  # noqa: E402
+from independent_check import judge  # noqa: E402
+
+DESIGN = ""  # the tool
+SECONDS = 10.0
+
+
+def certified_gains():
+    for path in sorted(glob.glob(os.path.join(ROOT, "config/examples/*/gains*.yaml"))):
+        with open(path, encoding="utf-8") as stream:
+            if "certificate" in yaml.safe_load(stream):
+                yield path
+
+
+def answers(path, plant=None):
+    return {verdict.name: verdict.answer for verdict in judge(path, plant, SECONDS)}
+
+
+def times(factor):
+    def scale(value):
+        return [scale(entry) for entry in value] if isinstance(value, list) else factor * value
+    return scale
+
+
+# Of a file for ferrante2019_theorem2: section, key, and what is done to its value.
+BREAKS = [
+    ("gains", "L", times(-1)), ("gains", "L", times(3)), ("gains", "H", times(-1)),
+    ("certificate", "P1", times(-1)), ("certificate", "P1", times(100)),
+    ("certificate", "P2", times(-1)), ("certificate", "P2", times(1e-9)),
+    ("certificate", "delta", times(-1)), ("certificate", "delta", times(30)),
+    ("certificate", "lambda_t", times(-1)), ("certificate", "lambda_t", times(100)),
+    ("certificate", "gamma", times(-1)), ("certificate", "gamma", times(0.1)),
+    ("certificate", "T1", times(-1)), ("certificate", "T1", times(10)),
+    ("certificate", "T2", times(3)), ("certificate", "T2", times(-1)),
+    ("certificate", "N", times(10)), ("certificate", "C_p", times(10)),
+]
+
+
+class MatrixTest(unittest.TestCase):
+    def test_exponential_of_a_rotation_and_of_bad_units(self):
+        mp.dps = 60
+        turned = exponential(matrix([[0, 3], [-3, 0]]))
+        self.assertLess(abs(turned[0][0] - mp.cos(3)) + abs(turned[1][0] + mp.sin(3)), mpf(10) ** -58)
+        stiff = matrix([[-2, 10 ** 9], [0, -3]])
+        exact = [[mp.exp(-2), 10 ** 9 * (mp.exp(-2) - mp.exp(-3))], [mpf(0), mp.exp(-3)]]
+        self.assertLess(norm_1(minus(exponential(stiff), exact)), mpf(10) ** -48)
+
+    def test_what_is_violated_for_microseconds_is_found(self):
+        """Definite but for 9 us around one time, which no point of a grid hits."""
+        mp.dps = 60
+        w = mpf(50)
+        # The first entry of a vector that turns is 1 at 0.07123 s, and less at all other times.
+        flow = matrix([[0, -w], [w, 0]])
+        state = [[mp.cos(w * mpf("0.07123"))], [-mp.sin(w * mpf("0.07123"))]]
+        row = [[mpf(1), mpf(0)]]
+        for limit, answer in (("1.0000001", "holds"), ("0.9999999", "violated")):
+            condition = OverTimes("turning", -1, row, flow, state, [[mpf(limit)]], mpf("0.03"),
+                                  mpf("0.12"))
+            self.assertEqual(answer, condition.judge(SECONDS).answer, limit)
+
+
+class ClaimTest(unittest.TestCase):
+    def test_shipped_claims_hold(self):
+        paths = list(certified_gains())
+        self.assertGreaterEqual(len(paths), 10)
+        for path in paths:
+            found = answers(path)
+            self.assertGreaterEqual(len(found), 4, path)
+            self.assertEqual({"holds"}, set(found.values()), f"{path}: {found}")
+
+    def test_each_broken_value_is_refused(self):
+        folder = os.path.join(ROOT, "config/examples/ferrante2019_oscillator")
+        with open(os.path.join(folder, "gains.yaml"), encoding="utf-8") as stream:
+            whole = yaml.safe_load(stream)
+        self.assertEqual("ferrante2019_theorem2", whole["certificate"]["theorem"])
+        with tempfile.TemporaryDirectory() as broken:
+            path = os.path.join(broken, "gains.yaml")
+            for section, key, change in BREAKS:
+                document = copy.deepcopy(whole)
+                document[section][key] = change(document[section][key])
+                with open(path, "w", encoding="utf-8") as stream:
+                    yaml.safe_dump(document, stream)
+                plant = os.path.join(folder, "plant.yaml")
+                self.assertIn("violated", answers(path, plant).values(), f"{key} changed")
+                done = subprocess.run([DESIGN, "verify", path, "--plant", plant, "--rigorous"],
+                                      stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
+                self.assertNotEqual(0, done.returncode, f"{key} changed: {done.stdout}")
+
+    def test_false_claims_are_found(self):
+        claims = sorted(glob.glob(os.path.join(FOLDER, "false_claims", "*_*.yaml")))
+        self.assertGreaterEqual(len(claims), 2)
+        for path in claims:
+            self.assertIn("violated", answers(path).values(), path)
+
+
+class CampaignTest(unittest.TestCase):
+    def test_no_claim_is_false(self):
+        with tempfile.TemporaryDirectory() as folder:
+            done = subprocess.run(
+                [sys.executable, os.path.join(FOLDER, "campaign.py"), "--tool", DESIGN, "-o", folder,
+                 "--plants", "20", "--seconds", "15", "--jobs", "2", "--design-seconds", "4",
+                 "--check-seconds", "3"],
+                stdout=subprocess.PIPE, universal_newlines=True, check=False)
+            print(done.stdout)
+            self.assertEqual(0, done.returncode, done.stdout)
+            with open(os.path.join(folder, "claims.csv"), encoding="utf-8") as stream:
+                held = sum(",holds," in line for line in stream)
+            self.assertGreater(held, 5, done.stdout)
+
+
+if __name__ == "__main__":
+    DESIGN = sys.argv.pop(1)
+    unittest.main()

@@ -1,0 +1,182 @@
+"""A gain file and the plant that it names, read without the package."""
+
+import os
+from dataclasses import dataclass, field
+
+import yaml
+from mpmath import mpf
+
+from high_precision import identity, matrix, stacked, zeros
+
+
+class Unreadable(Exception):
+    """What this reader does not know, or what no claim may say."""
+
+
+def number(value):
+    """PyYAML takes `1e-05` for text. What counts is the double, with which an observer computes."""
+    if isinstance(value, bool):
+        raise Unreadable(f"a number was expected, found {value}")
+    try:
+        return mpf(float(value))
+    except (TypeError, ValueError) as error:
+        raise Unreadable(f"a number was expected, found {value!r}") from error
+
+
+def numbers(rows):
+    return matrix([[number(value) for value in row] for row in rows])
+
+
+@dataclass
+class Mode:
+    label: int
+    A: list
+    A_d: list = None
+
+
+@dataclass
+class Claim:
+    theorem: str
+    observer: str
+    T1: object
+    T2: object
+    states: int
+    modes: list
+    C: list = field(default_factory=list)
+    C_c: list = field(default_factory=list)
+    C_d: list = field(default_factory=list)
+    G: list = None
+    S: list = None
+    lipschitz: object = None
+    vertices: list = field(default_factory=list)
+    N: list = None
+    C_p: list = None
+    gains: dict = field(default_factory=dict)
+    values: dict = field(default_factory=dict)
+
+    @property
+    def A(self):
+        return self.modes[0].A
+
+    @property
+    def A_d(self):
+        return self.modes[0].A_d
+
+    def value(self, name):
+        """A number or a matrix of the certificate or of the gains; `P/1` stands below two keys."""
+        for source in (self.values, self.gains):
+            found = source
+            for key in name.split("/"):
+                if not isinstance(found, dict):
+                    found = None
+                    break
+                found = found.get(key, found.get(int(key)) if key.isdigit() else None)
+                if found is None:
+                    break
+            if found is not None:
+                return numbers(found) if isinstance(found, list) else number(found)
+        raise Unreadable(f"the gain file does not say {name}")
+
+
+def with_biases(rows, biases, own, total):
+    """The outputs' matrix, with ones where a sensor's biases, which are states, enter."""
+    result = [list(row) + [mpf(0)] * (total - len(row)) for row in rows]
+    for row, bias in zip(result, biases):
+        row[own + bias] = mpf(1)
+    return result
+
+
+def extended(rows, total):
+    """A square matrix, with states that stay as they are."""
+    n = len(rows)
+    if n == total:
+        return rows
+    return stacked([[rows, zeros(n, total - n)], [zeros(total - n, total)]])
+
+
+def extended_by_identity(rows, total):
+    n = len(rows)
+    if n == total:
+        return rows
+    return stacked([[rows, zeros(n, total - n)],
+                    [zeros(total - n, n), identity(total - n)]])
+
+
+def read_claim(path, plant_path=None):
+    with open(path, encoding="utf-8") as stream:
+        gain_file = yaml.safe_load(stream)
+    certificate = gain_file.get("certificate")
+    if not isinstance(certificate, dict):
+        raise Unreadable(f"{path} has no certificate")
+    if plant_path is None:
+        plant_path = os.path.join(os.path.dirname(path), certificate["plant"]["file"])
+    with open(plant_path, encoding="utf-8") as stream:
+        document = yaml.safe_load(stream)
+    plant = document["plant"]
+
+    by_timing = {"sampled": [], "continuous": [], "at_jumps": []}
+    names = []
+    for name, sensor in sorted(document.get("sensors", {}).items()):
+        timing = sensor.get("measured", "sampled")
+        by_timing[timing].append(sensor)
+        names += [bias for bias in sensor.get("bias", []) if bias not in names]
+    own = len(plant["states"])
+    total = own + len(names)
+
+    def output(timing):
+        sensors = by_timing[timing]
+        if not sensors:
+            return []
+        if len(sensors) > 1:
+            raise Unreadable(f"several sensors that are {timing}")
+        if "C" not in sensors[0]:
+            return []
+        biases = [names.index(bias) for bias in sensors[0].get("bias", [])]
+        return with_biases(numbers(sensors[0]["C"]), biases, own, total)
+
+    def jump_map(section):
+        if section is None:
+            return None
+        return extended_by_identity(numbers(section["A_d"]), total) if "A_d" in section else None
+
+    stated_A = certificate.get("A")
+    modes = []
+    if "modes" in plant:
+        for label, mode in sorted(plant["modes"].items()):
+            modes.append(Mode(int(label), extended(numbers(mode["A"]), total),
+                              jump_map(mode.get("jump_map", plant.get("jump_map")))))
+    elif "A" in plant:
+        if stated_A is not None and numbers(stated_A) != extended(numbers(plant["A"]), total):
+            raise Unreadable("certificate/A takes the place of the plant's own")
+        modes.append(Mode(0, extended(numbers(plant["A"]), total), jump_map(plant.get("jump_map"))))
+    elif stated_A is not None:
+        modes.append(Mode(0, numbers(stated_A), jump_map(plant.get("jump_map"))))
+    else:
+        raise Unreadable("the plant's flow is not given by matrices")
+    if certificate.get("A_d") is not None:
+        modes[0].A_d = numbers(certificate["A_d"])
+
+    claim = Claim(
+        theorem=certificate["theorem"],
+        observer=gain_file["observer"],
+        T1=number(certificate["T1"]),
+        T2=number(certificate["T2"]),
+        states=total,
+        modes=modes,
+        C=output("sampled"),
+        C_c=output("continuous"),
+        C_d=output("at_jumps"),
+        gains=gain_file["gains"],
+        values=certificate,
+    )
+    if plant.get("G") is not None:
+        claim.G = numbers(plant["G"]) + zeros(total - own, len(plant["G"][0]))
+        claim.S = [row + [mpf(0)] * (total - own) for row in numbers(plant["S"])]
+        claim.lipschitz = plant.get("lipschitz_constant")
+        claim.vertices = [extended(numbers(rows), total)
+                          for _, rows in sorted(plant.get("vertices", {}).items())]
+    if certificate.get("N") is not None:
+        claim.N = numbers(certificate["N"])
+    if certificate.get("C_p") is not None:
+        claim.C_p = numbers(certificate["C_p"])
+    return claim

@@ -1,0 +1,350 @@
+"""What each theorem demands, as the papers have it, with their errors mended."""
+
+import mpmath
+from mpmath import mpf
+
+from claim import Unreadable
+from conditions import Contracts, Fixed, Number, OverTimes, Statement
+from high_precision import (exponential, identity, inverse, minus, null_space, pivots_and_factor, plus,
+                            product, products, solved, stacked, symmetrized, times, transposed, zeros)
+
+
+def root_of(P):
+    """Z with Z' Z = P; nothing where P is not positive definite, which another condition says."""
+    factor = pivots_and_factor(P)[1]
+    return transposed(factor) if factor else None
+
+
+def between(low, high, count=7):
+    """Times for a look at the error itself."""
+    low = max(low, high / 1000)
+    return [low + (high - low) * k / (count - 1) for k in range(count)]
+
+
+def times_are_valid(claim, T1_may_be_zero=False):
+    sampling = claim.T1 > 0 or (T1_may_be_zero and claim.T1 == 0)
+    return Statement("0 < T1 <= T2", bool(sampling and claim.T1 <= claim.T2 and claim.T2 > 0))
+
+
+def at_times(claim, name, sign, Z, B, Y, X):
+    return OverTimes(name, sign, Z, B, Y, X, claim.T1, claim.T2)
+
+
+# ferrante2016
+
+
+def ferrante2016_theorem1(claim):
+    """(12) for A + decay I: e^{decay t} times the error falls from sample to sample."""
+    n = claim.states
+    P, L, decay = claim.value("P"), claim.value("L"), claim.value("decay")
+    kept = minus(identity(n), product(L, claim.C))
+    yield times_are_valid(claim)
+    yield Number("decay >= 0", decay, may_be_zero=True)
+    yield Fixed("P > 0", P)
+    Z = root_of(P)
+    if Z is None:
+        return
+    B = plus(claim.A, times(decay, identity(n)))
+    yield at_times(claim, "(I - LC)' e^{A'tau} P e^{A tau} (I - LC) < P, (12)", -1, Z, B, kept, P)
+    yield Contracts("the error at constant times", claim.A, kept,
+                    lambda tau: mpmath.exp(-decay * tau), between(claim.T1, claim.T2))
+
+
+# ferrante2019
+
+
+def ferrante2019(claim, rate, N, C_p):
+    """V = e'P1 e + e^{delta tau} t'P2 t along the flow, t = C e - theta, tau running down from T2."""
+    n, m = claim.states, len(claim.C)
+    A, C, L, H = claim.A, claim.C, claim.value("L"), claim.value("H")
+    P1, P2, delta = claim.value("P1"), claim.value("P2"), claim.value("delta")
+    yield times_are_valid(claim, T1_may_be_zero=True)
+    yield Number("delta > 0", delta)
+    yield Fixed("P1 > 0", P1)
+    yield Fixed("P2 > 0", P2)
+    CL = product(C, L)
+    # e' = (A - LC) e + L t + N w, t' = C e' - H theta with theta = C e - t
+    flow = stacked([[minus(A, product(L, C)), L],
+                    [minus(product(C, A), product(plus(CL, H), C)), plus(CL, H)]])
+    inputs = []
+    if N is not None:
+        gamma = claim.value("gamma")
+        yield Number("gamma > 0", gamma)
+        inputs.append((N, gamma ** 2))
+    if claim.G is not None:
+        chi = claim.value("chi")
+        yield Number("chi > 0", chi)
+        inputs.append((claim.G, chi))
+    for name, tau in (("M(0) <= 0", mpf(0)), ("M(T2) <= 0", claim.T2)):
+        e = mpmath.exp(delta * tau)
+        V = stacked([[P1, zeros(n, m)], [zeros(m, n), times(e, P2)]])
+        in_e = times(2 * rate, P1)
+        if C_p is not None and N is not None:
+            in_e = plus(in_e, product(transposed(C_p), C_p))
+        if claim.G is not None:
+            weight = claim.value("chi") * mpf(float(claim.lipschitz)) ** 2
+            in_e = plus(in_e, times(weight, product(transposed(claim.S), claim.S)))
+        grows = stacked([[in_e, zeros(n, m)],
+                         [zeros(m, n), times((2 * rate - delta) * e, P2)]])
+        rows = [[plus(symmetrized(product(V, flow)), grows)]]
+        for matrix, level in inputs:
+            column = product(V, stacked([[matrix], [product(C, matrix)]]))
+            rows[0].append(column)
+            rows.append([transposed(column)] + [
+                times(-level if other is matrix else mpf(0),
+                      identity(len(matrix[0])) if other is matrix else
+                      zeros(len(matrix[0]), len(other[0]))) for other, _ in inputs])
+        yield Fixed(name, times(mpf(-1), stacked(rows)))
+    if claim.G is None:
+        yield Contracts("the error at constant times",
+                        stacked([[A, times(mpf(-1), L)], [zeros(m, n), H]]),
+                        stacked([[identity(n), zeros(n, m)], [C, zeros(m, m)]]),
+                        lambda tau: mpmath.exp(-rate * tau), between(claim.T1, claim.T2))
+
+
+def ferrante2019_theorem2(claim):
+    """(28)"""
+    rate = claim.value("lambda_t")
+    yield Number("lambda_t > 0", rate)
+    yield from ferrante2019(claim, rate, claim.N, claim.C_p)
+
+
+def ferrante2019_corollary1(claim):
+    """(32): of the rate only."""
+    rate = claim.value("lambda_t")
+    yield Number("lambda_t > 0", rate)
+    yield from ferrante2019(claim, rate, None, None)
+
+
+def ferrante2019_corollary2(claim):
+    """(33): of the gain only."""
+    yield from ferrante2019(claim, mpf(0), claim.N, claim.C_p)
+
+
+# sferlazza2019
+
+
+def sferlazza2019_theorem2(claim):
+    """(21) without its last block, which P > 0 leaves out: V falls in the directions not seen."""
+    P, share = claim.value("P"), claim.value("lambda")
+    yield times_are_valid(claim)
+    yield Number("lambda >= 0", share, may_be_zero=True)
+    yield Number("lambda < 1", 1 - share)
+    yield Fixed("P > 0", P)
+    Z = root_of(P)
+    unseen = null_space(claim.C)
+    yield Statement("outputs don't depend on each other",
+                    len(unseen[0]) == claim.states - len(claim.C))
+    if Z is None or not unseen[0]:
+        return
+    X = products(transposed(unseen), P, unseen)
+    yield at_times(claim, "what is unseen was larger a time tau before, (21)", 1, Z,
+                   times(mpf(-1), claim.A), unseen, X)
+    if share != 0:
+        return
+    for tau in between(claim.T1, claim.T2, 3):
+        # (25) at constant times: the error orthogonal, in the norm of before, to what is unseen.
+        back = exponential(times(-tau, claim.A))
+        before = products(transposed(back), P, back)
+        free = products(transposed(unseen), before, unseen)
+        seen = products(transposed(unseen), before, transposed(claim.C))
+        K = product(minus(transposed(claim.C), product(unseen, solved(free, seen))),
+                    inverse(product(claim.C, transposed(claim.C))))
+        yield Contracts("the error at constant times", claim.A,
+                        minus(identity(claim.states), product(K, claim.C)),
+                        lambda tau: mpf(1), [tau])
+
+
+# etienne2019
+
+
+def etienne2019(claim, slacks, inputs):
+    """(12)-(16) with (z, z', w = z(t_k) - z, inputs), for each vertex and both ends of e^{-alpha t}."""
+    n = claim.states
+    P, X, Y = claim.value("P"), claim.value("X"), claim.value("Y")
+    alpha, LC = claim.value("alpha"), product(claim.value("L"), claim.C)
+    yield times_are_valid(claim, T1_may_be_zero=True)
+    yield Number("alpha > 0", alpha)
+    yield Fixed("P > 0", P)
+    yield Fixed("X > 0", X)
+    yield Fixed("Y > 0", Y)
+    if claim.G is not None and not claim.vertices:
+        raise Unreadable("plant/vertices are missing")
+    vertices = [plus(claim.A, vertex) for vertex in claim.vertices] or [claim.A]
+    stretch = (2 * claim.T2 / mpmath.pi) ** 2
+    for number, R in enumerate(vertices, 1):
+        for end, rho in (("1", mpf(1)), ("e^{-alpha T2}", mpmath.exp(-alpha * claim.T2))):
+            widths = [n, n, n] + [len(matrix[0]) for matrix, _ in inputs]
+            grid = [[zeros(a, b) for b in widths] for a in widths]
+            grid[0][0] = times(alpha, P)
+            grid[0][1] = grid[1][0] = P
+            grid[1][1] = times(rho * stretch, X)
+            grid[1][2] = grid[2][1] = times(-rho, Y)
+            grid[2][2] = times(-rho, X)
+            for index, (matrix, level) in enumerate(inputs, 3):
+                grid[index][index] = times(-level, identity(len(matrix[0])))
+            equation = stacked([[plus(R, LC), times(mpf(-1), identity(n)), LC]
+                                + [matrix for matrix, _ in inputs]])
+            total = plus(stacked(grid), symmetrized(product(transposed(slacks), equation)))
+            yield Fixed(f"(13) at vertex {number}, rho = {end}", times(mpf(-1), total))
+    for number, R in enumerate(vertices, 1):
+        held = stacked([[R, LC], [zeros(n, n), zeros(n, n)]])
+        again = stacked([[identity(n), zeros(n, n)], [identity(n), zeros(n, n)]])
+        yield Contracts(f"the error at constant times, vertex {number}", held, again,
+                        lambda tau: mpmath.exp(-alpha / 2 * tau), between(claim.T1, claim.T2))
+
+
+def etienne2019_proposition1(claim):
+    n = claim.states
+    G = claim.value("G")
+    yield from etienne2019(claim, stacked([[G, G, zeros(n, n)]]), [])
+
+
+def etienne2019_proposition2(claim):
+    n = claim.states
+    G = stacked([[claim.value(f"G_{k}") for k in (1, 2, 3, 4)]])
+    gamma = claim.value("gamma")
+    yield Number("gamma > 0", gamma)
+    yield Fixed("P > I", minus(claim.value("P"), identity(n)))
+    yield from etienne2019(claim, G, [(identity(n), gamma ** 2)])
+
+
+# bernard2022
+
+
+def jump_of(mode, n):
+    return mode.A_d if mode.A_d is not None else identity(n)
+
+
+def lyapunov(claim, flow, reset, decays):
+    """Theorem 3.1 for V = e'Pe: V' <= a_c V, V⁺ <= e^{a_d} V, a_c tau + a_d <= -2 jump_decay."""
+    P, jump_decay = claim.value("P"), claim.value("jump_decay")
+    rate = claim.value("flow_decay" if decays else "flow_growth")
+    a_c = -rate if decays else rate
+    a_d = -a_c * (claim.T1 if decays else claim.T2) - 2 * jump_decay
+    yield times_are_valid(claim, T1_may_be_zero=True)
+    yield Number("jump_decay > 0", jump_decay)
+    yield Number("flow_decay > 0" if decays else "flow_growth > 0", rate)
+    yield Fixed("P > 0", P)
+    yield Fixed("flow", minus(times(a_c, P), symmetrized(product(P, flow))))
+    yield Fixed("jump", minus(times(mpmath.exp(a_d), P), products(transposed(reset), P, reset)))
+    high = 10 * claim.T1 if decays else claim.T2
+    yield Contracts("the error at constant times", flow, reset,
+                    lambda tau: mpmath.exp(-jump_decay), between(claim.T1, max(high, claim.T2)))
+
+
+def bernard2022_equation14(claim):
+    flow = minus(claim.A, product(claim.value("L_c"), claim.C_c))
+    reset = minus(claim.A_d, product(claim.value("L_d"), claim.C_d))
+    yield from lyapunov(claim, flow, reset, decays=True)
+
+
+def bernard2022_equation22(claim):
+    flow = minus(claim.A, product(claim.value("L_c"), claim.C_c))
+    yield from lyapunov(claim, flow, claim.A_d, decays=True)
+
+
+def bernard2022_equation26(claim):
+    reset = minus(claim.A_d, product(claim.value("L_d"), claim.C_d))
+    yield from lyapunov(claim, claim.A, reset, decays=False)
+
+
+def bernard2022_example4_2(claim):
+    """(22) with the gain that gives A - L_c H the eigenvalues ell times those of K (Ackermann)."""
+    n = claim.states
+    K, ell = claim.gains["K"], claim.value("ell")
+    K = claim.value("K")[0] if isinstance(K[0], list) else [mpf(float(value)) for value in K]
+    rows = [claim.C_c[0]]
+    for _ in range(n - 1):
+        rows.append(product([rows[-1]], claim.A)[0])
+    value, power = zeros(n, n), identity(n)  # of s^n + K_n ell s^(n-1) + ... + K_1 ell^n at A
+    for k in range(n):
+        value = plus(value, times(K[k] * ell ** (n - k), power))
+        power = product(power, claim.A)
+    value = plus(value, power)
+    last = [[mpf(int(i == n - 1))] for i in range(n)]
+    L_c = product(value, solved(rows, last))
+    yield Number("ell > 0", ell)
+    yield from lyapunov(claim, minus(claim.A, product(L_c, claim.C_c)), claim.A_d, decays=True)
+
+
+def bernard2022_corollary5_2(claim):
+    """(32), by the factor e^{-2 jump_decay}."""
+    P, jump_decay = claim.value("P"), claim.value("jump_decay")
+    yield times_are_valid(claim, T1_may_be_zero=True)
+    yield Number("jump_decay > 0", jump_decay)
+    yield Fixed("P > 0", P)
+    Z = root_of(P)
+    if Z is None:
+        return
+    reset = minus(claim.A_d, product(claim.value("L_d"), claim.C_d))
+    yield at_times(claim, "V falls from jump to jump, (32)", -1, product(Z, reset), claim.A,
+                   identity(claim.states), times(mpmath.exp(-2 * jump_decay), P))
+    yield Contracts("the error at constant times", claim.A, reset,
+                    lambda tau: mpmath.exp(-jump_decay), between(claim.T1, claim.T2))
+
+
+def bernard2022_example7_1(claim):
+    """(47b) in each mode, (49) between all of them."""
+    n = claim.states
+    flow_decay, jump_decay = claim.value("flow_decay"), claim.value("jump_decay")
+    yield times_are_valid(claim, T1_may_be_zero=True)
+    yield Number("flow_decay > 0", flow_decay)
+    yield Number("jump_decay > 0", jump_decay)
+    kept = mpmath.exp(flow_decay * claim.T1 - 2 * jump_decay)
+    for mode in claim.modes:
+        P = claim.value(f"P/{mode.label}")
+        flow = minus(mode.A, product(claim.value(f"L_c/{mode.label}"), claim.C_c))
+        yield Fixed(f"P > 0 in mode {mode.label}", P)
+        yield Fixed(f"flow in mode {mode.label}",
+                    minus(times(-flow_decay, P), symmetrized(product(P, flow))))
+        jump = jump_of(mode, n)
+        for other in claim.modes:
+            after = products(transposed(jump), claim.value(f"P/{other.label}"), jump)
+            yield Fixed(f"switch from {mode.label} to {other.label}", minus(times(kept, P), after))
+
+
+def bernard2022_section7_3_2(claim):
+    """(52) with a constant gain for each mode, between modes that differ."""
+    n = claim.states
+    jump_decay = claim.value("jump_decay")
+    yield times_are_valid(claim, T1_may_be_zero=True)
+    yield Number("jump_decay > 0", jump_decay)
+    for mode in claim.modes:
+        P = claim.value(f"P/{mode.label}")
+        yield Fixed(f"P > 0 in mode {mode.label}", P)
+        reset = minus(jump_of(mode, n), product(claim.value(f"L_d/{mode.label}"), claim.C_d))
+        for other in claim.modes:
+            Z = root_of(claim.value(f"P/{other.label}"))
+            if other is mode or Z is None:
+                continue
+            yield at_times(claim, f"cycle from {mode.label} to {other.label}", -1,
+                           product(Z, reset), mode.A, identity(n),
+                           times(mpmath.exp(-2 * jump_decay), P))
+
+
+OBSERVERS = {
+    ferrante2016_theorem1: "ConstantGainObserver",
+    ferrante2019_theorem2: "IntersampleInjectionObserver",
+    ferrante2019_corollary1: "IntersampleInjectionObserver",
+    ferrante2019_corollary2: "IntersampleInjectionObserver",
+    sferlazza2019_theorem2: "TimeVaryingGainObserver",
+    etienne2019_proposition1: "SampleAndHoldObserver",
+    etienne2019_proposition2: "SampleAndHoldObserver",
+    bernard2022_equation14: "SynchronizedObserver",
+    bernard2022_equation22: "SynchronizedObserver",
+    bernard2022_equation26: "SynchronizedObserver",
+    bernard2022_corollary5_2: "SynchronizedObserver",
+    bernard2022_example4_2: "HighGainObserver",
+    bernard2022_example7_1: "SwitchedObserver",
+    bernard2022_section7_3_2: "SwitchedObserver",
+}
+
+
+def conditions_of(claim):
+    for theorem, observer in OBSERVERS.items():
+        if theorem.__name__ == claim.theorem:
+            yield Statement(f"gains of a {observer}", claim.observer == observer)
+            yield from theorem(claim)
+            return
+    raise Unreadable(f"no theorem {claim.theorem} is known here")
