@@ -10,7 +10,7 @@ namespace {
 
 /// What the file says for readers only.
 const char* const kRemarks[] = {"guarantee",  "method", "objective", "solver",
-                                "parameters", "margin", "date"};
+                                "parameters", "margin", "proof",     "date"};
 
 const Theorem& read_theorem(ConfigSection& section) {
   std::vector<std::string> names;

@@ -108,6 +108,7 @@ Design analyze(const AnalysisProblem& problem, const SynthesisOptions& options) 
   search.subject = problem.subject;
   search.given = problem.given;
   search.objective = problem.objective;
+  search.accepts_less = true;
   Design found = search_design(method, search, options);
   const bool has_any_gamma = problem.objective != Objective::kMinGamma &&
                              has_gamma(theorem, problem.subject) &&
@@ -121,6 +122,7 @@ Design analyze(const AnalysisProblem& problem, const SynthesisOptions& options) 
     const Design least = search_design(method, search, options);
     found.certificate = least.certificate;
     found.margin = least.margin;
+    found.proved_conditions = least.proved_conditions;
     found.attempts += least.attempts;
     found.seconds += least.seconds;
   } catch (const DesignError&) {
@@ -158,6 +160,7 @@ Design prove_further(const Design& design, const SynthesisOptions& options) {
     if (is_as_good(analysis, design, problem.theorem->decay_parameter())) {
       best.certificate = analysis.certificate;
       best.margin = analysis.margin;
+      best.proved_conditions = analysis.proved_conditions;
     }
   } catch (const DesignError&) {
     // The proof at hand is the best.

@@ -41,8 +41,6 @@ LmiProgram analysis_program(const Theorem& theorem, const CertificateSubject& su
   }
   if (minimizes_gamma) {
     program.minimize(program.squared("gamma"));
-  } else if (names(theorem.parameters(subject), "gamma") && fixed.count("gamma") == 0) {
-    program.squared("gamma");
   }
   const std::vector<Condition> conditions = theorem.conditions(subject);
   for (const Condition& condition : conditions) program.require(condition, kTauPoints);
@@ -83,15 +81,16 @@ DesignCandidate certify_here(const Theorem& theorem, const CertificateSubject& s
                              const NamedMatrices& fixed, Objective objective) {
   DesignCandidate candidate;
   NamedMatrices all = fixed;
-  if (objective == Objective::kMinGamma && names(theorem.parameters(subject), "gamma")) {
+  const bool is_asked = objective == Objective::kMinGamma;
+  if (names(theorem.parameters(subject), "gamma") && (is_asked || fixed.count("gamma") == 0)) {
     const LmiSolution best =
         solve_with_csdp(analysis_program(theorem, subject, fixed, true), SolverOptions());
     candidate.solver = best.solver;
     if (best.values.empty() || best.status == SolverStatus::kInfeasible) {
-      candidate.message = best.message;
+      candidate.message = "the program of the proof " + why_unsolved(best);
       return candidate;
     }
-    all["gamma"] = kGammaInflation * best.values.at("gamma");
+    all["gamma"] = (is_asked ? kGammaInflation : kUnaskedGammaInflation) * best.values.at("gamma");
   }
   const NamedMatrices given = all;
   std::vector<FurtherTime> further;
@@ -102,7 +101,7 @@ DesignCandidate certify_here(const Theorem& theorem, const CertificateSubject& s
       const LmiSolution inside = solve_with_csdp(program, SolverOptions());
       candidate.solver = inside.solver;
       if (inside.values.empty()) {
-        candidate.message = inside.message;
+        candidate.message = "the program of the proof " + why_unsolved(inside);
         return candidate;
       }
       for (const auto& [name, value] : inside.values) all[name] = value;

@@ -28,7 +28,7 @@ DesignCandidate LmiDesignMethod::solve(const CertificateSubject& subject,
   const LmiSolution solution =
       solve_with_csdp(program(subject, parameters, objective), SolverOptions());
   candidate.solver = solution.solver;
-  candidate.message = solution.message;
+  candidate.message = "the design's program " + why_unsolved(solution);
   if (solution.values.empty() || solution.status == SolverStatus::kInfeasible ||
       solution.status == SolverStatus::kUnbounded) {
     return candidate;

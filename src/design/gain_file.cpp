@@ -71,6 +71,7 @@ void write_gain_file(const Design& design, const GainFileOrigin& origin, std::os
   write_values(theorem.multipliers(subject), certificate.values, out);
   out << "  margin: " << shortest_decimal(design.margin)
       << "  # least eigenvalue of the conditions\n"
+      << "  proof: ball arithmetic, " << design.proved_conditions << " conditions\n"
       << "  method: " << design.method << '\n'
       << "  objective: " << to_string(design.objective)
       << (design.has_no_maximum ? "  # the search ended here: no largest value was found" : "")

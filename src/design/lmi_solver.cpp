@@ -6,6 +6,9 @@
 namespace sampled_data_observers {
 namespace {
 
+/// Of the objective −t of a program without one, which is 0 where an inequality is at its edge.
+constexpr double kNoRoom = 1e-9;
+
 std::string packed(const LmiSolution& solution) {
   Packer packer;
   packer.add(static_cast<std::int64_t>(solution.status));
@@ -64,6 +67,15 @@ const char* to_string(SolverStatus status) {
       break;
   }
   return "crashed";
+}
+
+std::string why_unsolved(const LmiSolution& solution) {
+  const bool is_certain =
+      solution.status == SolverStatus::kInfeasible ||
+      (solution.status == SolverStatus::kSolved && solution.dual_objective >= -kNoRoom);
+  if (is_certain) return "has no solution";
+  return "was not solved: the solver failed (" + solution.message +
+         "), which does not tell whether there is a solution";
 }
 
 LmiSolution solve_lmi(const LmiProgram& program, double time_limit, const SolverOptions& options) {

@@ -78,6 +78,7 @@ std::string solve(const Task& task, const SweepRequest& request, const Synthesis
     packer.add(design.certificate.values);
     pack(design.parameters, packer);
     packer.add(design.margin);
+    packer.add(static_cast<std::int64_t>(design.proved_conditions));
     packer.add(design.solver);
     packer.add(static_cast<std::int64_t>(design.attempts));
   } catch (const DesignError& error) {
@@ -105,6 +106,7 @@ void report(const Task& task, const SweepRequest& request, const WorkerOutcome& 
   design.certificate = {&task.method->theorem(), subject_at(request, task.T2), unpacker.matrices()};
   design.parameters = unpack_parameters(unpacker);
   design.margin = unpacker.number();
+  design.proved_conditions = static_cast<std::size_t>(unpacker.integer());
   design.solver = unpacker.text();
   design.attempts = static_cast<std::size_t>(unpacker.integer());
   design.seconds = outcome.seconds;

@@ -4,11 +4,13 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <locale>
 #include <optional>
 #include <sstream>
 
+#include "methods/sampled_plant.h"
 #include "sampled_data_observers/design/analysis.h"
-#include "sampled_data_observers/design/packing.h"
+#include "sampled_data_observers/design/attempts.h"
 #include "sampled_data_observers/design/parameter_search.h"
 #include "sampled_data_observers/design/request_error.h"
 #include "sampled_data_observers/design/require_detectable.h"
@@ -19,42 +21,43 @@ namespace {
 
 constexpr double kBisectionRatio = 1.001;
 constexpr int kMaxHalvings = 30;
+/// To tell how much less than what was asked for there is a design for, and how exactly.
+constexpr int kMaxHalvingsBelowAsked = 8;
+constexpr double kRefusalRatio = 1.01;
 /// What is still feasible for so much more than was asked for has no largest value worth finding.
 constexpr int kMaxDoublings = 10;
+/// Between parameters looked at around the best ones so far, at first and at last, and by how much
+/// less what is maximized is enlarged at last.
+constexpr double kFirstDistance = 0.24;
+constexpr double kLastDistance = 0.02;
+constexpr double kLastStep = 4e-4;
 
-std::string packed(const DesignCandidate& candidate) {
-  Packer packer;
-  packer.add(candidate.values);
-  packer.add(candidate.margin);
-  packer.add(candidate.cost);
-  packer.add(candidate.solver);
-  packer.add(candidate.message);
-  return packer.bytes();
-}
+/// Parameters that are fixed, and those searched for with their ranges.
+struct Choices {
+  Parameters fixed;
+  std::vector<NamedRange> open;
+};
 
-DesignCandidate unpacked(const WorkerOutcome& outcome) {
-  DesignCandidate candidate;
-  switch (outcome.status) {
-    case WorkerOutcome::Status::kDone: {
-      Unpacker unpacker(outcome.result);
-      candidate.values = unpacker.matrices();
-      candidate.margin = unpacker.number();
-      candidate.cost = unpacker.number();
-      candidate.solver = unpacker.text();
-      candidate.message = unpacker.text();
-      break;
+/// A design problem at one value of what is maximized.
+struct Trial {
+  CertificateSubject subject;
+  Parameters given;
+};
+
+/// Each of `starts` with the value and its two neighbours within the range.
+std::vector<Parameters> neighbours(const std::vector<Parameters>& starts, const NamedRange& named,
+                                   double value, double distance) {
+  const SearchRange& range = named.range;
+  std::vector<Parameters> all;
+  for (const double offset : {0.0, -distance, distance}) {
+    const double moved = range.is_logarithmic ? value * std::exp(offset)
+                                              : value + offset * (range.high - range.low) / 4.0;
+    for (const Parameters& start : starts) {
+      all.push_back(start);
+      all.back()[named.name] = std::clamp(moved, range.low, range.high);
     }
-    case WorkerOutcome::Status::kThrew:
-      candidate.message = outcome.result;
-      break;
-    case WorkerOutcome::Status::kTimedOut:
-      candidate.message = "the solver took longer than the time limit";
-      break;
-    case WorkerOutcome::Status::kCrashed:
-      candidate.message = "the solver's process died";
-      break;
   }
-  return candidate;
+  return all;
 }
 
 class Synthesis {
@@ -73,20 +76,24 @@ class Synthesis {
         search(problem_.subject, problem_.given, problem_.objective, SearchGoal::kLeastCost);
         break;
       case Objective::kMaxT2:
-        maximize(problem_.subject.T2, [this](double T2) {
+        maximize(problem_.subject.T2, !problem_.accepts_less, "T2", [this](double T2) {
           CertificateSubject subject = problem_.subject;
           subject.T2 = T2;
-          subject.T1 = std::min(subject.T1, T2);
-          return search(subject, problem_.given, Objective::kFeasible, SearchGoal::kAnySolution);
+          return Trial{subject, problem_.given};
         });
         break;
-      case Objective::kMaxDecay:
-        maximize(starting_decay(), [this](double decay) {
-          Parameters given = problem_.given;
-          given[method_.decay_parameter()] = decay;
-          return search(problem_.subject, given, Objective::kFeasible, SearchGoal::kAnySolution);
+      case Objective::kMaxDecay: {
+        const std::string decay = method_.decay_parameter();
+        const auto given = problem_.given.find(decay);
+        const bool is_given = given != problem_.given.end() && given->second > 0.0;
+        const double start = is_given ? given->second : 0.1 / problem_.subject.T2;
+        maximize(start, is_given && !problem_.accepts_less, decay, [this, &decay](double value) {
+          Trial trial{problem_.subject, problem_.given};
+          trial.given[decay] = value;
+          return trial;
         });
         break;
+      }
     }
     if (!best_) throw DesignError(explanation());
     best_->seconds =
@@ -132,68 +139,98 @@ class Synthesis {
     throw RequestError(method_.name() + " has no parameter '" + name + "'; it has " + names);
   }
 
-  double starting_decay() const {
-    const auto given = problem_.given.find(method_.decay_parameter());
-    if (given != problem_.given.end() && given->second > 0.0) return given->second;
-    return 0.1 / problem_.subject.T2;
-  }
-
-  /// Tries all that is left open. Whether there is a verified design; the best one goes to best_.
-  bool search(const CertificateSubject& subject, const Parameters& given, Objective objective,
-              SearchGoal goal) {
-    Parameters fixed;
-    std::vector<NamedRange> ranges;
+  /// Defaults are those of the problem as it was given, whatever is maximized.
+  Choices choices_of(const CertificateSubject& subject, const Parameters& given) const {
+    Choices choices;
+    const std::vector<DesignParameter> as_given = method_.parameters(problem_.subject);
     for (const DesignParameter& parameter : method_.parameters(subject)) {
       const auto own = given.find(parameter.name);
+      const auto& default_value = parameter_named(as_given, parameter.name).default_value;
       if (own != given.end()) {
-        fixed[parameter.name] = own->second;
+        choices.fixed[parameter.name] = own->second;
       } else if (parameter.search &&
-                 (!parameter.default_value || problem_.searched.count(parameter.name) > 0)) {
-        ranges.push_back({parameter.name, *parameter.search});
-      } else if (parameter.default_value) {
-        fixed[parameter.name] = *parameter.default_value;
+                 (!default_value || problem_.searched.count(parameter.name) > 0)) {
+        choices.open.push_back({parameter.name, *parameter.search});
+      } else if (default_value) {
+        choices.fixed[parameter.name] = *default_value;
       }
     }
-    std::optional<Design> found;
-    double found_cost = std::numeric_limits<double>::infinity();
-    attempts_ += search_parameters(ranges, goal, [&](const std::vector<Parameters>& choices) {
-      std::vector<Parameters> whole = choices;
-      for (Parameters& parameters : whole) parameters.insert(fixed.begin(), fixed.end());
-      const std::vector<DesignCandidate> candidates = attempt_all(subject, whole, objective);
-      std::vector<double> costs;
-      for (std::size_t i = 0; i < candidates.size(); ++i) {
-        const DesignCandidate& candidate = candidates[i];
-        ++messages_[candidate.is_verified() ? "verified" : candidate.message];
-        const double cost =
-            candidate.is_verified() ? candidate.cost : std::numeric_limits<double>::infinity();
-        costs.push_back(cost);
-        if (!(cost < found_cost)) continue;
-        found_cost = cost;
-        found = as_design(subject, whole[i], candidate);
-      }
-      return costs;
-    });
-    if (found) best_ = std::move(found);
-    return best_.has_value() && std::isfinite(found_cost);
+    return choices;
   }
 
-  std::vector<DesignCandidate> attempt_all(const CertificateSubject& subject,
-                                           const std::vector<Parameters>& choices,
-                                           Objective objective) {
-    WorkerOptions worker;
-    worker.jobs = options_.jobs;
-    worker.time_limit = options_.time_limit;
+  /// Tries all that is left open. Whether there is a proved design; the best one goes to best_.
+  bool search(const CertificateSubject& subject, const Parameters& given, Objective objective,
+              SearchGoal goal) {
+    if (!shows_all(subject)) return false;
+    const Choices choices = choices_of(subject, given);
+    BestOf best;
+    search_parameters(choices.open, goal, [&](const std::vector<Parameters>& open) {
+      return attempt_all(subject, choices, open, objective, best);
+    });
+    return take(best);
+  }
+
+  /// The same only for parameters near those of best_: each of them, and of those searched for each
+  /// neighbour at this distance, measured in the logarithm where their range is logarithmic.
+  bool search_near(const Trial& trial, double distance) {
+    if (!shows_all(trial.subject)) return false;
+    const Choices choices = choices_of(trial.subject, trial.given);
+    std::vector<Parameters> open;
+    for (const NamedRange& named : choices.open) {
+      open = neighbours(open.empty() ? std::vector<Parameters>{{}} : open, named,
+                        best_->parameters.at(named.name), distance);
+    }
+    if (open.empty()) open = {{}};
+    BestOf best;
+    attempt_all(trial.subject, choices, open, Objective::kFeasible, best);
+    return take(best);
+  }
+
+  struct BestOf {
+    std::optional<Design> design;
+    double cost = std::numeric_limits<double>::infinity();
+  };
+
+  bool take(BestOf& best) {
+    if (best.design) best_ = std::move(best.design);
+    return std::isfinite(best.cost);
+  }
+
+  /// Whether no time between samples hides a mode that does not decay.
+  bool shows_all(const CertificateSubject& subject) {
+    const std::string unseen = undetectable_sampling(subject);
+    if (!unseen.empty()) ++messages_[unseen];
+    return unseen.empty();
+  }
+
+  std::vector<double> attempt_all(const CertificateSubject& subject, const Choices& choices,
+                                  const std::vector<Parameters>& open, Objective objective,
+                                  BestOf& best) {
+    WorkerOptions workers;
+    workers.jobs = options_.jobs;
+    workers.time_limit = options_.time_limit;
     std::size_t finished = attempts_;
-    worker.on_outcome = [&](std::size_t, const WorkerOutcome&) {
+    workers.on_outcome = [&](std::size_t, const WorkerOutcome&) {
       if (options_.on_progress) options_.on_progress(method_.name(), ++finished);
     };
-    const auto outcomes = run_in_workers(
-        choices.size(),
-        [&](std::size_t i) { return packed(method_.attempt(subject, choices[i], objective)); },
-        worker);
-    std::vector<DesignCandidate> candidates;
-    for (const WorkerOutcome& outcome : outcomes) candidates.push_back(unpacked(outcome));
-    return candidates;
+    std::vector<Parameters> whole = open;
+    for (Parameters& parameters : whole) {
+      parameters.insert(choices.fixed.begin(), choices.fixed.end());
+    }
+    const std::vector<DesignCandidate> candidates =
+        proved_attempts(method_, subject, whole, objective, workers);
+    attempts_ += candidates.size();
+    std::vector<double> costs;
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      const DesignCandidate& candidate = candidates[i];
+      ++messages_[candidate.is_verified() ? "verified" : candidate.message];
+      costs.push_back(candidate.is_verified() ? candidate.cost
+                                              : std::numeric_limits<double>::infinity());
+      if (!(costs.back() < best.cost)) continue;
+      best.cost = costs.back();
+      best.design = as_design(subject, whole[i], candidate);
+    }
+    return costs;
   }
 
   Design as_design(const CertificateSubject& subject, const Parameters& parameters,
@@ -204,18 +241,26 @@ class Synthesis {
     design.certificate = {&method_.theorem(), subject, candidate.values};
     design.parameters = parameters;
     design.margin = candidate.margin;
+    design.proved_conditions = candidate.proved_conditions;
     design.solver = candidate.solver;
     return design;
   }
 
-  /// Largest value for which `feasible` holds, by doubling or halving from `start` and bisection.
-  template <class Feasible>
-  void maximize(double start, const Feasible& feasible) {
+  /// Largest value for which there is a design, by doubling from `start` and bisection.
+  /// @param is_asked  whether less than `start` is no answer
+  template <class TrialAt>
+  void maximize(double start, bool is_asked, const std::string& what, const TrialAt& trial_at) {
+    const auto feasible = [&](double value) {
+      const Trial trial = trial_at(value);
+      if (best_ && search_near(trial, kFirstDistance)) return true;
+      return search(trial.subject, trial.given, Objective::kFeasible, SearchGoal::kAnySolution);
+    };
     double low = start;
     int halvings = 0;
     while (!feasible(low)) {
-      if (++halvings > kMaxHalvings) return;
       low /= 2.0;
+      const bool is_empty = trial_at(low).subject.T1 > trial_at(low).subject.T2;
+      if (is_empty || ++halvings > (is_asked ? kMaxHalvingsBelowAsked : kMaxHalvings)) return;
     }
     double high = 2.0 * low;
     for (int doublings = 0; halvings == 0 && feasible(high);) {
@@ -225,20 +270,57 @@ class Synthesis {
       best_->has_no_maximum = true;
       return;
     }
-    while (high / low > kBisectionRatio) {
+    const bool is_refused = is_asked && halvings > 0;
+    while (high / low > (is_refused ? kRefusalRatio : kBisectionRatio)) {
       const double middle = std::sqrt(low * high);
       (feasible(middle) ? low : high) = middle;
     }
+    if (is_refused) refuse_less_than_asked(what, start, low);
+    refine(low, trial_at);
+  }
+
+  /// Near the largest value, only parameters near the best ones have a solution, which no grid
+  /// meets. So as long as neighbours of the best ones allow a larger value, it goes on from there.
+  template <class TrialAt>
+  void refine(double value, const TrialAt& trial_at) {
+    const Trial first = trial_at(value);
+    if (choices_of(first.subject, first.given).open.empty()) return;
+    double step = kBisectionRatio - 1.0;
+    for (double distance = kFirstDistance; distance > kLastDistance;) {
+      if (search_near(trial_at(value * (1.0 + step)), distance)) {
+        value *= 1.0 + step;
+        step *= 2.0;
+      } else if (step > kLastStep) {
+        step /= 2.0;
+      } else {
+        distance /= 2.0;
+        step = kBisectionRatio - 1.0;
+      }
+    }
+  }
+
+  [[noreturn]] void refuse_less_than_asked(const std::string& what, double asked, double found) {
+    std::ostringstream text;
+    text.imbue(std::locale::classic());
+    text << method_.name() << " found no design for " << what << " = " << asked
+         << " as asked for; the largest " << what << " for which it found one is " << found
+         << ". Tried, among others:" << tried();
+    throw DesignError(text.str());
+  }
+
+  std::string tried() const {
+    std::ostringstream text;
+    for (const auto& [message, count] : messages_) {
+      text << "\n  " << count << " x " << (message.empty() ? "not verified" : message);
+    }
+    return text.str();
   }
 
   std::string explanation() const {
     std::ostringstream text;
     text << method_.name() << " found no design that " << method_.theorem().name()
-         << " accepts, in " << attempts_ << (attempts_ == 1 ? " attempt:" : " attempts:");
-    for (const auto& [message, count] : messages_) {
-      text << "\n  " << count << " x " << (message.empty() ? "not verified" : message);
-    }
-    text << "\nA shorter T2, a smaller rate of convergence or a larger bound on the gain may help; "
+         << " accepts, in " << attempts_ << (attempts_ == 1 ? " attempt:" : " attempts:") << tried()
+         << "\nA shorter T2, a smaller rate of convergence or a larger bound on the gain may help; "
             "`design explain` tells whether the plant can be observed from such samples at all.";
     return text.str();
   }

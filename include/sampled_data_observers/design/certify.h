@@ -6,6 +6,8 @@ namespace sampled_data_observers {
 
 /// By how much a least gamma is enlarged, so that its proof does not lie on the edge.
 constexpr double kGammaInflation = 1.001;
+/// The same where gamma is neither given nor asked for: without an end, it would say nothing.
+constexpr double kUnaskedGammaInflation = 1.01;
 
 /// A candidate of these values, checked by the theorem's own conditions.
 /// @param values  of all that the theorem names, or of fewer, which is no proof
@@ -15,9 +17,9 @@ DesignCandidate judged(const Theorem& theorem, const CertificateSubject& subject
 /// Proves given gains: looks for the theorem's multipliers with everything else fixed, where its
 /// conditions are linear matrix inequalities, and checks the conditions themselves.
 ///
-/// With Objective::kMinGamma the least gamma is found first, and then a proof as far inside as
-/// possible for a gamma enlarged by kGammaInflation. With others, gamma is a multiplier where
-/// `fixed` has none.
+/// With Objective::kMinGamma, or where `fixed` has no gamma, the least gamma is found first, and
+/// then a proof as far inside as possible for a gamma enlarged by kGammaInflation or
+/// kUnaskedGammaInflation.
 ///
 /// @param fixed  gains and parameters of the theorem; multipliers among them are left as they are
 /// To be called in a worker process.

@@ -42,6 +42,9 @@ struct DesignProblem {
   /// Those to search for although they have defaults.
   std::set<std::string> searched;
   Objective objective = Objective::kFeasible;
+  /// Whether a largest T2 or rate less than the one given is an answer, which for new gains it is
+  /// not.
+  bool accepts_less = false;
 };
 
 /// Gains with the matrices that prove them; or why there are none.
@@ -52,6 +55,8 @@ struct DesignCandidate {
   double margin = 0.0;
   /// How good it is by the objective: the smaller the better.
   double cost = 0.0;
+  /// Conditions that ball arithmetic proved, which are all of them, or none was tried.
+  std::size_t proved_conditions = 0;
   std::string solver;
   /// What went wrong, where there is no design.
   std::string message;
@@ -86,6 +91,9 @@ class DesignMethod {
 
   /// The parameter that is the guaranteed rate of convergence; empty where there is none.
   virtual std::string decay_parameter() const { return theorem().decay_parameter(); }
+
+  /// The gains whose norms its parameter `gain_bound` limits.
+  virtual std::vector<std::string> bounded_gains(const CertificateSubject&) const { return {}; }
 
   /// Which objectives it can serve.
   virtual std::vector<Objective> objectives(const CertificateSubject& subject) const = 0;

@@ -45,6 +45,11 @@ struct LmiSolution {
   bool satisfies_all() const { return !values.empty() && violated.empty(); }
 };
 
+/// Why a solution does not satisfy all, for a message that goes on from the name of the
+/// inequalities: that there is none, if the solver is certain of it, or that the solver failed,
+/// which does not tell.
+std::string why_unsolved(const LmiSolution& solution);
+
 struct SolverOptions {
   /// How far strict blocks are kept from singular where there is an objective.
   double margin = 1e-7;

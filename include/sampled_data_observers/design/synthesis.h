@@ -25,6 +25,8 @@ struct Design {
   /// All scalars with which it was made.
   Parameters parameters;
   double margin = 0.0;
+  /// Conditions of the theorem, which ball arithmetic proved all.
+  std::size_t proved_conditions = 0;
   std::string solver;
   double seconds = 0.0;
   std::size_t attempts = 0;
@@ -35,7 +37,8 @@ struct Design {
 
 /// Finds gains by a method: chooses what the user left open, searches for the parameters with a
 /// range, and for max-T2 and max-decay by bisection for the largest value (to 0.1 %; it begins with
-/// the T2 of the problem, or with a rate of 0.1/T2, and ends at 1024 times that). Then, with
+/// the T2 or the rate of the problem, less than which is no answer, or with a rate of 0.1/T2, and
+/// ends at 1024 times that). What counts as found is proved in ball arithmetic. Then, with
 /// the gains fixed, looks for a proof that reaches further than the one that led to them, as Remark
 /// 9 of ferrante2019 proposes.
 /// @throws RequestError when the method is not about the plant or the objective, or a parameter

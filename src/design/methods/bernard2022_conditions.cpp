@@ -35,6 +35,11 @@ class QuadraticDesign : public LmiDesignMethod {
             jump_decay_parameter()};
   }
 
+  std::vector<std::string> bounded_gains(const CertificateSubject&) const override {
+    if (in_flow_) return {"L_c"};
+    return {};
+  }
+
   std::vector<Objective> objectives(const CertificateSubject&) const override {
     // With T1 alone in the conditions there is no largest T2.
     if (in_flow_) return {Objective::kFeasible, Objective::kMaxDecay};

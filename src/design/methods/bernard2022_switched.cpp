@@ -24,6 +24,12 @@ class SwitchedFlowBased : public LmiDesignMethod {
             gain_bound_parameter()};
   }
 
+  std::vector<std::string> bounded_gains(const CertificateSubject& subject) const override {
+    std::vector<std::string> all;
+    for (const ModeMatrices& mode : subject.plant.modes) all.push_back(of_mode("L_c", mode));
+    return all;
+  }
+
   std::vector<Objective> objectives(const CertificateSubject&) const override {
     return {Objective::kFeasible, Objective::kMaxDecay};
   }

@@ -25,7 +25,16 @@ std::vector<Objective> ferrante2019_objectives(const CertificateSubject& subject
 }
 
 bool keeps_gain_bound(const Eigen::MatrixXd& L, const Parameters& parameters) {
-  return L.allFinite() && norm2(L) <= parameters.at("gain_bound") * (1.0 + 1e-6);
+  return L.allFinite() && norm2(L) <= parameters.at("gain_bound") * (1.0 + 1e-9);
+}
+
+PlantMatrices ferrante2019_plant(const CertificateSubject& subject, const Parameters& parameters,
+                                 Objective objective) {
+  PlantMatrices plant = subject.plant;
+  if (objective == Objective::kMinGamma || parameters.count("gamma") > 0) return plant;
+  plant.N.resize(plant.states(), 0);
+  plant.C_p.resize(0, plant.states());
+  return plant;
 }
 
 void add_gamma(LmiProgram& program, const CertificateSubject& subject, const Parameters& parameters,
@@ -36,8 +45,6 @@ void add_gamma(LmiProgram& program, const CertificateSubject& subject, const Par
     program.minimize(program.squared("gamma"));
   } else if (given != parameters.end()) {
     program.fix("gamma", scalar_matrix(given->second));
-  } else {
-    program.squared("gamma");
   }
 }
 
@@ -46,7 +53,13 @@ LmiProgram ferrante2019_program(const CertificateSubject& subject, const Paramet
   LmiProgram program;
   const Eigen::Index n = subject.plant.states();
   const Eigen::Index m = subject.plant.C().rows();
-  program.require_positive("P1 > 0", program.symmetric("P1", n));
+  const MatrixExpression P1 = program.symmetric("P1", n);
+  program.require_positive("P1 > 0", P1);
+  // Without gain, all multiples of a solution are one.
+  const PlantMatrices plant = ferrante2019_plant(subject, parameters, objective);
+  if (plant.N.cols() == 0 && plant.C_p.rows() == 0) {
+    program.bound_above("P1 <= I", P1, identity(n));
+  }
   program.require_positive("P2 > 0", program.symmetric("P2", m));
   if (!subject.plant.is_linear()) program.require_positive("chi > 0", program.scalar("chi"));
   add_gamma(program, subject, parameters, objective);

@@ -12,16 +12,22 @@ namespace sampled_data_observers {
 std::vector<DesignParameter> ferrante2019_parameters(const CertificateSubject& subject);
 std::vector<Objective> ferrante2019_objectives(const CertificateSubject& subject);
 
+/// The plant as an inequality is about: without disturbance and performance output where gamma is
+/// neither asked for nor given. Without an end, it would outweigh all else.
+PlantMatrices ferrante2019_plant(const CertificateSubject& subject, const Parameters& parameters,
+                                 Objective objective);
+
 /// A program with P1, P2, chi and gamma² as variables, and with delta and lambda_t fixed. gamma is
 /// fixed where it is given and not minimized.
 LmiProgram ferrante2019_program(const CertificateSubject& subject, const Parameters& parameters,
                                 Objective objective);
 
-/// Adds gamma² as variable where there is a disturbance, or fixes gamma as above.
+/// Adds gamma² as variable where it is minimized, or fixes gamma as above.
 void add_gamma(LmiProgram& program, const CertificateSubject& subject, const Parameters& parameters,
                Objective objective);
 
-/// Whether the norm of L is within gain_bound, but for rounding.
+/// Whether the norm of L is within gain_bound, but for rounding: the inequalities ask for
+/// kBoundShare of it.
 bool keeps_gain_bound(const Eigen::MatrixXd& L, const Parameters& parameters);
 
 class Ferrante2019Proposition : public LmiDesignMethod {
@@ -30,6 +36,7 @@ class Ferrante2019Proposition : public LmiDesignMethod {
   std::vector<DesignParameter> parameters(const CertificateSubject& subject) const override {
     return ferrante2019_parameters(subject);
   }
+  std::vector<std::string> bounded_gains(const CertificateSubject&) const override { return {"L"}; }
   std::vector<Objective> objectives(const CertificateSubject& subject) const override {
     return ferrante2019_objectives(subject);
   }

@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "ferrante2019.h"
+#include "gain_bound.h"
 #include "methods.h"
 #include "sampled_data_observers/certificate/ferrante2019_matrix.h"
 #include "sampled_data_observers/design/certify.h"
@@ -32,6 +33,7 @@ class Alternating : public DesignMethod {
   std::vector<DesignParameter> parameters(const CertificateSubject& subject) const override {
     return ferrante2019_parameters(subject);
   }
+  std::vector<std::string> bounded_gains(const CertificateSubject&) const override { return {"L"}; }
   std::vector<Objective> objectives(const CertificateSubject& subject) const override {
     return ferrante2019_objectives(subject);
   }
@@ -123,14 +125,17 @@ class Alternating : public DesignMethod {
     const MatrixExpression L = program.matrix("L", n, m);
     const MatrixExpression H = program.matrix("H", m, m);
     if (!plant.is_linear()) program.require_positive("chi > 0", program.scalar("chi"));
-    add_gamma(program, subject, parameters, objective);
+    // What is neither asked for nor given stays as it was.
+    Parameters with_gamma = parameters;
+    if (values.count("gamma") > 0) with_gamma.insert({"gamma", scalar_value(values, "gamma")});
+    add_gamma(program, subject, with_gamma, objective);
     const MatrixExpression P1_L = symbol("P1", n, n) * L;
     const MatrixExpression P2_CL_H = symbol("P2", m, m) * (MatrixExpression(plant.C()) * L + H);
     const MatrixExpression lambda_t = symbol("lambda_t");
     const double e = std::exp(parameters.at("delta") * subject.T2);
     program.require_negative("M(0)", ferrante2019_M(plant, 1.0, lambda_t, P1_L, P2_CL_H));
     program.require_negative("M(T2)", ferrante2019_M(plant, e, lambda_t, P1_L, P2_CL_H));
-    const MatrixExpression k = parameters.at("gain_bound");
+    const MatrixExpression k = kBoundShare * parameters.at("gain_bound");
     program.bound_above("norm of L", zeros(n + m, n + m),
                         symmetric_blocks({{k * identity(n), L}, {k * identity(m)}}));
     return program;

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "ferrante2019.h"
+#include "gain_bound.h"
 #include "methods.h"
 #include "sampled_data_observers/certificate/ferrante2019_matrix.h"
 #include "sampled_data_observers/certificate/matrix_functions.h"
@@ -20,7 +21,7 @@ class Proposition2 : public Ferrante2019Proposition {
 
   LmiProgram program(const CertificateSubject& subject, const Parameters& parameters,
                      Objective objective) const override {
-    const PlantMatrices& plant = subject.plant;
+    const PlantMatrices plant = ferrante2019_plant(subject, parameters, objective);
     const Eigen::Index n = plant.states();
     const Eigen::Index m = plant.C().rows();
     LmiProgram program = ferrante2019_program(subject, parameters, objective);
@@ -31,7 +32,7 @@ class Proposition2 : public Ferrante2019Proposition {
     program.require_negative("(34), first", ferrante2019_M(plant, 1.0, lambda_t, J, transpose(Y)));
     program.require_negative("(34), second", ferrante2019_M(plant, e, lambda_t, J, transpose(Y)));
     // LᵀL <= k² I, since Jᵀ P1⁻¹ J <= q k² I and P1 >= q I. Without it L grows without bound.
-    const double k = parameters.at("gain_bound");
+    const double k = kBoundShare * parameters.at("gain_bound");
     const MatrixExpression q = program.scalar("q");
     const MatrixExpression P1 = symbol("P1", n, n);
     program.bound_above("q I <= P1", q * identity(n), P1);

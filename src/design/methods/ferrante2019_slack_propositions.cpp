@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "ferrante2019.h"
+#include "gain_bound.h"
 #include "methods.h"
 #include "sampled_data_observers/certificate/ferrante2019_matrix.h"
 #include "sampled_data_observers/certificate/matrix_functions.h"
@@ -46,7 +47,7 @@ class SlackProposition : public Ferrante2019Proposition {
     if (choice_ != Choice::kProposition4 && delta <= 2.0 * parameters.at("lambda_t")) {
       throw std::invalid_argument(name_ + " needs delta > 2 lambda_t");
     }
-    const PlantMatrices& plant = subject.plant;
+    const PlantMatrices plant = ferrante2019_plant(subject, parameters, objective);
     const Eigen::Index n = plant.states();
     const Eigen::Index m = plant.C().rows();
     LmiProgram program = ferrante2019_program(subject, parameters, objective);
@@ -60,7 +61,7 @@ class SlackProposition : public Ferrante2019Proposition {
     program.require_negative("(36), first", inequality(plant, 1.0, a));
     program.require_negative("(36), second", inequality(plant, std::exp(delta * subject.T2), a));
     // ‖L‖ <= ‖J‖/σ_min(X) <= k.
-    const double k = parameters.at("gain_bound");
+    const double k = kBoundShare * parameters.at("gain_bound");
     const MatrixExpression q = program.scalar("q");
     program.bound_above("2 q I <= X + X^T", 2.0 * q * identity(n), He(X));
     program.bound_above("norm of J", zeros(n + m, n + m),

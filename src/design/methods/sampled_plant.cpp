@@ -8,8 +8,11 @@
 namespace sampled_data_observers {
 
 std::string undetectable_sampling(const CertificateSubject& subject) {
+  const PlantMatrices& plant = subject.plant;
+  const bool is_about_A = plant.is_linear() || plant.vertices.empty();
+  if (plant.modes.size() > 1 || plant.jumps() || plant.C().rows() == 0 || !is_about_A) return "";
   for (const PathologicalInterval& interval :
-       pathological_intervals(subject.plant.A(), subject.plant.C(), subject.T2)) {
+       pathological_intervals(plant.A(), plant.C(), subject.T2)) {
     if (interval.tau < subject.T1 || interval.decays) continue;
     std::ostringstream text;
     text.imbue(std::locale::classic());

@@ -8,7 +8,8 @@ namespace sampled_data_observers {
 
 // What methods for sampled linear plants have in common.
 
-/// That samples of some time in [T1, T2] apart don't show a mode; empty where there is none such.
+/// That samples of some time in [T1, T2] apart don't show a mode that does not decay; empty where
+/// there is none such, and for plants of which A alone does not tell (see require_detectable()).
 std::string undetectable_sampling(const CertificateSubject& subject);
 
 /// Solutions with P <= I that are less far inside are on the edge: P is nearly singular, and what

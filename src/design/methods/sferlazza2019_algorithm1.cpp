@@ -51,8 +51,8 @@ class Algorithm1 : public DesignMethod {
           solve_with_csdp(program(conditions, subject, lambda, times), SolverOptions());
       none.solver = solution.solver;
       if (!solution.satisfies_all()) {
-        none.message = "(21) has no solution for " + std::to_string(times.size()) +
-                       " times between T1 and T2 (" + solution.message + ")";
+        none.message = "(21) for " + std::to_string(times.size()) + " times between T1 and T2 " +
+                       why_unsolved(solution);
         return none;
       }
       if (solution.margin <= kLeastMargin) {

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include "sampled_data_observers/design/design_method.h"
+#include "sampled_data_observers/design/workers.h"
+
+namespace sampled_data_observers {
+
+/// One attempt at a design, in the calling process, which is a worker. A candidate of which
+/// is_verified() holds has gains within their bound, and all conditions of its theorem are proved
+/// in ball arithmetic; where one of them is not, the message says which. For the least gamma,
+/// larger ones are tried before a candidate is given up.
+DesignCandidate proved_attempt(const DesignMethod& method, const CertificateSubject& subject,
+                               const Parameters& parameters, Objective objective);
+
+/// An attempt for each choice of the parameters, each in a worker process of its own. One that is
+/// lost says why in its message.
+std::vector<DesignCandidate> proved_attempts(const DesignMethod& method,
+                                             const CertificateSubject& subject,
+                                             const std::vector<Parameters>& choices,
+                                             Objective objective, const WorkerOptions& workers);
+
+}  // namespace sampled_data_observers
