@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "bound_flow.h"
+#include "outward.h"
 #include "sampled_data_observers/certificate/matrix_functions.h"
 #include "sampled_data_observers/certificate/wirtinger.h"
 #include "theorems.h"
@@ -21,7 +22,10 @@ std::vector<Eigen::MatrixXd> flow_vertices_of(const PlantMatrices& plant) {
 }
 
 /// V(z) = zᵀ P z of etienne2019, Theorem 1: from a sample on, V̇ = −α V + γ² |Γ|² at worst, with
-/// Γ = L σ + δ. Until the first sample nothing is injected and the error flows as the plant does.
+/// Γ = L σ + δ. Until the first sample nothing is injected and the error flows as the plant does;
+/// later than T2 after a sample it flows so, too, and is driven by what is held of that sample,
+/// L (C z + σ). The theorem goes on from the next sample, whatever z is there: what it adds to V is
+/// zero at samples.
 class IssBound : public ErrorBound {
  public:
   /// @param gamma  0 for Proposition 1, which is about Γ = 0
@@ -30,43 +34,50 @@ class IssBound : public ErrorBound {
       : T2_(subject.T2), rate_(scalar_value(values, "alpha")) {
     const Eigen::MatrixXd& P = values.at("P");
     const Eigen::MatrixXd& N = subject.plant.N;
+    const Eigen::MatrixXd& L = values.at("L");
     const double level =
-        gamma * (norm2(values.at("L")) * assumptions.noise + norm2(N) * assumptions.disturbance);
-    final_ = level * level / rate_;
-    initial_ = std::sqrt(max_eigenvalue(P)) * assumptions.initial_error;
-    least_ = min_eigenvalue(P);
+        gamma * (norm2(L) * assumptions.noise + norm2(N) * assumptions.disturbance);
+    final_ = raised(level * level / rate_);
+    initial_ = std::sqrt(largest_eigenvalue_above(P)) * assumptions.initial_error;
+    least_ = least_eigenvalue_below(P);
     growth_ = -std::numeric_limits<double>::infinity();
-    for (const Eigen::MatrixXd& R : flow_vertices_of(subject.plant)) {
-      growth_ = std::max(growth_, largest_generalized_eigenvalue(P * R + R.transpose() * P, P));
+    for (const Eigen::MatrixXd& flow : flow_vertices_of(subject.plant)) {
+      growth_ = std::max(growth_, growth_above(P, flow));
     }
-    growth_ /= 2.0;
     if (N.cols() > 0) {
-      push_ = std::sqrt(max_eigenvalue(N.transpose() * P * N)) * assumptions.disturbance;
+      push_ = std::sqrt(largest_eigenvalue_above(N.transpose() * P * N)) * assumptions.disturbance;
     }
+    const Eigen::MatrixXd R = cholesky_root(P);
+    held_ = raised(norm2(R * L * subject.plant.C() * inverse_of(R)));
+    held_noise_ = raised(norm2(R * L)) * assumptions.noise;
   }
 
-  // √V, the time since the last sample [s], and whether there was one.
-  Eigen::Index state_size() const override { return 3; }
+  // √V, the time since the last sample [s], whether there was one, and √V just after it.
+  Eigen::Index state_size() const override { return 4; }
   void initialize(double* state) const override {
     state[0] = initial_;
     state[1] = 0.0;
     state[2] = 0.0;
+    state[3] = 0.0;
   }
   void flow(double duration, double* state) const override {
     if (state[2] == 0.0) {
       state[0] = flowed_linearly(state[0], growth_, push_, duration);
       return;
     }
+    const double foreseen = std::min(duration, std::max(0.0, T2_ - state[1]));
     state[1] += duration;
-    if (!(state[1] <= T2_)) state[0] = std::numeric_limits<double>::infinity();
-    if (std::isinf(state[0])) return;
-    state[0] = std::sqrt(final_ + (state[0] * state[0] - final_) * std::exp(-rate_ * duration));
+    state[0] = std::sqrt(final_ + (state[0] * state[0] - final_) * std::exp(-rate_ * foreseen));
+    if (state[1] <= T2_) return;
+    state[0] = flowed_linearly(state[0], growth_, push_ + held_ * state[3] + held_noise_,
+                               duration - foreseen);
   }
-  void sample(double* state) const override {
+  void sample(double* state, double*) const override {
     state[1] = 0.0;
     state[2] = 1.0;
+    state[3] = state[0];
   }
-  void jump(double*) const override {}
+  void jump(double* state) const override { state[0] = std::numeric_limits<double>::infinity(); }
   double bound(const double* state) const override { return state[0] / std::sqrt(least_); }
 
  private:
@@ -77,6 +88,8 @@ class IssBound : public ErrorBound {
   double least_ = 0.0;
   double growth_ = 0.0;
   double push_ = 0.0;
+  double held_ = 0.0;        // ‖L C‖ in the norm of P
+  double held_noise_ = 0.0;  // |L σ| in it
 };
 
 class Proposition : public Theorem {

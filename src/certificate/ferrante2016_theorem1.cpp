@@ -19,26 +19,29 @@ Eigen::MatrixXd unit(const CertificateSubject& subject) {
 /// sample with noise η and a flow over τ, ε ← e^{Aτ} ((I − LC) ε − L η), make it
 ///   ‖R e^{Aτ} (I − LC) R⁻¹‖ level + ‖R e^{Aτ} L‖ |η|,
 /// where by (12) the first factor is less than 1 for τ in [T1, T2]. This is how V changes in (19)
-/// and (29), with the τ that came rather than the worst one.
+/// and (29), with the τ that came rather than the worst one, whether it lies in [T1, T2] or not.
 class Theorem1Bound : public SampledErrorBound {
  public:
   /// @param kept  (I − LC) R⁻¹
   Theorem1Bound(const CertificateSubject& subject, const ErrorAssumptions& assumptions,
-                const Eigen::MatrixXd& R, const Eigen::MatrixXd& kept, const Eigen::MatrixXd& L)
+                const Eigen::MatrixXd& R, const Eigen::MatrixXd& kept, const Eigen::MatrixXd& L,
+                const FlowGrowth& growth)
       : SampledErrorBound(subject, assumptions.initial_error),
         noise_(assumptions.noise),
-        first_growth_(unit(subject), subject.plant.A(), unit(subject), subject.T2),
-        first_weight_(R, subject.plant.A(), unit(subject), subject.T2),
-        growth_(unit(subject), subject.plant.A(), kept, subject.T2),
-        weight_(R, subject.plant.A(), kept, subject.T2),
-        noise_growth_(unit(subject), subject.plant.A(), L, subject.T2),
-        noise_weight_(R, subject.plant.A(), L, subject.T2) {}
+        first_growth_(unit(subject), subject.plant.A(), unit(subject), subject.T2, growth),
+        first_weight_(R, subject.plant.A(), unit(subject), subject.T2, growth),
+        growth_(unit(subject), subject.plant.A(), kept, subject.T2, growth),
+        weight_(R, subject.plant.A(), kept, subject.T2, growth),
+        noise_growth_(unit(subject), subject.plant.A(), L, subject.T2, growth),
+        noise_weight_(R, subject.plant.A(), L, subject.T2, growth) {}
 
  protected:
-  double next_level(double level, double tau) const override {
-    return std::min(1.0, weight_.at(tau)) * level + noise_weight_.at(tau) * noise_;
+  double next_level(double level, double tau, double*) const override {
+    const double weight = weight_.at(tau);
+    const double kept = is_foreseen(tau) ? std::min(1.0, weight) : weight;
+    return kept * level + noise_weight_.at(tau) * noise_;
   }
-  double first_level(double level, double tau) const override {
+  double first_level(double level, double tau, double*) const override {
     return first_weight_.at(tau) * level;
   }
   double error(double level, double tau) const override {
@@ -122,7 +125,8 @@ class Theorem1 : public Theorem {
     const Eigen::MatrixXd& L = values.at("L");
     const Eigen::MatrixXd R = cholesky_root(values.at("P"));
     const Eigen::MatrixXd kept = (unit(subject) - L * subject.plant.C()) * inverse_of(R);
-    return std::make_unique<const Theorem1Bound>(subject, assumptions, R, kept, L);
+    return std::make_unique<const Theorem1Bound>(subject, assumptions, R, kept, L,
+                                                 flow_growth(subject.plant.A(), subject.T2));
   }
 };
 

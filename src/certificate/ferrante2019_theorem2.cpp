@@ -5,6 +5,8 @@
 #include <string>
 #include <utility>
 
+#include "bound_flow.h"
+#include "outward.h"
 #include "sampled_data_observers/certificate/ferrante2019_matrix.h"
 #include "sampled_data_observers/certificate/matrix_functions.h"
 #include "theorems.h"
@@ -21,30 +23,35 @@ struct LyapunovBounds {
 
 LyapunovBounds bounds_of_V(const CertificateSubject& subject, const NamedMatrices& values) {
   const Eigen::VectorXd of_P1 = symmetric_eigenvalues(values.at("P1"));
-  return {of_P1(0), of_P1(of_P1.size() - 1),
-          max_eigenvalue(values.at("P2")) * std::exp(scalar_value(values, "delta") * subject.T2)};
+  return {least_eigenvalue_below(values.at("P1")), raised(of_P1(of_P1.size() - 1)),
+          largest_eigenvalue_above(values.at("P2")) *
+              std::exp(scalar_value(values, "delta") * subject.T2)};
 }
 
 /// V where the estimate begins, at most, for an error of norm 1 and without injection: θ̃ = C ε.
 double initial_V(const CertificateSubject& subject, const NamedMatrices& values) {
   const Eigen::MatrixXd& C = subject.plant.C();
   const double e = std::exp(scalar_value(values, "delta") * subject.T2);
-  return max_eigenvalue(values.at("P1") + e * C.transpose() * values.at("P2") * C);
+  return largest_eigenvalue_above(values.at("P1") + e * C.transpose() * values.at("P2") * C);
 }
 
 /// W >= V with the timer τ set as if the next sample came T2 after the last: that decides nothing
 /// of the flow, and at an earlier sample V falls all the more. So
 ///   Ẇ = −2 λ W + γ² |w|² between samples (18), W⁺ = W + ω2 |η|² at them (19),
-/// and |ε|² <= W / λ_min(P1). T1 plays no part.
+/// and |ε|² <= W / λ_min(P1). T1 plays no part. Later than T2 after a sample the timer stands
+/// still: then V̇ lacks −δ e^{δτ} θ̃ᵀ P2 θ̃ and Ẇ = (δ − 2 λ) W + γ² |w|², until the next sample.
 class LyapunovErrorBound : public ErrorBound {
  public:
   LyapunovErrorBound(const CertificateSubject& subject, const NamedMatrices& values, double rate,
                      const ErrorAssumptions& assumptions)
-      : T2_(subject.T2), rate_(2.0 * rate) {
+      : T2_(subject.T2),
+        rate_(2.0 * rate),
+        late_growth_(std::max(0.0, scalar_value(values, "delta")) - rate_) {
     const LyapunovBounds V = bounds_of_V(subject, values);
     if (subject.plant.N.cols() > 0 && values.count("gamma") > 0) {
       const double level = scalar_value(values, "gamma") * assumptions.disturbance;
-      final_ = level * level / rate_;
+      push_ = level * level;
+      final_ = push_ / rate_;
     }
     per_sample_ = V.omega_2 * assumptions.noise * assumptions.noise;
     least_ = V.alpha_1;
@@ -64,24 +71,28 @@ class LyapunovErrorBound : public ErrorBound {
   }
   void flow(double duration, double* state) const override {
     if (duration == 0.0) return;
-    state[0] = final_ + (state[0] - final_) * std::exp(-rate_ * duration);
+    const double foreseen = std::min(duration, std::max(0.0, T2_ - state[1]));
+    state[0] = final_ + (state[0] - final_) * std::exp(-rate_ * foreseen);
     state[1] += duration;
     state[2] = 0.0;
-    if (state[1] > T2_) state[0] = std::numeric_limits<double>::infinity();
+    if (state[1] <= T2_) return;
+    state[0] = flowed_linearly(state[0], late_growth_, push_, duration - foreseen);
   }
-  void sample(double* state) const override {
+  void sample(double* state, double*) const override {
     // A sample sets θ̃ to −η: of V, only ε's part stays. How large that is, is known at first only.
     const bool is_first_of_all = state[2] != 0.0;
     state[0] = (is_first_of_all ? of_estimate_ : state[0]) + per_sample_;
     state[1] = 0.0;
     state[2] = 0.0;
   }
-  void jump(double*) const override {}
+  void jump(double* state) const override { state[0] = std::numeric_limits<double>::infinity(); }
   double bound(const double* state) const override { return std::sqrt(state[0] / least_); }
 
  private:
   double T2_;
   double rate_;               // 2 λ
+  double late_growth_;        // δ − 2 λ
+  double push_ = 0.0;         // γ² |w|²
   double final_ = 0.0;        // of W, without noise
   double per_sample_ = 0.0;   // ω2 |η|²
   double of_estimate_ = 0.0;  // εᵀ P1 ε at first

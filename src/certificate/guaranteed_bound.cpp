@@ -35,6 +35,10 @@ GuaranteedBound::GuaranteedBound(const std::shared_ptr<const ObserverLaw>& inner
       error_limit_(error_limit),
       jumps_are_measured_(inner->event_size(EventKind::kJump, kMeasuredJump) >= 0) {}
 
+Eigen::Index GuaranteedBound::workspace_size() const {
+  return std::max(law().workspace_size(), bound_->workspace_size());
+}
+
 double* GuaranteedBound::then(double* state) const { return own(state) + kParts; }
 
 double* GuaranteedBound::now(double* state) const {
@@ -94,7 +98,7 @@ Effect GuaranteedBound::reset(const Event& event, double* state, double* workspa
       event.kind == EventKind::kJumpOutput && awaiting != 0.0 && own(state)[kSince] == 0.0;
   if (event.kind == EventKind::kSample) {
     begin_reset(state);
-    bound_->sample(then(state) + kState);
+    bound_->sample(then(state) + kState, workspace);
     end_reset(state);
   } else if (event.kind == EventKind::kJump && jumps_are_measured_ && event.channel == kPlainJump) {
     begin_reset(state);

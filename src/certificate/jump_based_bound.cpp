@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "bound_flow.h"
+#include "outward.h"
 #include "sampled_data_observers/certificate/matrix_functions.h"
 
 namespace sampled_data_observers {
@@ -11,7 +12,7 @@ namespace {
 
 /// sup |a v|_P for |v| <= 1
 double weighted_norm(const Eigen::MatrixXd& a, const Eigen::MatrixXd& P) {
-  return a.cols() == 0 ? 0.0 : std::sqrt(max_eigenvalue(a.transpose() * P * a));
+  return a.cols() == 0 ? 0.0 : std::sqrt(largest_eigenvalue_above(a.transpose() * P * a));
 }
 
 /// |x − x̂|_P is at most the sum of two parts: one that comes from the error just after the last
@@ -23,12 +24,12 @@ class JumpBasedBound : public ErrorBound {
                  const JumpContraction& contraction, const ErrorAssumptions& assumptions)
       : T1_(subject.T1), T2_(subject.T2), contraction_(contraction) {
     const Eigen::MatrixXd& A = subject.plant.A();
-    growth_ = largest_generalized_eigenvalue(P * A + A.transpose() * P, P) / 2.0;
+    growth_ = growth_above(P, A);
     push_ = weighted_norm(subject.plant.N, P) * assumptions.disturbance;
-    reset_ = std::sqrt(largest_generalized_eigenvalue(reset.transpose() * P * reset, P));
+    reset_ = raised(std::sqrt(largest_generalized_eigenvalue(reset.transpose() * P * reset, P)));
     noise_ = weighted_norm(L_d, P) * assumptions.noise;
-    initial_ = std::sqrt(max_eigenvalue(P)) * assumptions.initial_error;
-    least_ = std::sqrt(min_eigenvalue(P));
+    initial_ = std::sqrt(largest_eigenvalue_above(P)) * assumptions.initial_error;
+    least_ = std::sqrt(least_eigenvalue_below(P));
   }
 
   Eigen::Index state_size() const override { return kEntries; }
@@ -41,23 +42,24 @@ class JumpBasedBound : public ErrorBound {
   void flow(double duration, double* state) const override {
     state[kTau] += duration;
     state[kCausedSince] = flowed_linearly(state[kCausedSince], growth_, push_, duration);
-    if (!(state[kTau] <= T2_)) lose(state);
   }
   void jump(double* state) const override {
     const double tau = state[kTau];
     const bool is_first = state[kJumped] == 0.0;
+    // A jump so soon is more likely one that was told twice.
     if (!is_first && tau < T1_) lose(state);
     if (!std::isinf(state[kAfterJump])) {
+      const bool is_foreseen = !is_first && tau <= T2_;
       const double carried =
-          is_first ? reset_ * flowed_linearly(state[kAfterJump], growth_, 0.0, tau)
-                   : state[kAfterJump] * std::exp(contraction_.offset + contraction_.slope * tau);
+          is_foreseen ? state[kAfterJump] * std::exp(contraction_.offset + contraction_.slope * tau)
+                      : reset_ * flowed_linearly(state[kAfterJump], growth_, 0.0, tau);
       state[kAfterJump] = carried + reset_ * state[kCausedSince] + noise_;
     }
     state[kCausedSince] = 0.0;
     state[kTau] = 0.0;
     state[kJumped] = 1.0;
   }
-  void sample(double*) const override {}
+  void sample(double*, double*) const override {}
   double bound(const double* state) const override {
     const double carried = flowed_linearly(state[kAfterJump], growth_, 0.0, state[kTau]);
     return (carried + state[kCausedSince]) / least_;

@@ -13,9 +13,10 @@ struct JumpContraction {
   double slope = 0.0;  ///< 1/s
 };
 
-/// The bound of an observer that is corrected at jumps alone. It holds for times between jumps in
-/// [T1, T2] and up to T2 before the first one; for others it is infinity. Each jump must come with
-/// its outputs.
+/// The bound of an observer that is corrected at jumps alone. For times between jumps in [T1, T2]
+/// it falls as the contraction says, after longer ones and at the first jump it is what flow and
+/// reset make of it at most; a jump sooner than T1 after another makes it infinite. Each jump must
+/// come with its outputs, and no jump may be missed.
 /// @param P       n x n
 /// @param reset   n x n: A_d − L_d H_d, from before a jump to after it
 /// @param L_d     n x m

@@ -20,17 +20,14 @@ void SampledErrorBound::initialize(double* state) const {
   state[kHasSampled] = 0.0;
 }
 
-void SampledErrorBound::flow(double duration, double* state) const {
-  state[kTau] += duration;
-  if (state[kTau] > T2_) state[kLevel] = kInfinity;
-}
+void SampledErrorBound::flow(double duration, double* state) const { state[kTau] += duration; }
 
-void SampledErrorBound::sample(double* state) const {
+void SampledErrorBound::sample(double* state, double* workspace) const {
   const double tau = state[kTau];
-  const bool is_first = state[kHasSampled] == 0.0;
-  if (!is_first && tau < T1_) state[kLevel] = kInfinity;
-  if (state[kLevel] != kInfinity) {
-    state[kLevel] = is_first ? first_level(state[kLevel], tau) : next_level(state[kLevel], tau);
+  double& level = state[kLevel];
+  if (level != kInfinity) {
+    level = state[kHasSampled] == 0.0 ? first_level(level, tau, workspace)
+                                      : next_level(level, tau, workspace);
   }
   state[kTau] = 0.0;
   state[kHasSampled] = 1.0;

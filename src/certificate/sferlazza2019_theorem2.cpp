@@ -1,99 +1,154 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <memory>
 #include <stdexcept>
+#include <utility>
 
 #include "linear_sampling.h"
+#include "outward.h"
 #include "sampled_data_observers/certificate/exponential_norm.h"
 #include "sampled_data_observers/certificate/matrix_functions.h"
 #include "sampled_data_observers/certificate/sampled_error_bound.h"
+#include "sampled_data_observers/certificate/spectral_norm.h"
 #include "sampled_data_observers/observer/time_varying_gain.h"
+#include "sampled_data_observers/plant/linear_flow.h"
+#include "sampled_data_observers/plant/ordered_linear_algebra.h"
 #include "theorems.h"
 
 namespace sampled_data_observers {
 namespace {
 
-constexpr std::size_t kCells = 512;
+/// Of a product of matrices, relative to the product of their absolute values: rounding of the
+/// product itself, and of e^{Aτ}.
+constexpr double kRounding = 1e-12;
 
 /// With R of P = Rᵀ R, the level is √V with V of sferlazza2019 (9): |R e| just after a sample, and
 /// the same until the next one, which makes it
 ///   ‖R (I − K(τ) C) e^{Aτ} R⁻¹‖ level + ‖R K(τ)‖ |η|.
-/// By (13), (14) the first factor is less than 1 for τ in [T1, T2]. The factors are taken from the
-/// gain itself at the ends and in the middle of short intervals of τ, and enlarged by what they
-/// differ.
+/// Both factors are computed at the sample, for the τ that came and the gain that the law used, to
+/// the bit. By (13), (14) the first one is less than 1 for τ in [T1, T2]; where it lies outside,
+/// the error is what it is.
 class Theorem2Bound : public SampledErrorBound {
  public:
   Theorem2Bound(const CertificateSubject& subject, const ErrorAssumptions& assumptions,
-                const Eigen::MatrixXd& P, const Eigen::MatrixXd& R, double lambda)
-      : SampledErrorBound(subject, norm2(R) * assumptions.initial_error),
+                const Eigen::MatrixXd& R, std::unique_ptr<const TimeVaryingGain> gain)
+      : SampledErrorBound(subject, raised(norm2(R)) * assumptions.initial_error),
+        n_(R.rows()),
+        m_(subject.plant.C().rows()),
         noise_(assumptions.noise),
-        T1_(subject.T1),
-        step_(subject.T2 / static_cast<double>(kCells)),
-        growth_(Eigen::MatrixXd::Identity(P.rows(), P.rows()), subject.plant.A(), inverse_of(R),
-                subject.T2) {
-    const Eigen::MatrixXd& C = subject.plant.C();
-    add_cells(subject, CertificateGain(C, P, 0.0), R);
-    // Before T1 the gain may change between the two.
-    if (lambda > 0.0) add_cells(subject, CertificateGain(C, P, lambda), R);
+        C_(subject.plant.C()),
+        R_(R),
+        inverse_R_(inverse_of(R)),
+        gain_(std::move(gain)),
+        forward_(subject.plant.A(), Eigen::MatrixXd::Zero(n_, 0)),
+        backward_(-subject.plant.A(), Eigen::MatrixXd::Zero(n_, 0)),
+        growth_(Eigen::MatrixXd::Identity(n_, n_), subject.plant.A(), inverse_R_, subject.T2,
+                flow_growth(subject.plant.A(), subject.T2)) {}
+
+  Eigen::Index workspace_size() const override {
+    return kSquares * n_ * n_ + n_ * m_ + m_ * n_ +
+           std::max({n_, gain_->workspace_size(), spectral_norm_workspace(n_)});
   }
 
  protected:
-  double next_level(double level, double tau) const override {
-    const std::size_t cell = cell_of(tau);
-    return std::min(1.0, kept_[cell]) * level + noise_weight_[cell] * noise_;
+  double next_level(double level, double tau, double* workspace) const override {
+    const Factors factors = factors_at(tau, workspace);
+    const double kept = is_foreseen(tau) ? std::min(1.0, factors.kept) : factors.kept;
+    return kept * level + factors.noise * noise_;
   }
-  double first_level(double level, double tau) const override {
-    const std::size_t cell = cell_of(tau);
-    const double kept = tau < T1_ ? kept_[cell] : std::min(1.0, kept_[cell]);
-    return kept * level + noise_weight_[cell] * noise_;
+  double first_level(double level, double tau, double* workspace) const override {
+    return next_level(level, tau, workspace);
   }
   double error(double level, double tau) const override { return growth_.at(tau) * level; }
   double first_error(double level, double tau) const override { return error(level, tau); }
 
  private:
-  std::size_t cell_of(double tau) const {
-    return static_cast<std::size_t>(std::clamp(tau / step_, 0.0, static_cast<double>(kCells - 1)));
-  }
+  /// Matrices of n x n in the workspace.
+  static constexpr Eigen::Index kSquares = 4;
 
-  /// Not less than a smooth function with these values at the ends and in the middle.
-  static double upper(double low, double middle, double high) {
-    return std::max({low, middle, high}) + std::abs(low - 2.0 * middle + high);
-  }
+  struct Factors {
+    double kept = 0.0;   ///< ‖R (I − K(τ) C) e^{Aτ} R⁻¹‖
+    double noise = 0.0;  ///< ‖R K(τ)‖
+  };
 
-  void add_cells(const CertificateSubject& subject, const TimeVaryingGain& gain,
-                 const Eigen::MatrixXd& R) {
-    const Eigen::MatrixXd& A = subject.plant.A();
-    const Eigen::MatrixXd& C = subject.plant.C();
-    const Eigen::MatrixXd inverse_R = inverse_of(R);
-    const Eigen::Index n = A.rows();
-    Eigen::MatrixXd K(n, C.rows());
-    Eigen::VectorXd workspace(gain.workspace_size());
-    std::vector<double> kept;
-    std::vector<double> noise_weight;
-    for (std::size_t i = 0; i <= 2 * kCells; ++i) {
-      const double tau = step_ * static_cast<double>(i) / 2.0;
-      const Eigen::MatrixXd backward = exponential_of(-A * tau);
-      gain.evaluate(backward.data(), K.data(), workspace.data());
-      const Eigen::MatrixXd error = exponential_of(A * tau) * inverse_R;
-      kept.push_back(norm2(R * (error - K * (C * error))));
-      noise_weight.push_back(norm2(R * K));
-    }
-    kept_.resize(kCells);
-    noise_weight_.resize(kCells);
-    for (std::size_t i = 0; i < kCells; ++i) {
-      const std::size_t at = 2 * i;
-      kept_[i] = std::max(kept_[i], upper(kept[at], kept[at + 1], kept[at + 2]));
-      noise_weight_[i] = std::max(
-          noise_weight_[i], upper(noise_weight[at], noise_weight[at + 1], noise_weight[at + 2]));
+  void exponential(const LinearFlow& flow, Duration duration, double* E, double* scratch) const {
+    for (Eigen::Index j = 0; j < n_; ++j) {
+      for (Eigen::Index i = 0; i < n_; ++i) E[j * n_ + i] = i == j ? 1.0 : 0.0;
+      flow.apply(duration, E + j * n_, nullptr, scratch);
     }
   }
 
+  Factors factors_at(double tau, double* workspace) const {
+    double* flown = workspace;  // e^{Aτ}, then e^{Aτ} R⁻¹
+    double* kept = flown + n_ * n_;
+    double* product = kept + n_ * n_;
+    double* magnitude = product + n_ * n_;
+    double* K = magnitude + n_ * n_;
+    double* measured = K + n_ * m_;
+    double* scratch = measured + m_ * n_;
+    const Duration duration = from_seconds(tau);
+    exponential(backward_, duration, kept, scratch);
+    gain_->evaluate(kept, K, scratch);
+    multiply(R_.data(), n_, n_, K, m_, product);
+    Factors factors;
+    factors.noise = spectral_norm_bound(product, n_, m_, scratch) + rounding_of_noise(K);
+    exponential(forward_, duration, flown, scratch);
+    factors.kept = rounding_of_kept(K, flown, magnitude, product, measured);
+    multiply(flown, n_, n_, inverse_R_.data(), n_, kept);
+    multiply(C_.data(), m_, n_, kept, n_, measured);
+    for (Eigen::Index i = 0; i < m_ * n_; ++i) measured[i] = -measured[i];
+    for (Eigen::Index j = 0; j < n_; ++j) add_product(K, n_, m_, measured + j * m_, kept + j * n_);
+    multiply(R_.data(), n_, n_, kept, n_, product);
+    factors.kept += spectral_norm_bound(product, n_, n_, scratch);
+    return factors;
+  }
+
+  /// Of |R| |K|.
+  double rounding_of_noise(const double* K) const {
+    double sum = 0.0;
+    for (Eigen::Index j = 0; j < m_; ++j) {
+      for (Eigen::Index i = 0; i < n_; ++i) {
+        double entry = 0.0;
+        for (Eigen::Index k = 0; k < n_; ++k) entry += std::abs(R_(i, k) * K[j * n_ + k]);
+        sum += entry * entry;
+      }
+    }
+    return kRounding * std::sqrt(sum);
+  }
+
+  /// Of |R| (I + |K| |C|) |e^{Aτ}| |R⁻¹|.
+  double rounding_of_kept(const double* K, const double* flown, double* a, double* b,
+                          double* measured) const {
+    const auto add_absolute = [](const double* M, Eigen::Index rows, Eigen::Index inner,
+                                 const double* X, Eigen::Index cols, double* Y) {
+      for (Eigen::Index j = 0; j < cols; ++j) {
+        for (Eigen::Index k = 0; k < inner; ++k) {
+          for (Eigen::Index i = 0; i < rows; ++i) {
+            Y[j * rows + i] += std::abs(M[k * rows + i] * X[j * inner + k]);
+          }
+        }
+      }
+    };
+    std::fill_n(a, n_ * n_, 0.0);
+    add_absolute(flown, n_, n_, inverse_R_.data(), n_, a);
+    std::fill_n(measured, m_ * n_, 0.0);
+    add_absolute(C_.data(), m_, n_, a, n_, measured);
+    add_absolute(K, n_, m_, measured, n_, a);
+    std::fill_n(b, n_ * n_, 0.0);
+    add_absolute(R_.data(), n_, n_, a, n_, b);
+    return kRounding * std::sqrt(dot(b, b, n_ * n_));
+  }
+
+  Eigen::Index n_;
+  Eigen::Index m_;
   double noise_;
-  double T1_;
-  double step_;
-  ExponentialNorm growth_;            ///< ‖e^{Aτ} R⁻¹‖
-  std::vector<double> kept_;          ///< ‖R (I − K(τ) C) e^{Aτ} R⁻¹‖ by intervals of τ
-  std::vector<double> noise_weight_;  ///< ‖R K(τ)‖
+  Eigen::MatrixXd C_;
+  Eigen::MatrixXd R_;
+  Eigen::MatrixXd inverse_R_;
+  std::unique_ptr<const TimeVaryingGain> gain_;
+  LinearFlow forward_;      ///< of ẋ = A x
+  LinearFlow backward_;     ///< of ẋ = −A x, as the law has it
+  ExponentialNorm growth_;  ///< ‖e^{Aτ} R⁻¹‖
 };
 
 class Theorem2 : public Theorem {
@@ -158,8 +213,10 @@ class Theorem2 : public Theorem {
     require_no_disturbance("sferlazza2019", assumptions);
     // Symmetric to the bit, as the gain needs it.
     const Eigen::MatrixXd P = (values.at("P") + values.at("P").transpose()) / 2.0;
-    return std::make_unique<const Theorem2Bound>(subject, assumptions, P, cholesky_root(P),
-                                                 scalar_value(values, "lambda"));
+    return std::make_unique<const Theorem2Bound>(
+        subject, assumptions, cholesky_root(P),
+        std::make_unique<const CertificateGain>(subject.plant.C(), P,
+                                                scalar_value(values, "lambda")));
   }
 };
 

@@ -27,7 +27,7 @@ IntervalVerification verify_between(const Eigen::MatrixXd& A, const Eigen::Matri
     return result;
   }
   // In the coordinates R x: Ψ falls no faster than by the largest eigenvalue of the symmetric part.
-  const double beta = std::max(0.0, -min_eigenvalue(R * A * inverse_of(R)));
+  const double beta = std::max(0.0, max_eigenvalue(R * A * inverse_of(R)));
   const Eigen::MatrixXd weighed = R * complement;
   const Eigen::MatrixXd inverse_root = inverse_of(cholesky_root(weighed.transpose() * weighed));
   double tau = T1;

@@ -39,7 +39,7 @@ class ExampleBound : public ErrorBound {
     state[1] = duration;
     if (duration > longest_) state[0] = kInfinity;
   }
-  void sample(double* state) const override { state[0] /= 2.0; }
+  void sample(double* state, double*) const override { state[0] /= 2.0; }
   void jump(double* state) const override { state[0] *= 2.0; }
   double bound(const double* state) const override { return state[0]; }
 
@@ -60,12 +60,12 @@ std::shared_ptr<const GuaranteedBound> bounded_example(const std::string& type) 
 }
 
 TEST(GuaranteedBoundTest, AGatedSampleDoesNotShortenItAndARecoveryByResetLosesIt) {
-  Gate gate;
+  std::vector<std::optional<Gate>> gates(2);
+  Gate& gate = gates[0].emplace();
   gate.innovation = Eigen::VectorXd::Constant(1, 1.0);
   gate.recover_after = 2 * kSecond;
   gate.recovery = Gate::Recovery::kReset;
-  const auto law = std::make_shared<const GatedSamples>(
-      bounded(example_law()), std::vector<std::optional<Gate>>{gate, std::nullopt});
+  const auto law = std::make_shared<const GatedSamples>(bounded(example_law()), gates);
   LawRunner runner(law);
   const auto bound = [&] { return law->error_bound(runner.state().data()); };
   EXPECT_TRUE(runner.sample(0, {runner.estimate()(0)}));

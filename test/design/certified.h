@@ -41,7 +41,9 @@ inline DesignCandidate certified(const char* theorem, const CertificateSubject& 
 class DrivenBound {
  public:
   explicit DrivenBound(std::unique_ptr<const ErrorBound> bound)
-      : bound_(std::move(bound)), then_(static_cast<std::size_t>(bound_->state_size())) {
+      : bound_(std::move(bound)),
+        then_(static_cast<std::size_t>(bound_->state_size())),
+        workspace_(static_cast<std::size_t>(bound_->workspace_size())) {
     bound_->initialize(then_.data());
     now_ = then_;
   }
@@ -52,7 +54,7 @@ class DrivenBound {
     bound_->flow(since, now_.data());
   }
   void sample() {
-    bound_->sample(now_.data());
+    bound_->sample(now_.data(), workspace_.data());
     then_ = now_;
   }
   void jump() {
@@ -65,6 +67,7 @@ class DrivenBound {
   std::unique_ptr<const ErrorBound> bound_;
   std::vector<double> then_;
   std::vector<double> now_;
+  std::vector<double> workspace_;
 };
 
 inline ErrorAssumptions assumptions(double initial_error, double noise, double disturbance) {

@@ -120,8 +120,11 @@ TEST(Etienne2019, TheBoundHoldsAlongTheWorstOfManyErrorsAndConverges) {
   Eigen::Vector3d z(2.0, 0.0, 0.0);
   Eigen::Vector3d held = Eigen::Vector3d::Zero();
   int since = 0;
+  double steady = 0.0;
+  double largest = 0.0;
   for (int i = 0; i < kSteps; ++i) {
-    if (i % 400 == 250) {
+    // 1.2 s without samples in the middle.
+    if (i % 400 == 250 && (i < 10000 || i > 10800)) {
       held = printed_L() * (z(0) + 0.1 * std::cos(i));
       bound.sample();
       since = 0;
@@ -132,13 +135,12 @@ TEST(Etienne2019, TheBoundHoldsAlongTheWorstOfManyErrorsAndConverges) {
     z += kStep * (R * z + held + w);
     bound.flow_to(++since * kStep);
     ASSERT_LE(z.norm(), bound.value()) << "at " << i * kStep;
+    if (i > 9000 && i <= 10000) steady = std::max(steady, bound.value());
+    if (i > 10000) largest = std::max(largest, bound.value());
   }
+  EXPECT_GT(largest, 1.2 * steady);
+  EXPECT_LT(largest, 100.0 * steady);
   EXPECT_LT(bound.value(), 2.0);
-  bound.flow_to(0.5);
-  EXPECT_TRUE(std::isinf(bound.value()));
-  bound.sample();
-  bound.flow_to(1e4);
-  EXPECT_TRUE(std::isinf(bound.value()));
 }
 
 TEST(Etienne2019, Proposition1BoundsNothingUnderNoise) {

@@ -1,7 +1,9 @@
 // sferlazza2019: the aircraft (66), the design by Algorithm 1, and the bound that (21) gives.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
 #include <random>
 #include <string>
 #include <vector>
@@ -10,6 +12,7 @@
 #include "sampled_data_observers/certificate/matrix_functions.h"
 #include "sampled_data_observers/design/sferlazza2019_verification.h"
 #include "sampled_data_observers/observer/time_varying_gain.h"
+#include "support/allocation_counter.h"
 
 namespace sampled_data_observers::test {
 namespace {
@@ -100,45 +103,153 @@ TEST(Sferlazza2019Algorithm1, TellsWhatItCannotDesignFor) {
   EXPECT_NE(message.find("can't serve the objective max-decay"), std::string::npos) << message;
 }
 
+/// Theorem 2's bound beside an error that the observer's own gain corrects.
+class BoundedError {
+ public:
+  BoundedError(const CertificateSubject& subject, const NamedMatrices& values,
+               const ErrorAssumptions& assumptions, const Eigen::VectorXd& error)
+      : A_(subject.plant.A()),
+        C_(subject.plant.C()),
+        bound_(theorem().error_bound(subject, values, assumptions)),
+        gain_(C_, values.at("P"), scalar_value(values, "lambda")),
+        state_(static_cast<std::size_t>(bound_->state_size())),
+        workspace_(static_cast<std::size_t>(bound_->workspace_size())),
+        gain_workspace_(gain_.workspace_size()),
+        K_(A_.rows(), C_.rows()),
+        error_(error) {
+    bound_->initialize(state_.data());
+  }
+
+  /// The larger of error/bound before and after a sample at tau [s].
+  double share_after(double tau, double eta = 0.0) {
+    error_ = exponential_of(A_ * tau) * error_;
+    bound_->flow(tau, state_.data());
+    const double before = error_.norm() / value();
+    gain_.evaluate(exponential_of(-A_ * tau).eval().data(), K_.data(), gain_workspace_.data());
+    error_ -= K_ * (C_ * error_ + scalar_matrix(eta));
+    bound_->sample(state_.data(), workspace_.data());
+    return std::max(before, error_.norm() / value());
+  }
+  double value() const { return bound_->bound(state_.data()); }
+  const Eigen::VectorXd& error() const { return error_; }
+
+ private:
+  Eigen::MatrixXd A_;
+  Eigen::MatrixXd C_;
+  std::unique_ptr<const ErrorBound> bound_;
+  CertificateGain gain_;
+  std::vector<double> state_;
+  std::vector<double> workspace_;
+  Eigen::VectorXd gain_workspace_;
+  Eigen::MatrixXd K_;
+  Eigen::VectorXd error_;
+};
+
+ErrorAssumptions assuming(double initial_error, double noise) {
+  ErrorAssumptions assumptions;
+  assumptions.initial_error = initial_error;
+  assumptions.noise = noise;
+  return assumptions;
+}
+
 /// Follows the observer's own gain and the bound over random samples.
 void expect_bound_covers_error(double lambda, double noise) {
   const CertificateSubject subject = aircraft(1.0, 3.0);
   NamedMatrices values = kPrinted_1_3;
   values["lambda"] = scalar_matrix(lambda);
-  ErrorAssumptions assumptions;
-  assumptions.initial_error = std::sqrt(3.0);
-  assumptions.noise = noise;
-  const auto bound = theorem().error_bound(subject, values, assumptions);
-  std::vector<double> state(static_cast<std::size_t>(bound->state_size()));
-  bound->initialize(state.data());
-
-  const CertificateGain gain(subject.plant.C(), values.at("P"), lambda);
-  Eigen::VectorXd workspace(gain.workspace_size());
-  Eigen::MatrixXd K(3, 1);
+  BoundedError run(subject, values, assuming(std::sqrt(3.0), noise), Eigen::Vector3d(1, -1, 1));
   std::mt19937 random(7);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
-  Eigen::VectorXd error = Eigen::Vector3d(1, -1, 1);
-  for (int j = 0; j < 100; ++j) {
-    // The first sample may come at once.
-    const double tau = j == 0 ? 0.4 : 1.0 + 2.0 * uniform(random);
-    error = exponential_of(subject.plant.A() * tau) * error;
-    bound->flow(tau, state.data());
-    ASSERT_GE(bound->bound(state.data()), error.norm()) << "before sample " << j;
-    gain.evaluate(exponential_of(-subject.plant.A() * tau).eval().data(), K.data(),
-                  workspace.data());
-    const double eta = noise * (2.0 * uniform(random) - 1.0);
-    error -= K * (subject.plant.C() * error + scalar_matrix(eta));
-    bound->sample(state.data());
-    ASSERT_GE(bound->bound(state.data()), error.norm()) << "after sample " << j;
+  const auto follow = [&](double tau) {
+    ASSERT_LE(run.share_after(tau, noise * (2.0 * uniform(random) - 1.0)), 1.0) << tau;
+  };
+  // The first sample may come at once.
+  follow(0.4);
+  for (int j = 0; j < 100; ++j) follow(1.0 + 2.0 * uniform(random));
+  const double steady = run.value();
+  EXPECT_LT(steady, noise == 0.0 ? 1e-4 : 1000.0 * noise);
+  // Other times are covered, too, and it falls again after them.
+  for (const double tau : {3.1, 7.0, 0.2, 0.0, 0.9, 12.0}) follow(tau);
+  EXPECT_TRUE(std::isfinite(run.value()));
+  for (int j = 0; j < 100; ++j) follow(1.0 + 2.0 * uniform(random));
+  EXPECT_LT(run.value(), noise == 0.0 ? 1e-4 : 1000.0 * noise);
+}
+
+TEST(Sferlazza2019Verification, StepsForwardByTheLargestEigenvalue) {
+  // Example 1 with α = 0.15: (23) holds at T1 and not at T2, where the ratio of both sides is
+  // 0.930.
+  Eigen::MatrixXd A(2, 2);
+  A << 0.15, 1, -1, 0.15;
+  const Eigen::MatrixXd P = Eigen::Vector2d(1.0, 1.0 / 2.347).asDiagonal();
+  const auto ratio = [&](double tau) {
+    const double s = std::sin(tau);
+    const double c = std::cos(tau);
+    return std::exp(-2.0 * 0.15 * tau) * (P(0, 0) * s * s + P(1, 1) * c * c) / P(1, 1);
+  };
+  EXPECT_GT(ratio(1.8629), 1.0);
+  EXPECT_NEAR(ratio(2.2440), 0.930, 0.001);
+  const Eigen::MatrixXd complement = Eigen::Vector2d(0.0, 1.0);
+  const IntervalVerification whole = verify_between(A, complement, P, 1.8629, 2.2440);
+  EXPECT_FALSE(whole.holds);
+  ASSERT_TRUE(whole.stopped_at);
+  EXPECT_NEAR(ratio(*whole.stopped_at), 1.0, 1e-3);
+  const IntervalVerification part = verify_between(A, complement, P, 1.8629, 2.1);
+  EXPECT_GT(ratio(2.1), 1.0);
+  EXPECT_TRUE(part.holds);
+}
+
+/// A light oscillation, far faster than the times between samples: the norms change within 1 % of
+/// T2 as much as over all of it.
+CertificateSubject fast_oscillation() {
+  Eigen::MatrixXd A(2, 2);
+  A << -0.12, 60, -60, -0.12;
+  Eigen::MatrixXd C(1, 2);
+  C << 1, 0;
+  return linear_subject(A, C, 0.5, 5.0);
+}
+
+TEST(Sferlazza2019Bound, CoversTheErrorOfAFastOscillation) {
+  const CertificateSubject subject = fast_oscillation();
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> uniform(0.5, 5.0);
+  for (const double lambda : {0.0, 0.5}) {
+    const NamedMatrices values = {{"P", Eigen::Vector2d(1.0, 0.01).asDiagonal()},
+                                  {"lambda", scalar_matrix(lambda)}};
+    for (int run = 0; run < 50; ++run) {
+      const double angle = 6.283 * run / 50.0;
+      BoundedError bounded(subject, values, assuming(1.0, 0.0),
+                           Eigen::Vector2d(std::cos(angle), std::sin(angle)));
+      double largest = 0.0;
+      for (int j = 0; j < 20 && bounded.error().norm() > 1e-11; ++j) {
+        // Of some times, the one after which the error is largest.
+        double tau = 0.0;
+        double worst = -1.0;
+        for (int k = 0; k < 100; ++k) {
+          const double candidate = uniform(random);
+          const double after = (exponential_of(subject.plant.A() * candidate) * bounded.error())(1);
+          if (std::abs(after) > worst) {
+            worst = std::abs(after);
+            tau = candidate;
+          }
+        }
+        largest = std::max(largest, bounded.share_after(tau));
+      }
+      ASSERT_LE(largest, 1.0) << "lambda " << lambda << ", run " << run;
+      EXPECT_GT(largest, 0.05);
+    }
   }
-  const double left = bound->bound(state.data());
-  if (noise == 0.0) {
-    EXPECT_LT(left, 1e-4);
-  } else {
-    EXPECT_LT(left, 1000.0 * noise);
-  }
-  bound->flow(3.1, state.data());
-  EXPECT_TRUE(std::isinf(bound->bound(state.data())));
+}
+
+TEST(Sferlazza2019Bound, AllocatesNothingAtSamples) {
+  if (!allocations_are_counted()) GTEST_SKIP() << "a sanitizer owns the allocator";
+  const auto bound = theorem().error_bound(aircraft(1.0, 3.0), kPrinted_1_3, assuming(1.0, 0.1));
+  std::vector<double> state(static_cast<std::size_t>(bound->state_size()));
+  std::vector<double> workspace(static_cast<std::size_t>(bound->workspace_size()));
+  const std::size_t before = allocations();
+  bound->initialize(state.data());
+  bound->flow(2.0, state.data());
+  bound->sample(state.data(), workspace.data());
+  EXPECT_EQ(before, allocations());
 }
 
 TEST(Sferlazza2019Bound, CoversTheErrorAndFalls) {

@@ -17,9 +17,10 @@ struct ErrorAssumptions {
 /// hybrid system of its own, driven by the same events as the observer, so that the bound is a
 /// function of them, too.
 ///
-/// Its maps allocate nothing and throw nothing. A bound of infinity says that there is no
-/// guarantee: the events left the set for which the theorem holds, for example by a time between
-/// samples longer than T2. It stays until a reset.
+/// Its maps allocate nothing and throw nothing; what they need beside the state they find at
+/// `workspace`. Where the events leave the set for which the theorem holds, for example by a time
+/// between samples longer than T2, it goes on with what the flow makes of the error at most. A
+/// bound of infinity says that nothing is known any more. It stays until a reset.
 class ErrorBound {
  public:
   ErrorBound() = default;
@@ -30,6 +31,9 @@ class ErrorBound {
   /// Number of entries of its state.
   virtual Eigen::Index state_size() const = 0;
 
+  /// Number of entries that sample() needs in `workspace`.
+  virtual Eigen::Index workspace_size() const { return 0; }
+
   /// The state where the estimate begins (at any time before the first sample).
   virtual void initialize(double* state) const = 0;
 
@@ -39,7 +43,7 @@ class ErrorBound {
   virtual void flow(double duration, double* state) const = 0;
 
   /// At a sample of the sensor, and at a jump of the plant.
-  virtual void sample(double* state) const = 0;
+  virtual void sample(double* state, double* workspace) const = 0;
   virtual void jump(double* state) const = 0;
 
   /// The bound on |x − x̂|, units of the state.

@@ -24,6 +24,7 @@ class GuaranteedBound : public LawDecorator {
   GuaranteedBound(const std::shared_ptr<const ObserverLaw>& law,
                   std::unique_ptr<const ErrorBound> bound, double error_limit);
 
+  Eigen::Index workspace_size() const override;
   void initialize(double* state) const override;
   void flow(Duration duration, double* state, double* workspace) const override;
   Effect reset(const Event& event, double* state, double* workspace) const override;

@@ -8,14 +8,14 @@ namespace sampled_data_observers {
 /// A bound that is carried from sample to sample as one number, a level, and follows between them
 /// from the level and the time τ since the last sample.
 ///
-/// Samples must come T1 to T2 apart, the first one at any time up to T2. Plant jumps end the
-/// guarantee.
+/// Samples may come at any time: from T1 to T2 apart the level falls as the theorem says, and else
+/// it is what the flow and the sample make of it at most. Plant jumps end the guarantee.
 class SampledErrorBound : public ErrorBound {
  public:
   Eigen::Index state_size() const final { return 3; }
   void initialize(double* state) const final;
   void flow(double duration, double* state) const final;
-  void sample(double* state) const final;
+  void sample(double* state, double* workspace) const final;
   void jump(double* state) const final;
   double bound(const double* state) const final;
 
@@ -23,9 +23,12 @@ class SampledErrorBound : public ErrorBound {
   SampledErrorBound(const CertificateSubject& subject, double initial_level)
       : T1_(subject.T1), T2_(subject.T2), initial_level_(initial_level) {}
 
-  /// The level after a sample at τ [s], and after the first one.
-  virtual double next_level(double level, double tau) const = 0;
-  virtual double first_level(double level, double tau) const = 0;
+  /// Whether a sample at τ [s] after the one before is among those that the theorem is about.
+  bool is_foreseen(double tau) const { return T1_ <= tau && tau <= T2_; }
+
+  /// The level after a sample at τ [s] >= 0, and after the first one.
+  virtual double next_level(double level, double tau, double* workspace) const = 0;
+  virtual double first_level(double level, double tau, double* workspace) const = 0;
 
   /// The bound on |x − x̂| at τ [s], and before the first sample.
   virtual double error(double level, double tau) const = 0;
