@@ -17,7 +17,7 @@ import mpmath  # noqa: E402
 from mpmath import mp  # noqa: E402
 
 from claim import Unreadable, read_claim  # noqa: E402
-from high_precision import balancing, norm_1  # noqa: E402
+from high_precision import balancing, frobenius, symmetrized  # noqa: E402
 from theorems import conditions_of  # noqa: E402
 
 
@@ -29,7 +29,9 @@ def digits_for(claim):
         n = len(d)
         balanced = [[mode.A[i][j] * d[j] / d[i] for j in range(n)] for i in range(n)]
         scales = mpmath.log10(max(d) / min(d))
-        most = max(most, scales + norm_1(balanced) * claim.T2 / mpmath.log(10))
+        # |e^{Bt}| <= e^{|(B + B')/2| t}, forward and backward.
+        growth = frobenius(symmetrized(balanced)) / 2
+        most = max(most, scales + growth * claim.T2 / mpmath.log(10))
     return int(60 + min(2 * most, 1000))
 
 

@@ -1,0 +1,103 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "certificate/disturbed_flow.h"
+#include "sampled_data_observers/config/observer_config.h"
+
+namespace sampled_data_observers::test {
+
+/// Plant and observer at one instant.
+struct Attacked {
+  Eigen::VectorXd x;
+  Eigen::VectorXd law_state;
+};
+
+/// A plant that an observer with a guaranteed bound watches, played step by step by whoever attacks
+/// the bound. What is played must lie within the assumptions. Everything starts from x = 0.
+class AttackedObserver {
+ public:
+  AttackedObserver(const ObserverConfig& config, Eigen::MatrixXd N)
+      : law_(*config.law), plant_(*config.plant), flow_(plant_, std::move(N)) {
+    workspace_.resize(law_.workspace_size());
+    for (std::size_t i = 0; i < plant_.sensors().size(); ++i) {
+      const SensorTiming timing = plant_.sensors()[i].timing;
+      if (timing == SensorTiming::kContinuous) continue;
+      sensor_ = i;
+      samples_ = timing == SensorTiming::kSampled;
+    }
+    output_ = plant_.modes().front().outputs[sensor_]->affine();
+  }
+
+  const Plant& plant() const { return plant_; }
+  const Eigen::MatrixXd& C() const { return output_->M(); }
+
+  /// The estimate begins with this error x − x̂.
+  Attacked begin(const Eigen::VectorXd& error) const {
+    Attacked result{Eigen::VectorXd::Zero(plant_.states()), Eigen::VectorXd(law_.state_size())};
+    law_.initialize(result.law_state.data());
+    const Eigen::VectorXd estimate = result.x - error;
+    law_.start_from(estimate.data(), result.law_state.data());
+    return result;
+  }
+
+  void flow(Duration duration, const Eigen::VectorXd& w, Attacked& at) {
+    flow_.apply(0, w, duration, at.x);
+    law_.flow(duration, at.law_state.data(), workspace_.data());
+  }
+
+  /// A sample, or a jump where the plant is measured at jumps, with this noise.
+  void event(const Eigen::VectorXd& noise, Attacked& at) {
+    const Eigen::VectorXd y = C() * at.x + output_->c() + noise;
+    if (samples_) {
+      reset({0, EventKind::kSample, static_cast<int>(sensor_), y.data(), y.size(), 0}, at);
+      return;
+    }
+    const AffineMap& jump = *plant_.modes().front().jump->affine();
+    at.x = (jump.M() * at.x + jump.c()).eval();
+    reset({0, EventKind::kJump, kMeasuredJump, y.data(), y.size(), 0}, at);
+  }
+
+  Eigen::VectorXd error(const Attacked& at) const {
+    return at.x - at.law_state.head(plant_.states());
+  }
+
+  double bound(const Attacked& at) const { return law_.error_bound(at.law_state.data()); }
+
+  /// |x − x̂| over its bound, less what double precision leaves of both; counted as a comparison.
+  double compare(const Attacked& at) {
+    ++comparisons_;
+    const double bound = this->bound(at);
+    if (!std::isfinite(bound)) ++without_bound_;
+    const double rounding = 1e-12 * (at.x.norm() + at.law_state.head(plant_.states()).norm());
+    const double share = std::max(0.0, error(at).norm() - rounding) / std::max(bound, 1e-300);
+    largest_share_ = std::max(largest_share_, share);
+    return share;
+  }
+
+  std::size_t comparisons() const { return comparisons_; }
+  std::size_t without_bound() const { return without_bound_; }
+  double largest_share() const { return largest_share_; }
+
+ private:
+  void reset(const Event& event, Attacked& at) {
+    static_cast<void>(law_.reset(event, at.law_state.data(), workspace_.data()));
+  }
+
+  const ObserverLaw& law_;
+  const Plant& plant_;
+  DisturbedFlow flow_;
+  Eigen::VectorXd workspace_;
+  std::size_t sensor_ = 0;
+  bool samples_ = true;
+  const AffineMap* output_ = nullptr;
+  std::size_t comparisons_ = 0;
+  std::size_t without_bound_ = 0;
+  double largest_share_ = 0.0;
+};
+
+}  // namespace sampled_data_observers::test
