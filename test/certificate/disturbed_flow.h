@@ -12,11 +12,12 @@ namespace sampled_data_observers::test {
 /// ẋ = f(x) + N w of the modes of a plant, with w held and without input: exact where f is affine.
 class DisturbedFlow : private VectorField {
  public:
-  /// @param N  n x n_w
-  DisturbedFlow(const Plant& plant, Eigen::MatrixXd N)
+  /// @param N     n x n_w
+  /// @param step  of the integration where f is not affine
+  DisturbedFlow(const Plant& plant, Eigen::MatrixXd N, Duration step)
       : plant_(plant),
         N_(std::move(N)),
-        numeric_(plant.states(), plant.integration().step),
+        numeric_(plant.states(), step),
         u_(Eigen::VectorXd::Zero(plant.inputs())),
         scratch_(plant.states()) {
     if (!plant.is_affine()) return;

@@ -21,6 +21,7 @@ constexpr Stamp kStart = 1'600'000'000'000'000'000;
 constexpr int kRuns = 10000;
 constexpr int kEventsPerRun = 12;
 constexpr int kPartsPerInterval = 3;
+constexpr Duration kStep = 10'000'000;
 
 /// Plays plant, sensors and jumps against an estimator.
 class RandomRuns {
@@ -30,7 +31,7 @@ class RandomRuns {
         plant_(*config.plant),
         certificate_(std::move(certificate)),
         assumptions_(assumptions),
-        flow_(plant_, certificate_.subject.plant.N),
+        flow_(plant_, certificate_.subject.plant.N, kStep),
         estimate_(Estimator(config.law, config.options).make_estimate()) {}
 
   void run(std::uint64_t seed) {

@@ -22,7 +22,9 @@ struct Attacked {
 class AttackedObserver {
  public:
   AttackedObserver(const ObserverConfig& config, Eigen::MatrixXd N)
-      : law_(*config.law), plant_(*config.plant), flow_(plant_, std::move(N)) {
+      : law_(*config.law),
+        plant_(*config.plant),
+        flow_(plant_, std::move(N), plant_.integration().step) {
     workspace_.resize(law_.workspace_size());
     for (std::size_t i = 0; i < plant_.sensors().size(); ++i) {
       const SensorTiming timing = plant_.sensors()[i].timing;
