@@ -1,7 +1,8 @@
 // Guaranteed bounds under attack: for each theorem that gives one, on stiff, fast, ill-scaled and
 // multi-output plants, a search for the times between events, initial error, noise and disturbance
-// with which the error comes to most of its bound. The environment variable SDO_COMPARISONS says
-// how many comparisons it takes for each claim.
+// with which the error comes to most of its bound; in one of four, some events come later than T2
+// or sooner than T1. The environment variable SDO_COMPARISONS says how many comparisons it takes
+// for each claim.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -82,9 +83,12 @@ TEST_P(BoundAttackTest, FindsNoErrorAboveItsBound) {
   BeamSearch search(observer, subject, claim.assumptions);
   const std::size_t wanted = comparisons_asked_for();
   for (std::uint64_t seed = 0; observer.comparisons() < wanted; ++seed) {
-    search.run(seed);
+    const bool strays = seed % 4 == 3;
+    const std::size_t without_bound = observer.without_bound();
+    search.run(seed, strays);
     ASSERT_LE(observer.largest_share(), 1.0 + 1e-9) << claim.gains << ", seed " << seed;
-    ASSERT_EQ(0u, observer.without_bound()) << claim.gains << ", seed " << seed;
+    if (strays) continue;
+    ASSERT_EQ(without_bound, observer.without_bound()) << claim.gains << ", seed " << seed;
   }
   // Otherwise the attack would not notice a bound of another size.
   EXPECT_GT(observer.largest_share(), 0.01);

@@ -74,7 +74,10 @@ class AttackedObserver {
   double compare(const Attacked& at) {
     ++comparisons_;
     const double bound = this->bound(at);
-    if (!std::isfinite(bound)) ++without_bound_;
+    if (!std::isfinite(bound)) {
+      ++without_bound_;
+      return 0.0;
+    }
     const double rounding = 1e-12 * (at.x.norm() + at.law_state.head(plant_.states()).norm());
     const double share = std::max(0.0, error(at).norm() - rounding) / std::max(bound, 1e-300);
     largest_share_ = std::max(largest_share_, share);

@@ -23,8 +23,10 @@ class BeamSearch {
              const ErrorAssumptions& assumptions)
       : observer_(observer), subject_(subject), assumptions_(assumptions) {}
 
-  void run(std::uint64_t seed) {
+  /// @param strays  whether some events come later than T2 and sooner than T1 allows
+  void run(std::uint64_t seed, bool strays) {
     generator_.seed(seed);
+    strays_ = strays;
     std::vector<Branch> beam;
     const Eigen::Index n = observer_.plant().states();
     for (int i = 0; i < kWidth; ++i) {
@@ -56,6 +58,7 @@ class BeamSearch {
   static constexpr int kDepth = 24;
   static constexpr int kPolished = 2;
   static constexpr std::size_t kServed = 12;
+  static constexpr double kStraying = 0.2;
 
   struct Branch {
     Play run;
@@ -76,6 +79,10 @@ class BeamSearch {
     const auto width = static_cast<double>(longest - shortest);
     std::vector<Duration> result = {longest, shortest,
                                     shortest + static_cast<Duration>(width * uniform())};
+    if (strays_ && uniform() < kStraying) {
+      result.push_back(uniform() < 0.5 ? from_seconds((1.0 + 2.0 * uniform()) * subject_.T2)
+                                       : 1 + from_seconds(uniform() * subject_.T1));
+    }
     if (is_first || served_.empty()) return result;
     const auto chosen = static_cast<std::size_t>(uniform() * static_cast<double>(served_.size()));
     const Duration served = served_[chosen].interval;
@@ -87,6 +94,7 @@ class BeamSearch {
 
   /// Remembers the intervals in which the error grew the most beside its bound.
   void remember(Duration interval, double growth) {
+    if (strays_) return;
     const auto same = [interval](const Served& served) { return served.interval == interval; };
     if (std::any_of(served_.begin(), served_.end(), same)) return;
     served_.push_back({interval, growth});
@@ -113,7 +121,8 @@ class BeamSearch {
       move.noise = input(assumptions_.noise, -sign, observer_.C() * observer_.error(branch.at));
       observer_.event(move.noise, branch.at);
       branch.share = observer_.compare(branch.at);
-      if (!from.run.moves.empty()) remember(interval, branch.share / from.share);
+      if (!from.run.moves.empty() && from.share > 0.0)
+        remember(interval, branch.share / from.share);
       branch.run.moves.push_back(std::move(move));
       next.push_back(std::move(branch));
       if (!has_inputs) return;
@@ -147,6 +156,7 @@ class BeamSearch {
   ErrorAssumptions assumptions_;
   std::mt19937_64 generator_;
   std::vector<Served> served_;
+  bool strays_ = false;
 };
 
 }  // namespace sampled_data_observers::test

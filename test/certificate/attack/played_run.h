@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <functional>
 #include <utility>
 #include <vector>
@@ -76,6 +77,7 @@ class WorstInputs {
     Play worst = run_;
     double largest = 0.0;
     for (std::size_t instant = 0; instant < bounds.size(); ++instant) {
+      if (!std::isfinite(bounds[instant])) continue;
       for (Eigen::Index first = 0; first < n; ++first) {
         Eigen::VectorXd direction = Eigen::VectorXd::Unit(n, first);
         double norm = 0.0;
