@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 import mpmath
 from mpmath import mp, mpf
 
-from high_precision import (balancing, exponential, frobenius, minus, norm_1, pivots_and_factor,
-                            product, products, solved, times, transposed)
+from high_precision import (balancing, exponential, frobenius, minus, norm_1, pivots_and_factor, plus,
+                            product, products, solved, symmetrized, times, transposed)
 
 TERMS = 10
 
@@ -152,7 +152,7 @@ class OverTimes:
         """Goes from low to high by intervals in which the matrix can't cease to be definite.
 
         With F F' the matrix at c, and W_k = Z B^k e^{Bc} Y F'⁻¹ / k!, the matrix at c + s is
-        F (I + D(s)) F', |D(s)| <= 2 |W_0| g + g² where g = sum_k |W_k| |s|^k over k >= 1.
+        F (I + D(s)) F' with D(s) the sum of s^(i+j) W_i' W_j over i + j > 0.
         """
         at = self.low
         length = (self.high - self.low) / 8
@@ -195,18 +195,23 @@ class OverTimes:
         return result
 
     def radius(self, flown, factor, wanted):
-        term = transposed(solved(factor, transposed(product(flown, self.Y))))
-        norms = []
-        for k in range(TERMS + 1):
-            norms.append(frobenius(product(self.Z, term)))
-            term = times(mpf(1) / (k + 1), product(self.B, term))
-        rest = frobenius(self.Z) * frobenius(term)
+        W = [transposed(solved(factor, transposed(product(flown, self.Y))))]
+        for k in range(1, TERMS + 2):
+            W.append(times(mpf(1) / k, product(self.B, W[-1])))
+        rest = frobenius(self.Z) * frobenius(W.pop())
+        W = [product(self.Z, term) for term in W]
+        w = [frobenius(term) for term in W]
+        # Of the first two powers the matrices themselves, of the others what they are at most.
+        first = frobenius(symmetrized(product(transposed(W[0]), W[1])))
+        second = frobenius(plus(symmetrized(product(transposed(W[0]), W[2])),
+                                product(transposed(W[1]), W[1])))
         norm_B = frobenius(self.B)
 
         def reach(s):
-            g = mp.fsum(norms[k] * s ** k for k in range(1, TERMS + 1))
+            g = mp.fsum(w[k] * s ** k for k in range(TERMS + 1))
             g += rest * s ** (TERMS + 1) * mpmath.exp(norm_B * s)
-            return 2 * norms[0] * g + g * g
+            at_most = w[0] ** 2 + 2 * w[0] * w[1] * s + (2 * w[0] * w[2] + w[1] ** 2) * s ** 2
+            return g * g - at_most + first * s + second * s * s
 
         s = wanted * 4
         while reach(s) >= 1:
