@@ -124,35 +124,75 @@ def ferrante2019_corollary2(claim):
 # sferlazza2019
 
 
-def sferlazza2019_theorem2(claim):
-    """(21) without its last block, which P > 0 leaves out: V falls in the directions not seen."""
+def gain_of(claim, P, share, tau):
+    """(36), with lambda = 0 (25): what is unseen orthogonal, in the norm of before, to the error."""
+    C, n = claim.C, claim.states
+    unseen = null_space(C)
+    back = exponential(times(-tau, claim.A))
+    before = products(transposed(back), P, back)
+    W = inverse(products(transposed(unseen), before, unseen))
+    mixed = products(transposed(unseen), before, transposed(C))
+    K = minus(transposed(C), products(unseen, W, mixed))
+    if share != 0:
+        M11 = minus(products(C, before, transposed(C)), products(transposed(mixed), W, mixed))
+        to_unseen = product(transposed(unseen), P)
+        M22 = minus(P, products(transposed(to_unseen), W, to_unseen))
+        R11, R22 = root_of(M11), root_of(M22)
+        if R11 is None or R22 is None:
+            return None
+        tall = R11 + zeros(n - len(C), len(C))
+        K = minus(K, solved(P, times(share, product(transposed(R22), tall))))
+    return product(K, inverse(product(C, transposed(C))))
+
+
+def sferlazza2019(claim, decay):
+    """(21) for A + decay I, without its last block, which P > 0 leaves out."""
     P, share = claim.value("P"), claim.value("lambda")
+    n = claim.states
     yield times_are_valid(claim)
+    yield Number("decay >= 0", decay, may_be_zero=True)
     yield Number("lambda >= 0", share, may_be_zero=True)
-    yield Number("lambda < 1", 1 - share)
+    yield Number("lambda e^{decay T2} < 1", 1 - share * mpmath.exp(decay * claim.T2))
     yield Fixed("P > 0", P)
     Z = root_of(P)
     unseen = null_space(claim.C)
-    yield Statement("outputs don't depend on each other",
-                    len(unseen[0]) == claim.states - len(claim.C))
+    yield Statement("outputs don't depend on each other", len(unseen[0]) == n - len(claim.C))
     if Z is None or not unseen[0]:
         return
-    X = products(transposed(unseen), P, unseen)
     yield at_times(claim, "what is unseen was larger a time tau before, (21)", 1, Z,
-                   times(mpf(-1), claim.A), unseen, X)
-    if share != 0:
-        return
-    for tau in between(claim.T1, claim.T2, 3):
-        # (25) at constant times: the error orthogonal, in the norm of before, to what is unseen.
-        back = exponential(times(-tau, claim.A))
-        before = products(transposed(back), P, back)
-        free = products(transposed(unseen), before, unseen)
-        seen = products(transposed(unseen), before, transposed(claim.C))
-        K = product(minus(transposed(claim.C), product(unseen, solved(free, seen))),
-                    inverse(product(claim.C, transposed(claim.C))))
-        yield Contracts("the error at constant times", claim.A,
-                        minus(identity(claim.states), product(K, claim.C)),
-                        lambda tau: mpf(1), [tau])
+                   times(mpf(-1), plus(claim.A, times(decay, identity(n)))), unseen,
+                   products(transposed(unseen), P, unseen))
+    for tau in between(claim.T1, claim.T2, 5 if share == 0 else 17):
+        K = gain_of(claim, P, share, tau)
+        yield Statement(f"there is a gain at {mpmath.nstr(tau, 6)} s", K is not None)
+        if K is None:
+            continue
+        kept = minus(identity(n), product(K, claim.C))
+        step = products(kept, exponential(times(tau, claim.A)))
+        before = times(mpmath.exp(-2 * decay * tau) * (1 + mpf(10) ** -20), P)
+        yield Fixed(f"V does not grow in {mpmath.nstr(tau, 6)} s",
+                    minus(before, products(transposed(step), P, step)))
+        yield Contracts("the error at constant times", claim.A, kept,
+                        lambda tau: mpmath.exp(-decay * tau), [tau])
+
+
+def sferlazza2019_theorem2(claim):
+    yield from sferlazza2019(claim, mpf(0))
+
+
+def sferlazza2019_theorem2_rate(claim):
+    yield from sferlazza2019(claim, claim.value("decay"))
+
+
+def sferlazza2019_equation17(claim):
+    """(17): each sample keeps the part lambda of the error, whatever P."""
+    share = claim.value("lambda")
+    yield times_are_valid(claim)
+    yield Number("lambda >= 0", share, may_be_zero=True)
+    yield Number("lambda < 1", 1 - share)
+    yield Statement("no P", "P" not in claim.gains)
+    yield Statement("C is square", len(claim.C) == claim.states)
+    yield Fixed("C is invertible", product(claim.C, transposed(claim.C)))
 
 
 # etienne2019
@@ -207,6 +247,23 @@ def etienne2019_proposition2(claim):
     yield Number("gamma > 0", gamma)
     yield Fixed("P > I", minus(claim.value("P"), identity(n)))
     yield from etienne2019(claim, G, [(identity(n), gamma ** 2)])
+
+
+def etienne2019_proposition2_channels(claim):
+    """Proposition 2 with the noise through L and the disturbance through N, for their sizes."""
+    n = claim.states
+    gamma, noise = claim.value("gamma"), claim.value("noise_size")
+    yield Number("gamma > 0", gamma)
+    yield Number("noise_size > 0", noise)
+    slacks = [claim.value(f"G_{k}") for k in (1, 2, 3, 4)]
+    inputs = [(times(noise, claim.value("L")), gamma ** 2)]
+    if claim.N is not None:
+        disturbance = claim.value("disturbance_size")
+        yield Number("disturbance_size > 0", disturbance)
+        slacks.append(claim.value("G_5"))
+        inputs.append((times(disturbance, claim.N), gamma ** 2))
+    yield Fixed("P > I", minus(claim.value("P"), identity(n)))
+    yield from etienne2019(claim, stacked([slacks]), inputs)
 
 
 # bernard2022
@@ -329,7 +386,10 @@ OBSERVERS = {
     ferrante2019_corollary1: "IntersampleInjectionObserver",
     ferrante2019_corollary2: "IntersampleInjectionObserver",
     sferlazza2019_theorem2: "TimeVaryingGainObserver",
+    sferlazza2019_theorem2_rate: "TimeVaryingGainObserver",
+    sferlazza2019_equation17: "TimeVaryingGainObserver",
     etienne2019_proposition1: "SampleAndHoldObserver",
+    etienne2019_proposition2_channels: "SampleAndHoldObserver",
     etienne2019_proposition2: "SampleAndHoldObserver",
     bernard2022_equation14: "SynchronizedObserver",
     bernard2022_equation22: "SynchronizedObserver",
