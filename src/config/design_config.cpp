@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "sampled_data_observers/config/claim_contradiction.h"
 #include "sampled_data_observers/config/config_section.h"
 #include "sampled_data_observers/config/named_values.h"
 #include "sampled_data_observers/config/plant_fingerprint.h"
@@ -39,6 +40,8 @@ DesignConfig read_design_config(const std::vector<std::string>& files,
   } catch (const std::invalid_argument& fault) {
     throw root.error("plant", "a plant that a design can be made for", fault.what());
   }
+  ConfigSection plant = root.section("plant");
+  require_no_contradiction(*config.plant, stated, plant, section);
   if (section.has("N")) config.subject.plant.N = section.matrix("N", n, -1);
   if (section.has("C_p")) config.subject.plant.C_p = section.matrix("C_p", -1, n);
   read_design_sampling(root, section, config.subject);

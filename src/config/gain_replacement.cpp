@@ -1,6 +1,7 @@
 #include "sampled_data_observers/config/gain_replacement.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "sampled_data_observers/config/config_section.h"
 
@@ -13,6 +14,15 @@ void remove(ConfigNode& tree, const std::string& key) {
                      tree.entries.end());
 }
 
+/// Which states come from outputs is no gain, and stays where the file does not say it.
+const char kInjection[] = "output_injection";
+
+std::optional<ConfigNode> injection_of(const ConfigNode& tree) {
+  const ConfigNode* gains = tree.find("gains");
+  const ConfigNode* injection = gains == nullptr ? nullptr : gains->find(kInjection);
+  return injection == nullptr ? std::nullopt : std::optional<ConfigNode>(*injection);
+}
+
 }  // namespace
 
 ConfigNode replace_gains(ConfigNode base, const ConfigNode& gain_file) {
@@ -20,10 +30,13 @@ ConfigNode replace_gains(ConfigNode base, const ConfigNode& gain_file) {
   file.section("gains");
   for (const char* key : {"observer", "certificate", "sampling"}) file.has(key);
   file.finish();
+  const std::optional<ConfigNode> injection = injection_of(base);
   for (const char* key : {"gains", "certificate"}) remove(base, key);
   for (const auto& [key, value] : gain_file.entries) {
     remove(base, key);
     base.entries.emplace_back(key, value);
+    if (key != "gains" || !injection || injection_of(gain_file)) continue;
+    base.entries.back().second.entries.emplace_back(kInjection, *injection);
   }
   return base;
 }

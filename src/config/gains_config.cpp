@@ -53,4 +53,23 @@ std::vector<Eigen::MatrixXd> read_square_per_sensor(ConfigSection& gains, const 
                          [](const Sensor& sensor) { return sensor.outputs(); });
 }
 
+std::vector<OutputInjection> read_output_injections(ConfigSection& gains, const Plant& plant) {
+  std::vector<OutputInjection> result;
+  ConfigSection section = gains.section_or_empty("output_injection");
+  for (std::size_t state = 0; state < plant.state_names().size(); ++state) {
+    const std::string& name = plant.state_names()[state];
+    if (!section.has(name)) continue;
+    const std::string sensor = section.text(name);
+    const auto found = std::find_if(plant.sensors().begin(), plant.sensors().end(),
+                                    [&](const Sensor& other) { return other.name == sensor; });
+    if (found == plant.sensors().end()) {
+      throw section.error(name, "the name of a sensor", "'" + sensor + "'");
+    }
+    result.push_back({static_cast<Eigen::Index>(state),
+                      static_cast<std::size_t>(found - plant.sensors().begin())});
+  }
+  section.finish();
+  return result;
+}
+
 }  // namespace sampled_data_observers

@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <locale>
+#include <map>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
 
 #include "sampled_data_observers/config/certificate_config.h"
+#include "sampled_data_observers/config/claim_contradiction.h"
+#include "sampled_data_observers/config/gains_config.h"
+#include "sampled_data_observers/config/integration_check.h"
 #include "sampled_data_observers/config/plant_fingerprint.h"
 
 namespace sampled_data_observers {
@@ -19,9 +23,9 @@ const char kRemedy[] =
     "; make them again with 'design synthesize', or set allow_uncertified: true to run without "
     "guarantee";
 
-/// Gains that innovations are multiplied by: a theorem that is not about one of these takes it for
-/// zero.
-const char* const kInjectionGains[] = {"L", "H", "K", "L_c", "L_d"};
+/// Keys of `gains` that no theorem names and that are looked at beside it, or change nothing of
+/// what it says: where θ begins is an assumption of the bound.
+const char* const kBesideGains[] = {"theta0", "variant", "output_injection"};
 
 std::string interval(double low, double high) {
   std::ostringstream text;
@@ -31,19 +35,21 @@ std::string interval(double low, double high) {
   return text.str();
 }
 
+/// Every key of the gains that the law computes with must be one that the theorem is about.
 std::optional<ConfigError> objection_to_gains(ConfigSection& root, const Certificate& certificate) {
   ConfigSection gains = root.section("gains");
-  const std::vector<NamedShape> known = certificate.theorem->gains(certificate.subject);
+  const Theorem& theorem = *certificate.theorem;
+  const std::vector<NamedShape> known = theorem.gains(certificate.subject);
+  const std::map<std::string, std::string> choices = theorem.gain_choices();
   for (const std::string& key : gains.keys()) {
     const bool is_known = std::any_of(known.begin(), known.end(), [&](const NamedShape& shape) {
       return shape.name.substr(0, shape.name.find('/')) == key;
     });
-    const bool injects =
-        std::count(std::begin(kInjectionGains), std::end(kInjectionGains), key) > 0;
-    if (is_known || !injects) continue;
-    return gains.error(key,
-                       "only gains that " + certificate.theorem->name() + " is about" + kRemedy,
-                       "another gain");
+    const bool is_beside = choices.count(key) > 0 ||
+                           std::count(std::begin(kBesideGains), std::end(kBesideGains), key) > 0;
+    if (is_known || is_beside) continue;
+    return gains.error(key, "only gains that " + theorem.name() + " is about" + kRemedy,
+                       "'" + key + "', which changes the observer that it is about");
   }
   if (gains.has("output_injection") && !certificate.subject.plant.stated.A) {
     return gains.error("output_injection",
@@ -53,6 +59,33 @@ std::optional<ConfigError> objection_to_gains(ConfigSection& root, const Certifi
                        "a certificate about the plant's own flow");
   }
   return std::nullopt;
+}
+
+/// What the plant's own maps, with the outputs that are injected, refute of what the files state.
+std::optional<ConfigError> objection_to_statements(ConfigSection& root,
+                                                   const Certificate& certificate,
+                                                   const ObserverConfig& config) {
+  const Plant& plant = *config.plant;
+  Eigen::VectorXd state(config.law->state_size());
+  config.law->initialize(state.data());
+  const Eigen::VectorXd centre = state.head(plant.states());
+  const StatedErrorMaps& stated = certificate.subject.plant.stated;
+  if (!stated.A) {
+    if (const auto found = refute_lipschitz_claims(plant, centre)) {
+      return root.section("plant").error(found->key, found->expected + kRemedy, found->found);
+    }
+  }
+  if (stated.is_empty()) return std::nullopt;
+  ConfigSection gains = root.section("gains");
+  const std::vector<OutputInjection> injections = read_output_injections(gains, plant);
+  const auto found = refute_error_maps(plant, stated, injections, centre);
+  if (!found) return std::nullopt;
+  if (const auto others = injections_that_explain(plant, stated, centre)) {
+    return gains.error("output_injection",
+                       in_words(plant, *others) + ", on which certificate/A rests" + kRemedy,
+                       injections.empty() ? "none" : in_words(plant, injections));
+  }
+  return root.section("certificate").error(found->key, found->expected + kRemedy, found->found);
 }
 
 /// Before the certificate is read: it could not be with the gains of another type.
@@ -69,7 +102,8 @@ void require_theorem_for_type(ConfigSection& root, const std::string& type) {
 
 /// Why a certificate does not hold for a configuration, if so.
 std::optional<ConfigError> objection(ConfigSection& root, const ConfigNode& tree,
-                                     const CertificateConfig& claim, const ObserverConfig& config) {
+                                     const CertificateConfig& claim, const ObserverConfig& config,
+                                     const ObserverLaw& law) {
   const ConfigSection section = root.section("certificate");
   const Certificate& certificate = claim.certificate;
   if (auto error = objection_to_gains(root, certificate)) return error;
@@ -91,6 +125,8 @@ std::optional<ConfigError> objection(ConfigSection& root, const ConfigNode& tree
                           ", for which the gains were made" + kRemedy,
                       interval(to_seconds(sampling.T1), to_seconds(sampling.T2)));
   }
+  if (auto error = objection_to_statements(root, certificate, config)) return error;
+  if (auto error = objection_to_step(root, *config.plant, law, true)) return error;
   const std::vector<ConditionCheck> checks = check(certificate);
   if (all_hold(checks)) return std::nullopt;
   return root.error("certificate",
@@ -157,8 +193,8 @@ void require_bounded(ConfigSection& root, const ObserverConfig& config) {
 
 }  // namespace
 
-Guarantee read_guarantee(ConfigSection& root, const ConfigNode& tree,
-                         const ObserverConfig& config) {
+Guarantee read_guarantee(ConfigSection& root, const ConfigNode& tree, const ObserverConfig& config,
+                         const ObserverLaw& law) {
   Guarantee guarantee;
   const bool allow_uncertified = root.flag("allow_uncertified", false);
   require_theorem_for_type(root, config.type);
@@ -168,11 +204,18 @@ Guarantee read_guarantee(ConfigSection& root, const ConfigNode& tree,
     throw root.error("error_assumptions",
                      "a certificate beside it (gains made by 'design synthesize')", "none");
   }
-  const auto error = objection(root, tree, *claim, config);
+  const auto error = objection(root, tree, *claim, config, law);
   if (error && !allow_uncertified) throw ConfigError(*error);
   const Certificate& certificate = claim->certificate;
   const Theorem& theorem = *certificate.theorem;
-  if (!error) guarantee.text = statement(certificate);
+  if (!error && config.law->delays_jumps()) {
+    guarantee.warning =
+        "the certificate says nothing of jumps/late: delayed, which lets jumps take effect when "
+        "they become known: " +
+        theorem.name() + " is about those that take effect when they happen (jumps/late: rewind)";
+  } else if (!error) {
+    guarantee.text = statement(certificate);
+  }
   if (error) guarantee.warning = std::string("no guarantee and no error bound: ") + error->what();
   if (!root.has("error_assumptions")) return guarantee;
   require_bounded(root, config);

@@ -7,6 +7,7 @@
 #include "sampled_data_observers/config/config_section.h"
 #include "sampled_data_observers/config/gate_config.h"
 #include "sampled_data_observers/config/guarantee_config.h"
+#include "sampled_data_observers/config/integration_check.h"
 #include "sampled_data_observers/config/law_registry.h"
 #include "sampled_data_observers/config/plant_config.h"
 #include "sampled_data_observers/config/yaml_file.h"
@@ -105,13 +106,17 @@ ObserverConfig read_observer_config(const ConfigNode& tree, const PlantPluginLoa
   ConfigSection gains = root.section("gains");
   config.law = build_law(config.type, gains, context);
   gains.finish();
+  const std::shared_ptr<const ObserverLaw> bare_law = config.law;
+  if (const auto error = objection_to_step(root, plant, *bare_law, false)) {
+    throw ConfigError(*error);
+  }
   if (plant.inputs() > 0) config.input = read_input_source(root, plant);
   if (plant.jumps()) config.jumps = read_jumps(root, plant, config.law);
 
   config.static_transforms = read_static_transforms(root);
 
   config.options.sampling = read_sampling(root, plant);
-  Guarantee guarantee = read_guarantee(root, tree, config);
+  Guarantee guarantee = read_guarantee(root, tree, config, *bare_law);
   config.guarantee = std::move(guarantee.text);
   config.warning = std::move(guarantee.warning);
   if (guarantee.bound) {

@@ -8,6 +8,7 @@
 #include "commands.h"
 #include "gain_files.h"
 #include "sampled_data_observers/config/certificate_config.h"
+#include "sampled_data_observers/config/claim_contradiction.h"
 #include "sampled_data_observers/config/plant_config.h"
 #include "sampled_data_observers/config/plant_fingerprint.h"
 #include "sampled_data_observers/config/yaml_file.h"
@@ -35,6 +36,10 @@ CertificateConfig read_claim(const VerifyArguments& arguments) {
   ConfigSection root(gains, "");
   auto config = read_certificate(root, *plant.plant);
   if (!config) throw root.error("certificate", "a gain file with a certificate", "none");
+  ConfigSection plant_section = plant_root.section("plant");
+  ConfigSection section = root.section("certificate");
+  require_no_contradiction(*plant.plant, config->certificate.subject.plant.stated, plant_section,
+                           section);
   const std::string hash = plant_fingerprint(plant_tree);
   if (hash != config->plant_hash) {
     throw ConfigError(config->origin, "certificate/plant/hash",

@@ -24,6 +24,18 @@ TEST(GainReplacementTest, TakesGainsAndCertificateOfTheFileAloneAndTheRestOfTheB
   EXPECT_NE(nullptr, tree.find("sampling")->find("T1"));
 }
 
+TEST(GainReplacementTest, KeepsTheOutputInjectionWhereTheFileSaysNothingOfIt) {
+  const ConfigNode base =
+      read_yaml_text("{gains: {L_d: [[1]], output_injection: {x: level}}}", "base.yaml");
+  const ConfigNode kept = replace_gains(base, read_yaml_text("{gains: {L_d: [[2]]}}", "a.yaml"));
+  ASSERT_NE(nullptr, kept.find("gains")->find("output_injection"));
+  EXPECT_EQ("level", kept.find("gains")->find("output_injection")->find("x")->scalar);
+  EXPECT_EQ("2", kept.find("gains")->find("L_d")->items[0].items[0].scalar);
+  const ConfigNode own = replace_gains(
+      base, read_yaml_text("{gains: {L_d: [[2]], output_injection: {x: other}}}", "a.yaml"));
+  EXPECT_EQ("other", own.find("gains")->find("output_injection")->find("x")->scalar);
+}
+
 TEST(GainReplacementTest, RefusesAFileThatSaysMoreOrNothing) {
   EXPECT_THROW(replaced("{gains: {}, rate: 10}"), ConfigError);
   EXPECT_THROW(replaced("{gains: {}, sensors: {}}"), ConfigError);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sampled_data_observers/config/config_section.h"
+#include "sampled_data_observers/observer/synchronized_observer.h"
 #include "sampled_data_observers/plant/plant.h"
 
 namespace sampled_data_observers {
@@ -20,5 +21,9 @@ std::vector<Eigen::MatrixXd> read_gain_per_sensor(ConfigSection& gains, const st
 std::vector<Eigen::MatrixXd> read_square_per_sensor(ConfigSection& gains, const std::string& key,
                                                     const Plant& plant,
                                                     const std::vector<SensorTiming>& timings);
+
+/// The states that a SynchronizedObserver takes from continuous outputs, below `output_injection`:
+/// a map from names of states to names of sensors.
+std::vector<OutputInjection> read_output_injections(ConfigSection& gains, const Plant& plant);
 
 }  // namespace sampled_data_observers

@@ -24,10 +24,12 @@ struct Guarantee {
 
 /// Reads the sections `certificate` and `error_assumptions` and the key `allow_uncertified`, and
 /// checks that the certificate is about this plant, observer and sampling, and that the theorem's
-/// conditions hold for these gains.
+/// conditions hold for these gains, and that its steps of integration follow the flow.
 /// @param tree    that `root` reads, for the plant's fingerprint
 /// @param config  with type, plant, law and options.sampling read
+/// @param law     without what is around it in config.law
 /// @throws ConfigError where it does not hold and that is not allowed, and for the first fault.
-Guarantee read_guarantee(ConfigSection& root, const ConfigNode& tree, const ObserverConfig& config);
+Guarantee read_guarantee(ConfigSection& root, const ConfigNode& tree, const ObserverConfig& config,
+                         const ObserverLaw& law);
 
 }  // namespace sampled_data_observers

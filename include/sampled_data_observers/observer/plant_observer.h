@@ -58,6 +58,13 @@ class PlantObserver : public ObserverLaw {
   void start_from(const double* estimate, double* state) const override;
   void innovation(const Event& sample, const double* state, double* innovation) const override;
 
+  /// The part s of a state that flows is its beginning; ds ← ṡ at a state, flow_size() entries
+  /// each.
+  Eigen::Index flow_size() const { return layout_.constants; }
+  void flow_derivative(const double* state, double* ds, double* workspace) const {
+    derivative(held(state), state, ds, workspace);
+  }
+
  protected:
   /// What a law keeps beside x̂.
   struct Extras {

@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include "builders.h"
 #include "sampled_data_observers/config/gains_config.h"
 #include "sampled_data_observers/observer/synchronized_observer.h"
@@ -15,25 +13,6 @@ std::vector<Eigen::MatrixXd> read_gains(ConfigSection& gains, const std::string&
   for (const Sensor& sensor : plant.sensors()) {
     result.push_back(Eigen::MatrixXd::Zero(plant.states(), sensor.outputs()));
   }
-  return result;
-}
-
-std::vector<OutputInjection> read_output_injections(ConfigSection& gains, const Plant& plant) {
-  std::vector<OutputInjection> result;
-  ConfigSection section = gains.section_or_empty("output_injection");
-  for (std::size_t state = 0; state < plant.state_names().size(); ++state) {
-    const std::string& name = plant.state_names()[state];
-    if (!section.has(name)) continue;
-    const std::string sensor = section.text(name);
-    const auto found = std::find_if(plant.sensors().begin(), plant.sensors().end(),
-                                    [&](const Sensor& other) { return other.name == sensor; });
-    if (found == plant.sensors().end()) {
-      throw section.error(name, "the name of a sensor", "'" + sensor + "'");
-    }
-    result.push_back({static_cast<Eigen::Index>(state),
-                      static_cast<std::size_t>(found - plant.sensors().begin())});
-  }
-  section.finish();
   return result;
 }
 

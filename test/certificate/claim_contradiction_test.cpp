@@ -1,0 +1,185 @@
+// A claim is about what runs: the gains that the law computes with, outputs that are injected
+// included, and the plant that its formulas describe.
+#include "sampled_data_observers/config/claim_contradiction.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "certificate/certified_gains.h"
+#include "sampled_data_observers/config/design_config.h"
+#include "sampled_data_observers/config/plant_fingerprint.h"
+#include "support/config_faults.h"
+
+namespace sampled_data_observers::test {
+namespace {
+
+const char kNeuron[] = "config/examples/bernard2022_neuron_jump_based/gains.yaml";
+const char kInjection[] = "gains: {output_injection: {x1: membrane}}";
+
+/// With the fingerprint of the plant as it is now: a claim about just this plant.
+ConfigNode with_own_hash(const ConfigNode& tree) {
+  const std::string hash = "{certificate: {plant: {hash: " + plant_fingerprint(tree) + "}}}";
+  return override_with(tree, read_yaml_text(hash, "test.yaml"));
+}
+
+/// The message with which a configuration is refused.
+std::string refusal(const ConfigNode& tree) {
+  return fault_of([&] { read_observer_config(with_own_hash(tree), no_plant_plugins); });
+}
+
+std::string refusal(const std::string& file, const std::string& changes) {
+  return refusal(CertifiedGains(file).with(changes).tree());
+}
+
+void expect_parts(const std::string& message, const std::vector<const char*>& parts) {
+  EXPECT_EQ("", missing_parts({"", "", parts}, message)) << message;
+}
+
+TEST(ClaimTest, StatedErrorMapsThatRestOnAnInjectedOutputNeedIt) {
+  expect_parts(refusal(kNeuron, "{}"),
+               {"gains/output_injection: expected {x1: membrane}, on which certificate/A rests",
+                "found none"});
+  EXPECT_EQ("no fault", refusal(kNeuron, kInjection));
+  const ObserverConfig config = CertifiedGains(kNeuron).with(kInjection).config();
+  EXPECT_NE("", config.guarantee);
+  const ObserverConfig uncertified =
+      CertifiedGains(kNeuron).with("allow_uncertified: true").config();
+  EXPECT_EQ("", uncertified.guarantee);
+  EXPECT_NE(std::string::npos, uncertified.warning.find("gains/output_injection"));
+}
+
+TEST(ClaimTest, StatedErrorMapsMustBeThoseOfTheFormulas) {
+  expect_parts(refusal(CertifiedGains(kNeuron)
+                           .with(kInjection)
+                           .with("certificate: {A: [[0, -1, 0], [0, -0.03, 0], [0, 0, 0]]}")
+                           .tree()),
+               {"certificate/A: expected the map of the error: f(x) - f(x^) = [", "at x = [",
+                "x^ = [", "output_injection: {x1: membrane}", "found A (x - x^) = ["});
+  expect_parts(refusal(CertifiedGains(kNeuron)
+                           .with(kInjection)
+                           .with("certificate: {A_d: [[0, 0, 0], [0, 1, 0.9], [0, 0, 1]]}")
+                           .tree()),
+               {"certificate/A_d: expected the map of the error: g(x) - g(x^) = [", "at x = ["});
+}
+
+const char kUnstable[] = R"yaml(
+observer: ConstantGainObserver
+plant: {states: [x], A: [[1]]}
+sensors: {position: {C: [[1]], source: {topic: position}}}
+sampling: {T1: 1, T2: 1}
+gains: {L: [[0]]}
+certificate:
+  theorem: ferrante2016_theorem1
+  plant: {file: plant.yaml, hash: none}
+  T1: 1
+  T2: 1
+  A: [[-1]]
+  decay: 0.5
+  P: [[1]]
+)yaml";
+
+TEST(ClaimTest, ACertificateDoesNotReplaceALinearPlant) {
+  const ConfigNode tree = read_yaml_text(kUnstable, "unstable.yaml");
+  expect_parts(refusal(tree), {"unstable.yaml", "certificate/A: expected the map of the error",
+                               "found A (x - x^) = ["});
+  const ConfigNode stable = override_with(tree, read_yaml_text("plant: {A: [[-1]]}", "test.yaml"));
+  EXPECT_EQ("no fault", refusal(stable));
+}
+
+TEST(ClaimTest, ALipschitzConstantMustBeOne) {
+  const char kLink[] = "config/examples/ferrante2019_flexible_link/gains.yaml";
+  EXPECT_EQ("no fault", refusal(kLink, "{}"));
+  expect_parts(refusal(kLink, "plant: {psi: ['20 * sin(4 * v1)'], lipschitz_constant: 0.1}"),
+               {"plant/lipschitz_constant: expected at least |psi(a) - psi(b)| / |a - b|, which is "
+                "80",
+                "at a = [", "b = [", "found 0.1"});
+  // Less than a percent short.
+  expect_parts(refusal(kLink, "plant: {lipschitz_constant: 3.28}"), {"which is 3.3 at"});
+  // It holds nowhere but near the origin.
+  expect_parts(refusal(kLink, "plant: {psi: ['0.1 * v1^2']}"),
+               {"lipschitz_constant", "min and max"});
+  EXPECT_EQ("no fault", refusal(kLink, "plant: {psi: ['0.1 * max(min(v1, 10), -10)^2']}"));
+}
+
+TEST(ClaimTest, VerticesMustHoldTheFormulas) {
+  const char kDrive[] = "config/examples/etienne2019_dc_drive/gains.yaml";
+  EXPECT_EQ("no fault", refusal(kDrive, "{}"));
+  expect_parts(refusal(kDrive, "plant: {psi: ['1.01 * sin(v1)'], lipschitz_constant: 1.01}"),
+               {"plant/vertices: expected matrices", "in the convex hull", "at x = [", "x^ = [",
+                "found 2 whose hull lacks it"});
+  expect_parts(refusal(kDrive, "plant: {vertices: {2: [[0, 0, 0], [-1.9, 0, 0], [0, 0, 0]]}}"),
+               {"plant/vertices"});
+}
+
+TEST(ClaimTest, EveryKeyOfTheGainsMustBeOneOfTheTheorems) {
+  expect_parts(refusal("config/examples/bernard2022_switched/gains.yaml",
+                       "gains: {projection: {1: [[1, 0, 0], [0, 1, 0], [0, 0, 1]]}}"),
+               {"gains/projection: expected only gains that bernard2022_section7_3_2 is about"});
+}
+
+const char kHighGain[] = R"yaml(
+observer: HighGainObserver
+plant: {states: [x], A: [[0]], jump_map: {A_d: [[1]]}}
+sensors: {level: {C: [[1]], measured: continuous, source: {topic: level}}}
+jumps: {topic: jumps}
+gains: {form: linear, ell: 1, K: [[1]]}
+certificate:
+  theorem: bernard2022_example4_2
+  plant: {file: plant.yaml, hash: none}
+  T1: 1
+  T2: 2
+  flow_decay: 1
+  jump_decay: 0.1
+  P: [[1]]
+)yaml";
+
+TEST(ClaimTest, AProofForAnObserverWithoutSaturationsIsForNoOther) {
+  const ConfigNode tree = read_yaml_text(kHighGain, "high_gain.yaml");
+  EXPECT_EQ("no fault", refusal(tree));
+  const ConfigNode saturated =
+      override_with(tree, read_yaml_text("gains: {saturations: {x: [-1, 1]}}", "test.yaml"));
+  expect_parts(refusal(saturated), {"gains/saturations: expected only gains that "
+                                    "bernard2022_example4_2 is about"});
+}
+
+TEST(ClaimTest, DelayedJumpsLoseTheGuarantee) {
+  const ObserverConfig config =
+      CertifiedGains("config/examples/bernard2022_bouncing_ball/gains.yaml")
+          .with("jumps: {late: delayed}")
+          .config();
+  EXPECT_EQ("", config.guarantee);
+  EXPECT_NE(std::string::npos, config.warning.find("says nothing of jumps/late: delayed"));
+}
+
+/// The message with which a design refuses a plant file.
+std::string design_refusal(const std::string& plant) {
+  const std::string path = ::testing::TempDir() + "claim_plant.yaml";
+  std::ofstream(path) << plant;
+  return fault_of([&] { read_design_config({path}, no_plant_plugins); });
+}
+
+TEST(ClaimTest, DesignsRefuseThemToo) {
+  const std::string lipschitz = R"yaml(
+plant:
+  states: [x, v]
+  A: [[0, 1], [0, -1]]
+  G: [[0], [1]]
+  S: [[1, 0]]
+  psi: ["20 * sin(4 * v1)"]
+  lipschitz_constant: 0.1
+sensors: {position: {C: [[1, 0]], source: {topic: position}}}
+)yaml";
+  expect_parts(design_refusal(lipschitz),
+               {"claim_plant.yaml", "plant/lipschitz_constant", "a = ["});
+  EXPECT_EQ("no fault", design_refusal(replaced(lipschitz, "constant: 0.1", "constant: 80")));
+  const std::string stated = R"yaml(
+plant: {states: [x], A: [[1]]}
+sensors: {position: {C: [[1]], source: {topic: position}}}
+design: {A: [[-1]]}
+)yaml";
+  expect_parts(design_refusal(stated), {"design/A: expected the map of the error", "x = ["});
+}
+
+}  // namespace
+}  // namespace sampled_data_observers::test
