@@ -16,6 +16,10 @@ namespace sdo = sampled_data_observers;
 
 namespace {
 
+// Exit statuses, beside 1 for faults.
+constexpr int kGuaranteeBroken = 2;
+constexpr int kDiverged = 3;
+
 std::map<std::string, std::string> parse_fields(const std::vector<std::string>& assignments) {
   std::map<std::string, std::string> fields;
   for (const std::string& assignment : assignments) {
@@ -80,7 +84,9 @@ int run(int argc, char** argv) {
                  "Draw truth, samples and estimate into this file (.png, .pdf, .svg)")
       ->check(sdo::picture_file());
   app.add_option("--json", json_path, "Write the summary for machines into this file");
-  app.footer("Exit status: 0 done, 1 a fault in bag, configuration or files, else wrong usage.");
+  app.footer(
+      "Exit status: 0 done, 1 a fault in bag, configuration or files, 2 the truth refutes the "
+      "guaranteed error bound, 3 the estimate diverged, else wrong usage.");
 
   try {
     app.parse(argc, argv);
@@ -110,11 +116,13 @@ int run(int argc, char** argv) {
   const sdo::ObserverConfig config =
       sdo::read_observer_config(config_files, sdo::load_plant_plugin);
   if (!config.warning.empty()) std::cerr << "replay: " << config.warning << "\n";
+  for (const std::string& warning : config.warnings) std::cerr << "replay: " << warning << "\n";
   const sdo::ReplaySummary summary = sdo::replay(config, options);
   sdo::print_table(summary, std::cout);
   if (!json_path.empty()) sdo::write_json(summary, json_path);
   if (!plot_path.empty()) sdo::draw_plot(summary, plot_path);
-  return 0;
+  if (summary.is_guarantee_broken()) return kGuaranteeBroken;
+  return summary.diverged.empty() ? 0 : kDiverged;
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "sampled_data_observers/certificate/guaranteed_bound.h"
 #include "sampled_data_observers/config/config_section.h"
+#include "sampled_data_observers/config/contraction_check.h"
 #include "sampled_data_observers/config/gate_config.h"
 #include "sampled_data_observers/config/guarantee_config.h"
 #include "sampled_data_observers/config/integration_check.h"
@@ -119,6 +120,10 @@ ObserverConfig read_observer_config(const ConfigNode& tree, const PlantPluginLoa
   Guarantee guarantee = read_guarantee(root, tree, config, *bare_law);
   config.guarantee = std::move(guarantee.text);
   config.warning = std::move(guarantee.warning);
+  if (config.guarantee.empty()) {
+    const std::string found = find_divergence(*bare_law, plant, config.options.sampling);
+    if (!found.empty()) config.warnings.push_back("gains: " + found);
+  }
   if (guarantee.bound) {
     config.law = std::make_shared<const GuaranteedBound>(config.law, std::move(guarantee.bound),
                                                          guarantee.error_limit);

@@ -52,7 +52,8 @@ Estimator::Estimator(std::shared_ptr<const ObserverLaw> law, const Options& opti
       timeline_(law_, options.history),
       before_restart_(make_estimate()),
       restart_state_(law_->state_size()),
-      workspace_(law_->workspace_size()) {
+      workspace_(law_->workspace_size()),
+      innovation_(law_->max_event_size()) {
   if (options_.sampling.T1 <= 0 || options_.sampling.T1 > options_.sampling.T2) {
     throw std::invalid_argument("Estimator: 0 < T1 <= T2 must hold");
   }
@@ -81,6 +82,9 @@ EventReport Estimator::submit(const Event& event, Stamp now) {
   if (awaits_sample_ && event.kind == EventKind::kSample && event.stamp > *timeline_.earliest()) {
     begin_at(event);
   }
+  if (event.kind == EventKind::kSample || event.kind == EventKind::kOutput) {
+    report.innovation = innovation_of(event);
+  }
   const Timeline::InsertReport inserted = timeline_.insert(event);
   report.outcome = outcome_of(inserted);
   report.rewound = inserted.rewound;
@@ -97,6 +101,16 @@ EventReport Estimator::submit(const Event& event, Stamp now) {
     report.interval_check = check(*report.interval, options_.sampling);
   }
   return report;
+}
+
+double Estimator::innovation_of(const Event& measured) {
+  const Timeline::Query query =
+      timeline_.state_at(measured.stamp, before_restart_.state, before_restart_.counts);
+  if (query != Timeline::Query::kOk && query != Timeline::Query::kHeld) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  law_->innovation(measured, before_restart_.state.data(), innovation_.data());
+  return innovation_.head(measured.size).norm();
 }
 
 void Estimator::insert_release(Stamp jump, Stamp release) {

@@ -32,6 +32,8 @@ void ChannelStatistics::add(const ChannelStatistics& other) {
   violations.add(other.violations);
   rewound.add(other.rewound);
   missing_transform = other.missing_transform;
+  innovation = other.innovation;
+  trend = other.trend;
 }
 
 void RunStatistics::add(const RunStatistics& later) {
@@ -62,6 +64,10 @@ void StatisticsRecorder::record_event(std::size_t index, const Event& event,
   increment(channel.outcomes[static_cast<std::size_t>(report.outcome)]);
   if (report.outcome != EventOutcome::kNoStamp) channel.latency.record(latency);
   if (report.rewound > 0) channel.rewound.record(static_cast<std::int64_t>(report.rewound));
+  if (!std::isnan(report.innovation)) {
+    channel.innovation.store(report.innovation, kRelaxed);
+    channel.trend.store(report.trend, kRelaxed);
+  }
   if (!report.interval) return;
   channel.interval.record(*report.interval);
   if (report.interval_check == IntervalCheck::kShort) increment(channel.short_intervals);
@@ -97,6 +103,8 @@ void StatisticsRecorder::take(RunStatistics& statistics) noexcept {
     to.long_intervals = from.long_intervals.exchange(0, kRelaxed);
     to.violations = from.violations.take();
     to.rewound = from.rewound.take();
+    to.innovation = from.innovation.load(kRelaxed);
+    to.trend = from.trend.load(kRelaxed);
     const std::lock_guard<std::mutex> lock(from.missing_transform_mutex);
     to.missing_transform = from.missing_transform;
   }

@@ -238,6 +238,7 @@ class Replay {
   void publish_due_at(Stamp now) {
     while (const Estimate* estimate = runtime_.next_due(now)) {
       runtime_.write(*estimate, estimate_message_);
+      final_is_held_ = estimate->held;
       ++summary_.estimates;
       if (output_.isOpen()) {
         output_.write(resolved("estimate"), to_ros_time(estimate->stamp + config_.publish_delay),
@@ -299,12 +300,14 @@ class Replay {
         summary_.final_state.emplace_back(estimate_message_.names[i], estimate_message_.state[i]);
       }
     }
+    summary_.diverged = how_it_diverged();
     for (const Quantity& quantity : comparison_->quantities()) {
       summary_.compared.push_back(quantity.name);
     }
     summary_.compared_stamps = comparison_->size();
     summary_.guarantee = config_.guarantee;
     summary_.bounded = !std::isnan(config_.law->error_bound(truth_estimate_.state.data()));
+    summary_.truth_is_given = !options_.truth_topic.empty();
     summary_.bound_stamps = comparison_->bound_check().stamps;
     summary_.bound_exceeded = comparison_->bound_check().exceeded;
     summary_.bound_share = comparison_->bound_check().share;
@@ -312,6 +315,19 @@ class Replay {
     summary_.hold_rmse = comparison_->hold_rmse();
     summary_.rmse_norm = Comparison::norm(summary_.rmse);
     summary_.hold_rmse_norm = Comparison::norm(summary_.hold_rmse);
+  }
+
+  std::string how_it_diverged() const {
+    if (final_is_held_) {
+      return "the flow of the model is not finite at the end, and the last finite estimate is held";
+    }
+    for (std::size_t i = 0; i < config_.sensors.size(); ++i) {
+      if (runtime_.innovation_trend(i) != InnovationTrend::kDiverging) continue;
+      return "the innovations of " + config_.plant->sensors()[i].name +
+             " grew a thousandfold and more, beyond what is measured: are the signs of the gains "
+             "right, and the plant's model?";
+    }
+    return "";
   }
 
   static std::string resolved(const char* name) { return ros::names::resolve(name); }
@@ -338,6 +354,7 @@ class Replay {
   std::optional<Stamp> plot_origin_;
   EventStatus status_;
   StateEstimate estimate_message_;
+  bool final_is_held_ = false;
   ReplaySummary summary_;
 };
 

@@ -42,6 +42,13 @@ void print_comparison(const ReplaySummary& summary, std::ostream& out) {
   row("norm", shown(summary.rmse_norm), shown(summary.hold_rmse_norm),
       ratio(summary.rmse_norm, summary.hold_rmse_norm));
   if (!summary.bounded) return;
+  if (summary.is_guarantee_broken()) {
+    out << "  GUARANTEE BROKEN: the error was larger than its guaranteed bound at "
+        << summary.bound_exceeded << " of " << summary.bound_stamps
+        << " stamps, by a factor of up to " << shown(summary.bound_share)
+        << ". Something that it rests on is not so: error_assumptions, the plant, the stamps, or "
+           "this truth\n";
+  }
   out << "  error bound: finite at " << summary.bound_stamps << " stamps, exceeded at "
       << summary.bound_exceeded << "; the error took at most " << shown(summary.bound_share)
       << " of it\n";
@@ -89,6 +96,7 @@ void print_table(const ReplaySummary& summary, std::ostream& out) {
   out << "\n";
   if (!summary.guarantee.empty()) out << "certified   by " << summary.guarantee << "\n";
   print_comparison(summary, out);
+  if (!summary.diverged.empty()) out << "\nDIVERGED: " << summary.diverged << "\n";
 }
 
 void write_json(const ReplaySummary& summary, const std::string& path) {
@@ -109,6 +117,7 @@ void write_json(const ReplaySummary& summary, const std::string& path) {
                        {"mean", summary.interval_mean},       {"max", summary.interval_max},
                        {"below_T1", summary.intervals_short}, {"above_T2", summary.intervals_long}};
   json["estimates"] = summary.estimates;
+  json["diverged"] = !summary.diverged.empty();
   json["compared_stamps"] = summary.compared_stamps;
   json["rmse"] = by_name(summary.compared, summary.rmse);
   json["rmse_norm"] = number(summary.rmse_norm);

@@ -249,12 +249,30 @@ std::string Diagnosis::why_no_estimate() const {
   return "nothing was received on" + silent + ": are their publishers running (rostopic info)?";
 }
 
+/// Empty where the innovations of no sensor do so.
+std::string Diagnosis::why_it_diverges(InnovationTrend trend) const {
+  for (std::size_t i = 0; i < subject_.channels.size(); ++i) {
+    const ChannelStatistics& statistics = window_.channels[i];
+    if (statistics.trend != trend) continue;
+    const std::string what = "the innovations of " + subject_.channels[i].name +
+                             " grow and grow, the last to " + shown(statistics.innovation);
+    return trend == InnovationTrend::kDiverging
+               ? "the estimate diverges: " + what +
+                     ": are the signs of the gains right, and the "
+                     "plant's model?"
+               : what + ", more than what is measured: does the estimate diverge?";
+  }
+  return "";
+}
+
 Finding Diagnosis::estimates() const {
   Finding finding;
   const double rate = 1.0 / to_seconds(subject_.period);
   const double published = static_cast<double>(window_.lateness.count);
   const double expected = rate * to_seconds(elapsed_);
   const std::string old_stamps = why_stamps_are_old();
+  const std::string diverging = why_it_diverges(InnovationTrend::kDiverging);
+  const std::string growing = why_it_diverges(InnovationTrend::kGrowing);
   const Duration latest = window_.lateness.count > 0 ? window_.lateness.largest : 0;
   if (now_ == 0) {
     finding = {HealthLevel::kStale, std::string("no time yet: ") + kNoClock, {}};
@@ -273,6 +291,8 @@ Finding Diagnosis::estimates() const {
                "no estimate since " + instant(*window_.newest_estimate) +
                    ": is the observer switched off, or time before its history?",
                {}};
+  } else if (!diverging.empty()) {
+    finding = {HealthLevel::kError, diverging, {}};
   } else if (!old_stamps.empty()) {
     finding = {HealthLevel::kWarn, old_stamps, {}};
   } else if (window_.held > 0) {
@@ -284,6 +304,8 @@ Finding Diagnosis::estimates() const {
                std::to_string(window_.saturated) + " of " + std::to_string(window_.lateness.count) +
                    " estimates stand at a bound of saturations, or beyond: is the model right?",
                {}};
+  } else if (!growing.empty()) {
+    finding = {HealthLevel::kWarn, growing, {}};
   } else if (published < kLowestRate * expected - 1.0) {
     finding = {HealthLevel::kWarn,
                shown(published / to_seconds(elapsed_)) + " Hz instead of " + shown(rate) +
@@ -362,6 +384,9 @@ Finding Diagnosis::channel(std::size_t index) const {
                      std::to_string(statistics.rewound.count > 0 ? statistics.rewound.largest : 0)},
                     {"received in all", std::to_string(total.received())},
                     {"used in all", std::to_string(total.used())}};
+  if (is_measured) {
+    finding.values.emplace_back("innovation, last", shown(statistics.innovation));
+  }
   if (channel.kind == EventKind::kSample) {
     finding.values.emplace_back("time between samples", extremes(statistics.interval));
     finding.values.emplace_back("below T1 in all", std::to_string(total.short_intervals));

@@ -33,7 +33,9 @@ std::string GainReloader::reload(const std::string& file) {
   runtime_.replace(std::make_unique<ObserverRuntime>(next));
   tree_ = std::move(tree);
   if (!next.guarantee.empty()) return "certified by " + next.guarantee;
-  return next.warning.empty() ? "without certificate" : next.warning;
+  std::string text = next.warning.empty() ? "without certificate" : next.warning;
+  for (const std::string& warning : next.warnings) text += "; " + warning;
+  return text;
 }
 
 }  // namespace sampled_data_observers

@@ -73,6 +73,7 @@ void ObserverNodelet::start(const ConfigNode& tree, const ObserverConfig& config
                publication_->topic().c_str());
   if (!config.guarantee.empty()) NODELET_INFO("certified by %s", config.guarantee.c_str());
   if (!config.warning.empty()) NODELET_WARN("%s", config.warning.c_str());
+  for (const std::string& warning : config.warnings) NODELET_WARN("%s", warning.c_str());
 }
 
 }  // namespace sampled_data_observers

@@ -122,7 +122,8 @@ ObserverRuntime::ObserverRuntime(const ObserverConfig& config)
       estimator_(config.law, config.options),
       grid_(config.period, config.publish_delay, config.options.history.history),
       estimate_(estimator_.make_estimate()),
-      sensors_enabled_(config.sensors.size(), true) {}
+      sensors_enabled_(config.sensors.size(), true),
+      watches_(config.sensors.size()) {}
 
 bool ObserverRuntime::is_enabled(const EventChannel& channel) const {
   if (channel.kind == EventKind::kInput || channel.kind == EventKind::kJump) return enabled_;
@@ -134,12 +135,25 @@ EventReport ObserverRuntime::receive(const EventChannel& channel, const Event& e
   EventReport report;
   if (is_enabled(channel)) {
     report = estimator_.submit(event, now);
+    watch_innovation(event, report);
   } else {
     report.outcome = EventOutcome::kDisabled;
   }
   if (config_.publish_on_event && report.used()) event_waits_ = true;
   write(channel, event, report, now, status);
   return report;
+}
+
+/// A sample that a gate keeps out says as much of the estimate as one that is used.
+void ObserverRuntime::watch_innovation(const Event& event, EventReport& report) {
+  const bool counts = report.used() || report.outcome == EventOutcome::kGated;
+  if (!counts || std::isnan(report.innovation)) return;
+  InnovationWatch& watch = watches_[static_cast<std::size_t>(event.channel)];
+  report.trend = watch.add(report.innovation, event.vector().norm());
+}
+
+void ObserverRuntime::forget_innovations() {
+  std::fill(watches_.begin(), watches_.end(), InnovationWatch());
 }
 
 EventReport ObserverRuntime::reject(const EventChannel& channel, const Event& event,
@@ -220,6 +234,7 @@ std::string ObserverRuntime::restart(Stamp now, const std::vector<double>& estim
   } else {
     estimator_.restart(now, values);
   }
+  forget_innovations();
   grid_.restart(now);
   return "";
 }
@@ -229,12 +244,14 @@ std::string ObserverRuntime::restart_at_next_sample(Stamp now) {
     return "expected a plant with a sensor that is sampled, found none";
   }
   estimator_.restart_at_next_sample(now);
+  forget_innovations();
   grid_.restart(now);
   return "";
 }
 
 void ObserverRuntime::start_anew(Stamp now) {
   estimator_.clear();
+  forget_innovations();
   grid_.restart(now);
 }
 

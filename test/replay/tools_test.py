@@ -2,6 +2,7 @@
 """The tools for bags as a person runs them: tools_test.py SIMULATE REPLAY COMPARE_ESTIMATES"""
 import json
 import os
+import re
 import subprocess
 import sys
 import unittest
@@ -32,6 +33,42 @@ gains: {L: [[0.5], [0.5]]}
 """
 JUMPING = SCENARIO.replace("B: [[0], [1]]}",
                            "B: [[0], [1]], jump_map: {A_d: [[1, 0], [0, 1]]}}\njumps: {}")
+
+# Its model escapes to infinity within 1 s of the start; the true plant starts elsewhere, and stays.
+ESCAPING = """
+plant: {states: [x], flow: {x: "x^2 - 1"}, integration: {step: 0.001}}
+sensors: {position: {C: [[1]], source: {topic: position}}}
+scenario:
+  duration: 3
+  initial_state: {x: -1}
+  sensors: {position: {schedule: {period: 0.1}}}
+"""
+BLIND = """
+observer: ConstantGainObserver
+rate: 50
+sampling: {T1: 0.1, T2: 0.1}
+gains: {L: [[0]]}
+initial_estimate: {x: 3}
+"""
+# The error falls as exp(-t), whatever is measured.
+CERTIFIED = """
+observer: ConstantGainObserver
+plant: {states: [x], A: [[-1]]}
+sensors: {position: {C: [[1]], source: {topic: position}}}
+sampling: {T1: 0.1, T2: 0.1}
+gains: {L: [[0]]}
+certificate:
+  theorem: ferrante2016_theorem1
+  plant: {file: plant.yaml, hash: HASH}
+  T1: 0.1
+  T2: 0.1
+  decay: 0.5
+  P: [[1]]
+scenario:
+  duration: 3
+  initial_state: {x: 1}
+  sensors: {position: {schedule: {period: 0.1}}}
+"""
 
 
 class ToolsTest(FolderTest):
@@ -120,6 +157,42 @@ class ToolsTest(FolderTest):
         self.simulate()
         text = self.refuse("replay", *self.replay("--plot", self.path("x.gif")))
         self.assertIn("--plot: expected a file name that ends in .png, .pdf or .svg", text)
+
+    def test_an_estimate_that_diverges_has_an_exit_status_of_its_own(self):
+        self.simulate()
+        self.assertNotIn("DIVERGED", self.succeed("replay", *self.replay()))
+        self.observer = self.write("observer.yaml", OBSERVER.replace("DELAY", "0").replace(
+            "[[0.5], [0.5]]", "[[-5], [-5]]"))
+        self.succeed("simulate", self.scenario, "-o", self.path("run.bag"), "--duration", "20")
+        text = self.fault("replay", *self.replay("--json", self.path("summary.json")), status=3)
+        self.assertIn("with samples every 0.1 s, inside of [T1, T2], the error grows by the factor",
+                      text)
+        self.assertIn("DIVERGED: the innovations of position grew a thousandfold", text)
+        with open(self.path("summary.json")) as summary:
+            self.assertTrue(json.load(summary)["diverged"])
+
+    def test_a_flow_without_value_at_the_end_is_a_divergence(self):
+        self.scenario = self.write("scenario.yaml", ESCAPING)
+        self.observer = self.write("observer.yaml", BLIND)
+        self.simulate()
+        text = self.fault("replay", *self.replay(), status=3)
+        self.assertIn("DIVERGED: the flow of the model is not finite at the end", text)
+
+    def test_a_truth_that_refutes_the_bound_has_an_exit_status_of_its_own(self):
+        self.scenario = self.write("scenario.yaml", CERTIFIED)
+        self.simulate()
+        self.observer = self.write("observer.yaml", "rate: 50\n")
+        text = self.fault("replay", *self.replay())
+        found = re.search("plant/hash: expected ([0-9a-f-]+)", text).group(1)
+        self.scenario = self.write("scenario.yaml", CERTIFIED.replace("HASH", found))
+        assumed = "error_assumptions: {initial_error: %s, noise: 0}\n"
+        self.observer = self.write("observer.yaml", "rate: 50\n" + assumed % 2)
+        self.assertNotIn("BROKEN", self.succeed("replay", *self.replay("--truth", "truth")))
+        # The plant starts 1 off: who says that it starts nearer is refuted.
+        self.observer = self.write("observer.yaml", "rate: 50\n" + assumed % 0.5)
+        text = self.fault("replay", *self.replay("--truth", "truth"), status=2)
+        self.assertIn("GUARANTEE BROKEN: the error was larger than its guaranteed bound at ", text)
+        self.succeed("replay", *self.replay())
 
     def test_estimates_that_rest_on_other_events_are_no_agreement(self):
         self.simulate()

@@ -111,6 +111,18 @@ TEST_F(DiagnosisTest, SaysWhatIsWrongWithTheEstimates) {
   window.saturated = 4;
   update(window);
   expect(HealthLevel::kWarn, {"4 of 100", "bound of saturations"}, diagnosis_.estimates());
+  window = good();
+  window.channels[0].trend = InnovationTrend::kGrowing;
+  window.channels[0].innovation = 12.5;
+  update(window);
+  expect(HealthLevel::kWarn, {"innovations of position grow", "12.5", "does the estimate diverge?"},
+         diagnosis_.estimates());
+  EXPECT_EQ("12.5", value(diagnosis_.channel(0), "innovation, last"));
+  window.channels[0].trend = InnovationTrend::kDiverging;
+  window.held = 3;
+  update(window);
+  expect(HealthLevel::kError, {"the estimate diverges", "position", "signs of the gains"},
+         diagnosis_.estimates());
   diagnosis_.update(good(), now_, 0);
   expect(HealthLevel::kStale, {"time stands still", "/use_sim_time"}, diagnosis_.estimates());
 }

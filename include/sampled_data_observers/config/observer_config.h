@@ -51,6 +51,8 @@ struct ObserverConfig {
   std::string guarantee;
   /// Why there is no guarantee although there is a certificate; else empty.
   std::string warning;
+  /// What else a person should know before it runs, such as gains with which the estimate diverges.
+  std::vector<std::string> warnings;
 };
 
 /// Reads and checks a whole configuration tree, and the certificate where it has one. The key

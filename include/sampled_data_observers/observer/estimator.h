@@ -2,10 +2,12 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 
 #include "sampled_data_observers/hybrid/timeline.h"
+#include "sampled_data_observers/observer/innovation_watch.h"
 #include "sampled_data_observers/observer/observer_law.h"
 
 namespace sampled_data_observers {
@@ -55,6 +57,11 @@ struct EventReport {
   /// samples only.
   std::optional<Duration> interval;
   IntervalCheck interval_check = IntervalCheck::kNone;
+  /// The norm of the innovation of a sample or a continuous output, before it took effect; NaN for
+  /// other events, and where there was no estimate.
+  double innovation = std::numeric_limits<double>::quiet_NaN();
+  /// What the innovations of its sensor do.
+  InnovationTrend trend = InnovationTrend::kSteady;
 
   bool used() const { return outcome == EventOutcome::kUsed || outcome == EventOutcome::kUsedLate; }
   /// Whether the sample was used since its gate had kept out all others for too long.
@@ -139,6 +146,7 @@ class Estimator {
   void insert_release(Stamp jump, Stamp release);
   bool prepare_restart(Estimator& from, Stamp stamp);
   void begin_at(const Event& sample);
+  double innovation_of(const Event& measured);
 
   std::shared_ptr<const ObserverLaw> law_;
   Options options_;
@@ -146,6 +154,7 @@ class Estimator {
   Estimate before_restart_;
   Eigen::VectorXd restart_state_;
   Eigen::VectorXd workspace_;
+  Eigen::VectorXd innovation_;
   bool awaits_sample_ = false;
 };
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <limits>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -32,6 +33,9 @@ struct ChannelStatistics {
   Range rewound;
   /// The transform for which an event was rejected last, ever; empty: none was.
   std::string missing_transform;
+  /// Of the last sample: the norm of its innovation, and what these do; NaN without.
+  double innovation = std::numeric_limits<double>::quiet_NaN();
+  InnovationTrend trend = InnovationTrend::kSteady;
 
   std::uint64_t received() const;
   std::uint64_t count(EventOutcome outcome) const {
@@ -98,6 +102,8 @@ class StatisticsRecorder {
     std::atomic<std::uint64_t> long_intervals{0};
     RangeRecorder violations;
     RangeRecorder rewound;
+    std::atomic<double> innovation{std::numeric_limits<double>::quiet_NaN()};
+    std::atomic<InnovationTrend> trend{InnovationTrend::kSteady};
     std::mutex missing_transform_mutex;
     std::string missing_transform;
   };

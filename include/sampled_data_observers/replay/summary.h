@@ -56,6 +56,9 @@ struct ReplaySummary {
   double final_stamp = 0.0;  ///< s
   std::vector<std::pair<std::string, double>> final_state;
 
+  /// How the estimate ran away; empty where it did not.
+  std::string diverged;
+
   std::size_t compared_stamps = 0;
   std::vector<std::string> compared;
   std::vector<std::optional<double>> rmse;
@@ -71,6 +74,11 @@ struct ReplaySummary {
   std::size_t bound_stamps = 0;
   std::size_t bound_exceeded = 0;
   std::optional<double> bound_share;
+  /// Whether the truth came on a topic of its own, and not from samples with their noise.
+  bool truth_is_given = false;
+
+  /// Whether the truth refutes the guarantee: the error was larger than its bound.
+  bool is_guarantee_broken() const { return truth_is_given && bound_exceeded > 0; }
 
   double bag_seconds = 0.0;
   double wall_seconds = 0.0;

@@ -86,6 +86,7 @@ class Diagnosis {
   std::optional<Suspension> find_suspension() const;
   std::string why_bound_is_lost() const;
   std::string why_no_estimate() const;
+  std::string why_it_diverges(InnovationTrend trend) const;
   std::string wrong_type(std::size_t channel) const;
   std::string why_stamps_are_old() const;
   std::string rejections(const ChannelStatistics& statistics) const;

@@ -89,10 +89,15 @@ class ObserverRuntime {
 
   const Estimator& estimator() const { return estimator_; }
 
+  /// What the innovations of a sensor do.
+  InnovationTrend innovation_trend(std::size_t sensor) const { return watches_[sensor].trend(); }
+
  private:
   static void write(const EventChannel& channel, const Event& event, const EventReport& report,
                     Stamp now, EventStatus& status);
   bool is_enabled(const EventChannel& channel) const;
+  void watch_innovation(const Event& event, EventReport& report);
+  void forget_innovations();
 
   const ObserverConfig config_;
   Estimator estimator_;
@@ -101,6 +106,8 @@ class ObserverRuntime {
   bool enabled_ = true;
   /// One per sensor.
   std::vector<bool> sensors_enabled_;
+  /// One per sensor, of those since the estimate began.
+  std::vector<InnovationWatch> watches_;
   /// Whether an event asks for an estimate at once.
   bool event_waits_ = false;
 };

@@ -1,0 +1,97 @@
+// Gains with which a linear observer diverges are told of when they are loaded.
+#include "sampled_data_observers/config/contraction_check.h"
+
+#include <gtest/gtest.h>
+
+#include "support/config_faults.h"
+
+namespace sampled_data_observers::test {
+namespace {
+
+const char kOscillator[] = R"yaml(
+observer: ConstantGainObserver
+plant: {states: [p, v], A: [[0, 1], [-4, 0]]}
+sensors: {position: {C: [[1, 0]], source: {topic: position}}}
+sampling: {T1: 0.1, T2: 0.4}
+gains: {L: [[0.5], [0.2]]}
+)yaml";
+
+std::string warning(const std::string& text) {
+  const ObserverConfig config = parse(text);
+  return config.warnings.empty() ? "" : config.warnings.front();
+}
+
+std::string with_gains(const std::string& type, const std::string& gains) {
+  return replaced(replaced(kOscillator, "ConstantGainObserver", type), "L: [[0.5], [0.2]]", gains);
+}
+
+const char kDiverges[] = "from sample to sample: the estimate diverges";
+
+TEST(ContractionCheckTest, GainsThatContractAreSilent) {
+  EXPECT_EQ("", warning(kOscillator));
+  EXPECT_EQ("", warning(with_gains("IntersampleInjectionObserver", "L: [[2], [1]], H: [[-2]]")));
+  EXPECT_EQ("", warning(with_gains("SampleAndHoldObserver", "L: [[-1], [-0.5]]")));
+  EXPECT_EQ("", warning(with_gains("HybridKalmanFilter",
+                                   "P0: [[1, 0], [0, 1]], R: [[0.1]], Q: [[0.1, 0], [0, 0.1]]")));
+  EXPECT_EQ("", warning(with_gains("TimeVaryingGainObserver", "P: [[4, 0], [0, 1]]")));
+}
+
+TEST(ContractionCheckTest, WrongSignsAreToldOf) {
+  for (const std::string& text :
+       {with_gains("ConstantGainObserver", "L: [[-0.5], [-0.2]]"),
+        with_gains("IntersampleInjectionObserver", "L: [[-2], [-1]], H: [[-2]]"),
+        with_gains("SampleAndHoldObserver", "L: [[1], [0.5]]")}) {
+    const std::string message = warning(text);
+    EXPECT_NE(std::string::npos, message.find("gains: with samples ")) << message << text;
+    EXPECT_NE(std::string::npos, message.find(kDiverges)) << message;
+  }
+}
+
+TEST(ContractionCheckTest, TheFactorIsThatOfTheErrorMap) {
+  // x is measured itself and stands: the error is multiplied by 1 - L.
+  const std::string message = warning(R"yaml(
+observer: ConstantGainObserver
+plant: {states: [x], A: [[0]]}
+sensors: {position: {C: [[1]], source: {topic: position}}}
+sampling: {T1: 0.1, T2: 0.1}
+gains: {L: [[2.25]]}
+)yaml");
+  EXPECT_NE(std::string::npos, message.find("with samples every 0.1 s")) << message;
+  EXPECT_NE(std::string::npos, message.find("by the factor 1.25")) << message;
+}
+
+TEST(ContractionCheckTest, TimesThatAlternateAreLookedAtToo) {
+  // Each constant time contracts, the product of two does not: e^{A tau} turns by 2 tau, and the
+  // sample stretches one direction.
+  bool is_found = false;
+  for (const char* gains : {"L: [[1.6], [-1.5]]", "L: [[1.7], [1.5]]", "L: [[0.2], [2.5]]",
+                            "L: [[0.2], [-2.5]]", "L: [[1.9], [0]]"}) {
+    const std::string message = warning(replaced(replaced(kOscillator, "L: [[0.5], [0.2]]", gains),
+                                                 "T1: 0.1, T2: 0.4", "T1: 0.1, T2: 2"));
+    is_found = is_found || message.find("apart by turns") != std::string::npos;
+  }
+  EXPECT_TRUE(is_found);
+}
+
+TEST(ContractionCheckTest, AModeThatNoSampleShowsMayStand) {
+  EXPECT_EQ("", warning(R"yaml(
+observer: ConstantGainObserver
+plant: {states: [x, bias], A: [[-1, 0], [0, 0]]}
+sensors: {position: {C: [[1, 0]], source: {topic: position}}}
+sampling: {T1: 0.1, T2: 0.2}
+gains: {L: [[0.5], [0]]}
+)yaml"));
+}
+
+TEST(ContractionCheckTest, PlantsThatAreNotLinearOrJumpAreNotLookedAt) {
+  EXPECT_EQ("", warning(R"yaml(
+observer: ConstantGainObserver
+plant: {states: [x], flow: {x: "-sin(x)"}}
+sensors: {position: {C: [[1]], source: {topic: position}}}
+sampling: {T1: 0.1, T2: 0.2}
+gains: {L: [[-5]]}
+)yaml"));
+}
+
+}  // namespace
+}  // namespace sampled_data_observers::test
