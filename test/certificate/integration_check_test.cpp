@@ -83,7 +83,7 @@ TEST(IntegrationCheckTest, ACertificateAsksForAccurateSteps) {
   const Fault parts{"",
                     "",
                     {"test.yaml",
-                     "plant/integration/step: expected at most 2.9e-05 s: the "
+                     "plant/integration/step: expected at most 3e-05 s: the "
                      "certificate is about the flow itself",
                      "found 0.0005 s", "allow_uncertified"}};
   EXPECT_EQ("", missing_parts(parts, message)) << message;

@@ -61,16 +61,16 @@ gains: {L: [[2.25]]}
 }
 
 TEST(ContractionCheckTest, TimesThatAlternateAreLookedAtToo) {
-  // Each constant time contracts, the product of two does not: e^{A tau} turns by 2 tau, and the
-  // sample stretches one direction.
-  bool is_found = false;
-  for (const char* gains : {"L: [[1.6], [-1.5]]", "L: [[1.7], [1.5]]", "L: [[0.2], [2.5]]",
-                            "L: [[0.2], [-2.5]]", "L: [[1.9], [0]]"}) {
-    const std::string message = warning(replaced(replaced(kOscillator, "L: [[0.5], [0.2]]", gains),
-                                                 "T1: 0.1, T2: 0.4", "T1: 0.1, T2: 2"));
-    is_found = is_found || message.find("apart by turns") != std::string::npos;
-  }
-  EXPECT_TRUE(is_found);
+  // By the eigenvalues of (I - L C) e^{A tau} in another program: at all constant times of the grid
+  // the error falls to 0.7746 or less from sample to sample, and at 0.1 s and 0.9 s by turns it
+  // grows by 1.2992.
+  const std::string text = replaced(replaced(kOscillator, "L: [[0.5], [0.2]]", "L: [[0.4], [2.2]]"),
+                                    "T2: 0.4", "T2: 0.9");
+  const std::string message = warning(text);
+  EXPECT_NE(std::string::npos,
+            message.find("apart by turns, inside of [T1, T2], the error grows by "
+                         "the factor 1.299"))
+      << message;
 }
 
 TEST(ContractionCheckTest, AModeThatNoSampleShowsMayStand) {

@@ -162,7 +162,7 @@ class ToolsTest(FolderTest):
         self.simulate()
         self.assertNotIn("DIVERGED", self.succeed("replay", *self.replay()))
         self.observer = self.write("observer.yaml", OBSERVER.replace("DELAY", "0").replace(
-            "[[0.5], [0.5]]", "[[-5], [-5]]"))
+            "[[0.5], [0.5]]", "[[-0.5], [-0.5]]"))
         self.succeed("simulate", self.scenario, "-o", self.path("run.bag"), "--duration", "20")
         text = self.fault("replay", *self.replay("--json", self.path("summary.json")), status=3)
         self.assertIn("with samples every 0.1 s, inside of [T1, T2], the error grows by the factor",
