@@ -26,6 +26,9 @@ std::vector<Condition> quadratic_conditions(const CertificateSubject& subject, F
                                             const MatrixExpression& reset,
                                             const std::string& source);
 
+/// What its theorems guarantee as decay: of the error, from jump to jump.
+GuaranteedFigure jump_decay_figure(const NamedMatrices& values);
+
 /// Values of flow_decay [1/s] among which to search.
 SearchRange flow_decay_range(const CertificateSubject& subject);
 

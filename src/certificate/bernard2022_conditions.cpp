@@ -60,6 +60,9 @@ class QuadraticCondition : public Theorem {
   }
 
   std::string decay_parameter() const override { return "jump_decay"; }
+  GuaranteedFigure decay_figure(const NamedMatrices& values) const override {
+    return jump_decay_figure(values);
+  }
 
   std::vector<NamedRange> search_ranges(const CertificateSubject& subject) const override {
     if (in_flow_) return {{"flow_decay", flow_decay_range(subject)}};
@@ -109,6 +112,11 @@ void require_linear_jumping_plant(const CertificateSubject& subject) {
     throw std::invalid_argument("it is about linear flows; design/A may state that of the error");
   }
   if (!subject.plant.jumps()) throw std::invalid_argument("it is about plants that jump");
+}
+
+GuaranteedFigure jump_decay_figure(const NamedMatrices& values) {
+  return {"guaranteed fall of the logarithm of the error per jump",
+          scalar_value(values, "jump_decay")};
 }
 
 SearchRange flow_decay_range(const CertificateSubject& subject) {

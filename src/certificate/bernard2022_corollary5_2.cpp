@@ -41,6 +41,9 @@ class Corollary52 : public Theorem {
   }
 
   std::string decay_parameter() const override { return "jump_decay"; }
+  GuaranteedFigure decay_figure(const NamedMatrices& values) const override {
+    return jump_decay_figure(values);
+  }
 
   bool is_homogeneous(const CertificateSubject&) const override { return true; }
 

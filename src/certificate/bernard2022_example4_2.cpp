@@ -46,6 +46,9 @@ class Example42 : public Theorem {
   }
 
   std::string decay_parameter() const override { return "jump_decay"; }
+  GuaranteedFigure decay_figure(const NamedMatrices& values) const override {
+    return jump_decay_figure(values);
+  }
 
   std::vector<NamedRange> search_ranges(const CertificateSubject& subject) const override {
     return {{"flow_decay", flow_decay_range(subject)}};

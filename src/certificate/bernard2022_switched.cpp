@@ -26,6 +26,9 @@ class SwitchedCondition : public Theorem {
   bool is_homogeneous(const CertificateSubject&) const override { return true; }
 
   std::string decay_parameter() const override { return "jump_decay"; }
+  GuaranteedFigure decay_figure(const NamedMatrices& values) const override {
+    return jump_decay_figure(values);
+  }
 
   std::unique_ptr<const ErrorBound> error_bound(const CertificateSubject&, const NamedMatrices&,
                                                 const ErrorAssumptions&) const override {

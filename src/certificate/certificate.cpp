@@ -18,13 +18,24 @@ NamedShape symmetric_shape(const std::string& name, Eigen::Index n) {
   return {name, n, n, NamedShape::Form::kSymmetric};
 }
 
+GuaranteedFigure Theorem::gain_figure(const NamedMatrices& values) const {
+  return {"L2 gain from the disturbance to the performance output", scalar_value(values, "gamma")};
+}
+
+GuaranteedFigure Theorem::decay_figure(const NamedMatrices& values) const {
+  return {"guaranteed rate of convergence [1/s]", scalar_value(values, decay_parameter())};
+}
+
 const std::vector<const Theorem*>& theorems() {
   static const std::vector<const Theorem*> all = {
-      &bernard2022_corollary5_2(), &bernard2022_equation14(),   &bernard2022_equation22(),
-      &bernard2022_equation26(),   &bernard2022_example4_2(),   &bernard2022_example7_1(),
-      &bernard2022_section7_3_2(), &etienne2019_proposition1(), &etienne2019_proposition2(),
-      &ferrante2016_theorem1(),    &ferrante2019_theorem2(),    &ferrante2019_corollary1(),
-      &ferrante2019_corollary2(),  &sferlazza2019_theorem2(),
+      &bernard2022_corollary5_2(), &bernard2022_equation14(),
+      &bernard2022_equation22(),   &bernard2022_equation26(),
+      &bernard2022_example4_2(),   &bernard2022_example7_1(),
+      &bernard2022_section7_3_2(), &etienne2019_proposition1(),
+      &etienne2019_proposition2(), &etienne2019_proposition2_channels(),
+      &ferrante2016_theorem1(),    &ferrante2019_theorem2(),
+      &ferrante2019_corollary1(),  &ferrante2019_corollary2(),
+      &sferlazza2019_theorem2(),
   };
   return all;
 }

@@ -21,22 +21,19 @@ std::vector<Eigen::MatrixXd> flow_vertices_of(const PlantMatrices& plant) {
   return R;
 }
 
-/// V(z) = zᵀ P z of etienne2019, Theorem 1: from a sample on, V̇ = −α V + γ² |Γ|² at worst, with
-/// Γ = L σ + δ. Until the first sample nothing is injected and the error flows as the plant does;
-/// later than T2 after a sample it flows so, too, and is driven by what is held of that sample,
-/// L (C z + σ). The theorem goes on from the next sample, whatever z is there: what it adds to V is
-/// zero at samples.
+/// V(z) = zᵀ P z of etienne2019, Theorem 1: from a sample on, V̇ = −α V + level² at worst.
+/// Until the first sample nothing is injected and the error flows as the plant does; later than T2
+/// after a sample it flows so, too, and is driven by what is held of that sample, L (C z + σ). The
+/// theorem goes on from the next sample, whatever z is there: what it adds to V is zero at samples.
 class IssBound : public ErrorBound {
  public:
-  /// @param gamma  0 for Proposition 1, which is about Γ = 0
-  IssBound(const CertificateSubject& subject, const NamedMatrices& values, double gamma,
+  /// @param level  bound on γ |Γ|; 0 for Proposition 1, which is about Γ = 0
+  IssBound(const CertificateSubject& subject, const NamedMatrices& values, double level,
            const ErrorAssumptions& assumptions)
       : T2_(subject.T2), rate_(scalar_value(values, "alpha")) {
     const Eigen::MatrixXd& P = values.at("P");
     const Eigen::MatrixXd& N = subject.plant.N;
     const Eigen::MatrixXd& L = values.at("L");
-    const double level =
-        gamma * (norm2(L) * assumptions.noise + norm2(N) * assumptions.disturbance);
     final_ = raised(level * level / rate_);
     initial_ = std::sqrt(largest_eigenvalue_above(P)) * assumptions.initial_error;
     least_ = least_eigenvalue_below(P);
@@ -109,15 +106,28 @@ class Proposition : public Theorem {
 
   std::string decay_parameter() const override { return "alpha"; }
 
+  /// V falls at the rate α, the error at half of it.
+  GuaranteedFigure decay_figure(const NamedMatrices& values) const override {
+    return {"guaranteed rate of convergence [1/s]", scalar_value(values, "alpha") / 2.0};
+  }
+
   std::vector<NamedShape> gains(const CertificateSubject& subject) const override {
     return {matrix_shape("L", subject.plant.states(), subject.plant.C().rows())};
   }
 
  protected:
-  /// (13) at each vertex R_i and at both ends ρ of e^{−ατ}, with Ḡ = [G_1 G_2 …] of n x n blocks,
-  /// as many as H_i = [R_i + L C, −I, L C (, I)] has; M of (12), or of (16) with four.
+  /// What drives the error besides itself: a block E of H_i = [R_i + L C, −I, L C, E …], which
+  /// multiplies a signal of `size` entries.
+  struct Channel {
+    MatrixExpression through;
+    Eigen::Index size = 0;
+  };
+
+  /// (13) at each vertex R_i and at both ends ρ of e^{−ατ}, with Ḡ = [G_1 G_2 …] of as many blocks
+  /// as H_i has; M of (12), or of (16) with a block −γ² I for each channel.
   static std::vector<Condition> finsler_conditions(const CertificateSubject& subject,
                                                    const std::vector<MatrixExpression>& G,
+                                                   const std::vector<Channel>& channels,
                                                    const std::string& number) {
     const Eigen::Index n = subject.plant.states();
     const MatrixExpression P = symbol("P", n, n);
@@ -140,10 +150,12 @@ class Proposition : public Theorem {
             {rho * (MatrixExpression(wirtinger_constant(subject.T2)) * X), -(rho * Y)},
             {-(rho * X)}};
         std::vector<MatrixExpression> H = {MatrixExpression(R) + LC, -identity(n), LC};
-        if (G.size() == 4) {
-          for (auto& row : M) row.push_back(zeros(n, n));
-          M.push_back({-(square("gamma") * identity(n))});
-          H.push_back(identity(n));
+        for (const Channel& channel : channels) {
+          for (std::size_t row = 0; row < M.size(); ++row) {
+            M[row].push_back(zeros(row < 3 ? n : channels[row - 3].size, channel.size));
+          }
+          M.push_back({-(square("gamma") * identity(channel.size))});
+          H.push_back(channel.through);
         }
         all.push_back({number + " at vertex " + std::to_string(vertex) + ", rho = " + end,
                        -(symmetric_blocks(M) + He(transpose(blocks({G})) * blocks({H}))),
@@ -151,6 +163,17 @@ class Proposition : public Theorem {
       }
     }
     return all;
+  }
+
+  /// Else gamma would say nothing: it scales with P.
+  static Condition normalized(Eigen::Index n) {
+    return {"c_1 = 1: P > I", symbol("P", n, n) - identity(n), std::nullopt};
+  }
+
+  /// Final error for inputs of norm 1.
+  static double final_error_per_level(const NamedMatrices& values) {
+    return scalar_value(values, "gamma") /
+           std::sqrt(min_eigenvalue(values.at("P")) * scalar_value(values, "alpha"));
   }
 };
 
@@ -178,7 +201,7 @@ class Proposition1 : public Proposition {
   std::vector<Condition> conditions(const CertificateSubject& subject) const override {
     const Eigen::Index n = subject.plant.states();
     const MatrixExpression G = symbol("G", n, n);
-    return finsler_conditions(subject, {G, G, zeros(n, n)}, "etienne2019 (14)");
+    return finsler_conditions(subject, {G, G, zeros(n, n)}, {}, "etienne2019 (14)");
   }
 
   std::unique_ptr<const ErrorBound> error_bound(
@@ -220,25 +243,119 @@ class Proposition2 : public Proposition {
     const Eigen::Index n = subject.plant.states();
     std::vector<MatrixExpression> G;
     for (const char* name : {"G_1", "G_2", "G_3", "G_4"}) G.push_back(symbol(name, n, n));
-    std::vector<Condition> all = finsler_conditions(subject, G, "etienne2019 (15)");
-    // Else gamma would say nothing: it scales with P.
-    all.push_back({"c_1 = 1: P > I", symbol("P", n, n) - identity(n), std::nullopt});
+    std::vector<Condition> all =
+        finsler_conditions(subject, G, {{identity(n), n}}, "etienne2019 (15)");
+    all.push_back(normalized(n));
     return all;
   }
 
   std::vector<GuaranteedFigure> guaranteed_figures(const CertificateSubject&,
                                                    const NamedMatrices& values) const override {
-    const double gain = scalar_value(values, "gamma") /
-                        std::sqrt(min_eigenvalue(values.at("P")) * scalar_value(values, "alpha"));
-    return {{"final error per unit of |L noise + disturbance| [s]", gain},
-            {"final error per unit of noise", gain * norm2(values.at("L"))}};
+    const GuaranteedFigure gain = gain_figure(values);
+    return {gain, {"final error per unit of noise", gain.value * norm2(values.at("L"))}};
+  }
+
+  GuaranteedFigure gain_figure(const NamedMatrices& values) const override {
+    return {"final error per unit of |L noise + disturbance| [s]", final_error_per_level(values)};
   }
 
   std::unique_ptr<const ErrorBound> error_bound(
       const CertificateSubject& subject, const NamedMatrices& values,
       const ErrorAssumptions& assumptions) const override {
-    return std::make_unique<const IssBound>(subject, values, scalar_value(values, "gamma"),
+    const double input = norm2(values.at("L")) * assumptions.noise +
+                         norm2(subject.plant.N) * assumptions.disturbance;
+    return std::make_unique<const IssBound>(subject, values, scalar_value(values, "gamma") * input,
                                             assumptions);
+  }
+};
+
+/// Proposition 2 with Γ = L σ + N w taken apart: the noise enters through L and the disturbance
+/// through N, so that H_i = [R_i + L C, −I, L C, s L, d N]. V̇ + α V <= γ² (|σ/s|² + |w/d|²), with
+/// the sizes s and d of noise and disturbance that γ is a gain for. Nothing is lost by norms of L
+/// and N, as it is where Γ may have any direction.
+class Proposition2Channels : public Proposition {
+ public:
+  std::string name() const override { return "etienne2019_proposition2_channels"; }
+
+  std::string guarantee() const override {
+    return "the error is input-to-state stable: it converges at the rate alpha / 2 to at most "
+           "gamma / sqrt(alpha) times the root of (noise / noise_size)^2 + "
+           "(disturbance / disturbance_size)^2, for all times between samples up to T2";
+  }
+
+  std::vector<NamedShape> multipliers(const CertificateSubject& subject) const override {
+    const Eigen::Index n = subject.plant.states();
+    std::vector<NamedShape> all = {symmetric_shape("P", n),
+                                   symmetric_shape("X", n),
+                                   symmetric_shape("Y", n),
+                                   matrix_shape("G_1", n, n),
+                                   matrix_shape("G_2", n, n),
+                                   matrix_shape("G_3", n, n),
+                                   matrix_shape("G_4", n, subject.plant.C().rows())};
+    if (has_disturbance(subject)) all.push_back(matrix_shape("G_5", n, subject.plant.N.cols()));
+    return all;
+  }
+
+  std::vector<NamedShape> parameters(const CertificateSubject& subject) const override {
+    std::vector<NamedShape> all = {scalar_shape("alpha"), scalar_shape("gamma"),
+                                   scalar_shape("noise_size")};
+    if (has_disturbance(subject)) all.push_back(scalar_shape("disturbance_size"));
+    return all;
+  }
+
+  bool is_homogeneous(const CertificateSubject&) const override { return false; }
+
+  std::vector<Condition> conditions(const CertificateSubject& subject) const override {
+    const Eigen::Index n = subject.plant.states();
+    const Eigen::Index outputs = subject.plant.C().rows();
+    std::vector<MatrixExpression> G;
+    for (const char* name : {"G_1", "G_2", "G_3"}) G.push_back(symbol(name, n, n));
+    G.push_back(symbol("G_4", n, outputs));
+    std::vector<Channel> channels = {{symbol("noise_size") * symbol("L", n, outputs), outputs}};
+    std::vector<Condition> sizes = {{"noise_size > 0", symbol("noise_size"), std::nullopt}};
+    if (has_disturbance(subject)) {
+      const Eigen::Index inputs = subject.plant.N.cols();
+      G.push_back(symbol("G_5", n, inputs));
+      channels.push_back({symbol("disturbance_size") * MatrixExpression(subject.plant.N), inputs});
+      sizes.push_back({"disturbance_size > 0", symbol("disturbance_size"), std::nullopt});
+    }
+    std::vector<Condition> all =
+        finsler_conditions(subject, G, channels, "etienne2019 (15) by channels");
+    all.push_back(normalized(n));
+    all.insert(all.end(), sizes.begin(), sizes.end());
+    return all;
+  }
+
+  std::vector<GuaranteedFigure> guaranteed_figures(const CertificateSubject& subject,
+                                                   const NamedMatrices& values) const override {
+    const double gain = final_error_per_level(values);
+    std::vector<GuaranteedFigure> all = {
+        {"final error per unit of noise", gain / scalar_value(values, "noise_size")}};
+    if (has_disturbance(subject)) {
+      all.push_back(
+          {"final error per unit of disturbance", gain / scalar_value(values, "disturbance_size")});
+    }
+    return all;
+  }
+
+  GuaranteedFigure gain_figure(const NamedMatrices& values) const override {
+    return {"final error for noise or disturbance of their sizes", final_error_per_level(values)};
+  }
+
+  std::unique_ptr<const ErrorBound> error_bound(
+      const CertificateSubject& subject, const NamedMatrices& values,
+      const ErrorAssumptions& assumptions) const override {
+    double input = assumptions.noise / scalar_value(values, "noise_size");
+    if (has_disturbance(subject)) {
+      input = std::hypot(input, assumptions.disturbance / scalar_value(values, "disturbance_size"));
+    }
+    return std::make_unique<const IssBound>(subject, values, scalar_value(values, "gamma") * input,
+                                            assumptions);
+  }
+
+ private:
+  static bool has_disturbance(const CertificateSubject& subject) {
+    return subject.plant.N.cols() > 0;
   }
 };
 
@@ -251,6 +368,11 @@ const Theorem& etienne2019_proposition1() {
 
 const Theorem& etienne2019_proposition2() {
   static const Proposition2 theorem;
+  return theorem;
+}
+
+const Theorem& etienne2019_proposition2_channels() {
+  static const Proposition2Channels theorem;
   return theorem;
 }
 

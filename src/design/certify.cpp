@@ -72,7 +72,7 @@ DesignCandidate judged(const Theorem& theorem, const CertificateSubject& subject
     candidate.message += (candidate.message.empty() ? "violated: " : "; ") + check.name;
   }
   candidate.cost = objective == Objective::kMinGamma && candidate.values.count("gamma") > 0
-                       ? scalar_value(candidate.values, "gamma")
+                       ? theorem.gain_figure(candidate.values).value
                        : -candidate.margin;
   return candidate;
 }

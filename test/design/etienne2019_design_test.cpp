@@ -12,6 +12,7 @@ namespace {
 
 const char* const kProposition1 = "etienne2019_proposition1";
 const char* const kProposition2 = "etienne2019_proposition2";
+const char* const kChannels = "etienne2019_proposition2_channels";
 
 CertificateSubject dc_drive(double T2) {
   Eigen::MatrixXd A(3, 3);
@@ -84,11 +85,65 @@ TEST(Etienne2019, GammaOf2Point7HoldsForThePrintedGainAndIsLoose) {
   EXPECT_FALSE(certified(kProposition2, dc_drive(0.4), fixed).is_verified());
 }
 
-TEST(Etienne2019, ADesignForDisturbanceHasASmallerGammaThanThePrintedGain) {
-  const Design design = designed(kProposition2, 0.4, Objective::kMinGamma, {{"alpha", 1.0}});
-  const double printed_gamma = scalar_value(
-      certified(kProposition2, dc_drive(0.4), printed(1.0), Objective::kMinGamma).values, "gamma");
-  EXPECT_LT(scalar_value(design.certificate.values, "gamma"), printed_gamma);
+/// The certified factor from the noise to the final error, which independent computations put at
+/// 2.23 for the best rate; by a norm of L and Proposition 2 as printed it is 2.90 for the printed
+/// gain.
+double noise_figure(const Certificate& certificate) {
+  return certificate.theorem->guaranteed_figures(certificate.subject, certificate.values)
+      .front()
+      .value;
+}
+
+TEST(Etienne2019, NoiseThroughLGivesASmallerFinalErrorThanItsNorm) {
+  NamedMatrices fixed = printed(1.0);
+  fixed["noise_size"] = scalar_matrix(1.0);
+  const DesignCandidate channels = certified(kChannels, dc_drive(0.4), fixed, Objective::kMinGamma);
+  ASSERT_TRUE(channels.is_verified()) << channels.message;
+  EXPECT_NEAR(noise_figure({find_theorem(kChannels), dc_drive(0.4), channels.values}), 2.324,
+              0.005);
+
+  const Design at_1 = designed(kProposition2, 0.4, Objective::kMinGamma, {{"alpha", 1.0}});
+  EXPECT_EQ(at_1.certificate.theorem->name(), kChannels);
+  EXPECT_NEAR(noise_figure(at_1.certificate), 2.358, 0.005);
+  const Design best = designed(kProposition2, 0.4, Objective::kMinGamma, {});
+  EXPECT_NEAR(noise_figure(best.certificate), 2.221, 0.005);
+}
+
+TEST(Etienne2019, TheFinalErrorDoesNotDependOnTheUnitOfTheNoise) {
+  const Design of_1 = designed(kProposition2, 0.4, Objective::kMinGamma, {{"alpha", 1.0}});
+  const Design of_10 =
+      designed(kProposition2, 0.4, Objective::kMinGamma, {{"alpha", 1.0}, {"noise_size", 10.0}});
+  EXPECT_NEAR(noise_figure(of_10.certificate), noise_figure(of_1.certificate), 0.01);
+  EXPECT_NEAR(of_10.certificate.theorem->gain_figure(of_10.certificate.values).value,
+              10.0 * noise_figure(of_10.certificate), 1e-9);
+}
+
+TEST(Etienne2019, ADisturbanceThatEntersInOneRowCostsLessThanOneOfAnyDirection) {
+  CertificateSubject subject = dc_drive(0.4);
+  subject.plant.N = Eigen::MatrixXd::Zero(3, 1);
+  subject.plant.N(1, 0) = 1.0;
+  NamedMatrices fixed = printed(1.0);
+  const DesignCandidate any = certified(kProposition2, subject, fixed, Objective::kMinGamma);
+  fixed["noise_size"] = scalar_matrix(1e-3);
+  fixed["disturbance_size"] = scalar_matrix(1.0);
+  const DesignCandidate channels = certified(kChannels, subject, fixed, Objective::kMinGamma);
+  ASSERT_TRUE(any.is_verified() && channels.is_verified());
+  const auto bound = [&](const char* theorem, const DesignCandidate& proof) {
+    DrivenBound driven(
+        find_theorem(theorem)->error_bound(subject, proof.values, assumptions(0.0, 0.0, 0.5)));
+    for (int i = 0; i < 100; ++i) {
+      driven.flow_to(0.4);
+      driven.sample();
+    }
+    return driven.value();
+  };
+  EXPECT_LT(bound(kChannels, channels), 0.9 * bound(kProposition2, any));
+}
+
+TEST(Etienne2019, SizesOfNoiseAndDisturbanceMustBePositive) {
+  NamedMatrices fixed = printed(1.0);
+  fixed["noise_size"] = scalar_matrix(-1.0);
+  EXPECT_FALSE(certified(kChannels, dc_drive(0.4), fixed, Objective::kMinGamma).is_verified());
 }
 
 TEST(Etienne2019, TheLargestIntervalAndTheLargestRateLieBeyondThePapers) {
@@ -104,16 +159,24 @@ TEST(Etienne2019, ANonlinearPlantNeedsVertices) {
   EXPECT_THROW(find_theorem(kProposition1)->require_applicable(subject), std::invalid_argument);
 }
 
+class Etienne2019Bound : public testing::TestWithParam<const char*> {};
+
+INSTANTIATE_TEST_SUITE_P(Theorems, Etienne2019Bound, testing::Values(kProposition2, kChannels));
+
 /// The error z with the slope of ψ and noise as bad as they may be, by small steps, beside its
 /// bound.
-TEST(Etienne2019, TheBoundHoldsAlongTheWorstOfManyErrorsAndConverges) {
+TEST_P(Etienne2019Bound, HoldsAlongTheWorstOfManyErrorsAndConverges) {
   CertificateSubject subject = dc_drive(0.4);
   subject.plant.N = Eigen::MatrixXd::Identity(3, 3);
-  const DesignCandidate proof =
-      certified(kProposition2, subject, printed(1.0), Objective::kMinGamma);
+  NamedMatrices fixed = printed(1.0);
+  if (GetParam() == kChannels) {
+    fixed["noise_size"] = scalar_matrix(0.1);
+    fixed["disturbance_size"] = scalar_matrix(0.05);
+  }
+  const DesignCandidate proof = certified(GetParam(), subject, fixed, Objective::kMinGamma);
   ASSERT_TRUE(proof.is_verified()) << proof.message;
   DrivenBound bound(
-      find_theorem(kProposition2)->error_bound(subject, proof.values, assumptions(2.0, 0.1, 0.05)));
+      find_theorem(GetParam())->error_bound(subject, proof.values, assumptions(2.0, 0.1, 0.05)));
 
   constexpr double kStep = 1e-3;
   constexpr int kSteps = 20000;

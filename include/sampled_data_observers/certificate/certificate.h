@@ -101,6 +101,12 @@ class Theorem {
     return {};
   }
 
+  /// What the objective min-gamma makes least, for a theorem that has a gamma.
+  /// @pre the conditions hold
+  virtual GuaranteedFigure gain_figure(const NamedMatrices& values) const;
+  /// What the objective max-decay makes largest, for a theorem that has a decay_parameter().
+  virtual GuaranteedFigure decay_figure(const NamedMatrices& values) const;
+
   /// The bound that it gives at run time; null where it gives none.
   /// @pre the conditions hold
   /// @throws std::invalid_argument saying why, for assumptions that the theorem can't deal with.
