@@ -35,7 +35,8 @@ const std::vector<const Theorem*>& theorems() {
       &etienne2019_proposition2(), &etienne2019_proposition2_channels(),
       &ferrante2016_theorem1(),    &ferrante2019_theorem2(),
       &ferrante2019_corollary1(),  &ferrante2019_corollary2(),
-      &sferlazza2019_theorem2(),
+      &sferlazza2019_theorem2(),   &sferlazza2019_theorem2_rate(),
+      &sferlazza2019_equation17(),
   };
   return all;
 }

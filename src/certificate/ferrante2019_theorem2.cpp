@@ -188,6 +188,12 @@ class Ferrante2019Theorem : public Theorem {
     const double series = 1.0 / (1.0 - std::exp(-2.0 * lambda * subject.T1));
     figures.push_back(
         {"final error over noise [state/output]", std::sqrt(V.omega_2 * series / V.alpha_1)});
+    if (relevant(subject).C_p.rows() > 0) {
+      // Of Theorem 1 (ii), where the root of V is printed as V: α = √ρ2.
+      figures.push_back(
+          {"L2 norm of the performance output over the initial norm of error and injection's error",
+           std::sqrt(std::max(V.alpha_2, V.omega_2))});
+    }
     if (relevant(subject).N.cols() > 0) {
       figures.push_back({"final error over disturbance [state/w]",
                          scalar_value(values, "gamma") / std::sqrt(2.0 * lambda * V.alpha_1)});

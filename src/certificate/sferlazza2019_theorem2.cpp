@@ -151,13 +151,20 @@ class Theorem2Bound : public SampledErrorBound {
   ExponentialNorm growth_;  ///< ‖e^{Aτ} R⁻¹‖
 };
 
+/// The theorem as printed, or with a rate of convergence.
 class Theorem2 : public Theorem {
  public:
-  std::string name() const override { return "sferlazza2019_theorem2"; }
+  explicit Theorem2(bool has_rate) : has_rate_(has_rate) {}
+
+  std::string name() const override {
+    return has_rate_ ? "sferlazza2019_theorem2_rate" : "sferlazza2019_theorem2";
+  }
 
   std::string guarantee() const override {
-    return "the error converges, and a Lyapunov function of it falls at every sample, for all "
-           "times between samples from T1 to T2";
+    return has_rate_ ? "the error converges at the rate decay from sample to sample, in the norm "
+                       "of P, for all times between samples from T1 to T2"
+                     : "the error converges, and a Lyapunov function of it falls at every sample, "
+                       "for all times between samples from T1 to T2";
   }
 
   std::vector<std::string> observer_types() const override { return {"TimeVaryingGainObserver"}; }
@@ -178,15 +185,37 @@ class Theorem2 : public Theorem {
 
   std::vector<NamedShape> multipliers(const CertificateSubject&) const override { return {}; }
 
-  std::vector<NamedShape> parameters(const CertificateSubject&) const override { return {}; }
+  std::vector<NamedShape> parameters(const CertificateSubject&) const override {
+    if (!has_rate_) return {};
+    return {scalar_shape("decay")};
+  }
+
+  std::string decay_parameter() const override { return has_rate_ ? "decay" : ""; }
 
   bool is_homogeneous(const CertificateSubject&) const override { return true; }
 
+  /// (21) for the error times e^{decay t}, which flows by A + decay I. That multiplies Ψ by a
+  /// scalar, which cancels in (25): with λ = 0 the gain is the same. With λ > 0 it is that of A.
+  /// Then V falls at samples by e^{−2 decay τ} or more, where with Ψ of A, μ = e^{−decay τ} and
+  /// X = P C⊥ W C⊥ᵀ P, so that M22 = P − X and M21 M11⁻¹ M21ᵀ <= λ² M22,
+  ///   P − (X + λ² (P − X))/μ² > 0: (1 − λ²/μ²)/(1 − λ²) P > X/μ²,
+  /// which is (21) with another P in its last block.
   std::vector<Condition> conditions(const CertificateSubject& subject) const override {
     const Eigen::Index n = subject.plant.states();
     const MatrixExpression P = symbol("P", n, n);
-    std::vector<Condition> all = {
-        {"lambda < 1, sferlazza2019 (38)", 1.0 - square("lambda"), std::nullopt}};
+    const MatrixExpression remains = 1.0 - square("lambda");
+    std::vector<Condition> all = {{"lambda < 1, sferlazza2019 (38)", remains, std::nullopt}};
+    MatrixExpression A = subject.plant.A();
+    MatrixExpression P_kept = P;
+    if (has_rate_) {
+      const MatrixExpression decay = symbol("decay");
+      const auto left_after = [&](const MatrixExpression& tau) {
+        return 1.0 - square("lambda") * exponential(2.0 * decay * tau);
+      };
+      all.push_back({"lambda exp(decay T2) < 1", left_after(subject.T2), std::nullopt});
+      A = A + decay * identity(n);
+      P_kept = left_after(time_tau()) * inverse(remains) * P;
+    }
     const Eigen::MatrixXd directions = null_space(subject.plant.C());
     if (directions.cols() == 0) {
       // All of the state is measured: (21) is P > 0.
@@ -198,12 +227,12 @@ class Theorem2 : public Theorem {
     const MatrixExpression C = subject.plant.C();
     const MatrixExpression complement =
         (identity(n) - transpose(C) * inverse(C * transpose(C)) * C) * directions;
-    const MatrixExpression flown_back =
-        exponential(-(time_tau() * MatrixExpression(subject.plant.A()))) * complement;
-    all.push_back({"Xi_P(tau) > 0, sferlazza2019 (21)",
-                   symmetric_blocks(
-                       {{transpose(flown_back) * P * flown_back, transpose(complement) * P}, {P}}),
-                   Condition::Range{subject.T1, subject.T2}});
+    const MatrixExpression flown_back = exponential(-(time_tau() * A)) * complement;
+    all.push_back(
+        {"Xi_P(tau) > 0, sferlazza2019 (21)",
+         symmetric_blocks(
+             {{transpose(flown_back) * P * flown_back, transpose(complement) * P}, {P_kept}}),
+         Condition::Range{subject.T1, subject.T2}});
     return all;
   }
 
@@ -218,12 +247,75 @@ class Theorem2 : public Theorem {
         std::make_unique<const CertificateGain>(subject.plant.C(), P,
                                                 scalar_value(values, "lambda")));
   }
+
+ private:
+  bool has_rate_;
+};
+
+/// sferlazza2019, (17): where all of the state is measured, any P > 0 proves (13) and (14).
+class Equation17 : public Theorem {
+ public:
+  std::string name() const override { return "sferlazza2019_equation17"; }
+
+  std::string guarantee() const override {
+    return "each sample keeps the part lambda of the error that the last one left, whatever the "
+           "times between samples";
+  }
+
+  std::vector<std::string> observer_types() const override { return {"TimeVaryingGainObserver"}; }
+
+  void require_applicable(const CertificateSubject& subject) const override {
+    require_linear_sampling("sferlazza2019", subject);
+    if (subject.plant.C().rows() != subject.plant.states()) {
+      throw std::invalid_argument(
+          "sferlazza2019 (17) is about outputs that show all of the state at once: C must be "
+          "square and invertible");
+    }
+  }
+
+  std::vector<NamedShape> gains(const CertificateSubject&) const override {
+    return {scalar_shape("lambda")};
+  }
+  /// With it, the gain would be (36).
+  std::vector<std::string> excluded_gains() const override { return {"P"}; }
+
+  std::vector<NamedShape> multipliers(const CertificateSubject&) const override { return {}; }
+  std::vector<NamedShape> parameters(const CertificateSubject&) const override { return {}; }
+  bool is_homogeneous(const CertificateSubject&) const override { return true; }
+
+  std::vector<Condition> conditions(const CertificateSubject& subject) const override {
+    const MatrixExpression C = subject.plant.C();
+    return {{"lambda < 1, sferlazza2019 (38)", 1.0 - square("lambda"), std::nullopt},
+            {"C invertible", C * transpose(C), std::nullopt}};
+  }
+
+  std::unique_ptr<const ErrorBound> error_bound(
+      const CertificateSubject& subject, const NamedMatrices& values,
+      const ErrorAssumptions& assumptions) const override {
+    require_no_disturbance("sferlazza2019", assumptions);
+    // (I − K(τ) C) e^{Aτ} = λ I.
+    const Eigen::Index n = subject.plant.states();
+    return std::make_unique<const Theorem2Bound>(
+        subject, assumptions, Eigen::MatrixXd::Identity(n, n),
+        std::make_unique<const InverseOutputGain>(subject.plant.C(),
+                                                  scalar_value(values, "lambda")));
+  }
 };
 
 }  // namespace
 
+const Theorem& sferlazza2019_equation17() {
+  static const Equation17 theorem;
+  return theorem;
+}
+
 const Theorem& sferlazza2019_theorem2() {
-  static const Theorem2 theorem;
+  static const Theorem2 theorem(false);
+  return theorem;
+}
+
+const Theorem& sferlazza2019_theorem2_rate() {
+  static const Theorem2 theorem(true);
   return theorem;
 }
 

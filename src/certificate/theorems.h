@@ -19,6 +19,8 @@ const Theorem& ferrante2016_theorem1();
 const Theorem& ferrante2019_theorem2();
 const Theorem& ferrante2019_corollary1();
 const Theorem& ferrante2019_corollary2();
+const Theorem& sferlazza2019_equation17();
 const Theorem& sferlazza2019_theorem2();
+const Theorem& sferlazza2019_theorem2_rate();
 
 }  // namespace sampled_data_observers

@@ -63,6 +63,11 @@ std::optional<CertificateConfig> read_certificate(ConfigSection& root, const Pla
   ConfigSection gains = root.section("gains");
   certificate.values.merge(
       read_gain_values(gains, theorem.gains(certificate.subject), certificate.subject));
+  for (const std::string& key : theorem.excluded_gains()) {
+    if (!gains.has(key)) continue;
+    throw gains.error(
+        key, "no " + key + ", with which the gains are not those of " + theorem.name(), "a value");
+  }
   for (const char* remark : kRemarks) section.has(remark);
   section.finish();
   return config;

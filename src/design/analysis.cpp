@@ -15,6 +15,21 @@ bool has_gamma(const Theorem& theorem, const CertificateSubject& subject) {
                      [](const NamedShape& shape) { return shape.name == "gamma"; });
 }
 
+/// What the first design method of a theorem does with a parameter: its default, or the range in
+/// which it is searched for. Nothing where no method has it.
+DesignParameter as_in_design(const Theorem& theorem, const CertificateSubject& subject,
+                             const std::string& name) {
+  for (const DesignMethod* method : design_methods()) {
+    if (&method->theorem() != &theorem) continue;
+    for (const DesignParameter& parameter : method->parameters(subject)) {
+      if (parameter.name == name) return parameter;
+    }
+  }
+  DesignParameter none;
+  none.name = name;
+  return none;
+}
+
 /// The design method whose gains are known.
 class GivenGains : public DesignMethod {
  public:
@@ -29,8 +44,7 @@ class GivenGains : public DesignMethod {
     const std::vector<NamedRange> ranges = theorem_.search_ranges(subject);
     std::vector<DesignParameter> all;
     for (const NamedShape& shape : theorem_.parameters(subject)) {
-      DesignParameter parameter;
-      parameter.name = shape.name;
+      DesignParameter parameter = as_in_design(theorem_, subject, shape.name);
       for (const NamedRange& named : ranges) {
         if (named.name == shape.name) parameter.search = named.range;
       }
@@ -98,7 +112,7 @@ Design analyze(const AnalysisProblem& problem, const SynthesisOptions& options) 
   }
   for (const DesignParameter& parameter : method.parameters(problem.subject)) {
     const bool is_found =
-        parameter.search || parameter.name == "gamma" ||
+        parameter.search || parameter.default_value || parameter.name == "gamma" ||
         (problem.objective == Objective::kMaxDecay && parameter.name == theorem.decay_parameter());
     if (is_found || problem.given.count(parameter.name) > 0) continue;
     throw DesignError(theorem.name() + " needs a value of " + parameter.name + ": give --set " +

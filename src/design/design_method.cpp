@@ -82,12 +82,19 @@ const std::vector<const DesignMethod*>& design_methods() {
       &etienne2019_proposition1_design(),
       &etienne2019_proposition2_design(),
       &ferrante2016_corollary1(),
+      &ferrante2016_proposition1(),
       &ferrante2019_proposition2(),
       &ferrante2019_proposition3(),
       &ferrante2019_proposition4(),
       &ferrante2019_proposition5(),
       &ferrante2019_alternating(),
+      &ferrante2019_proposition2_predictor(),
+      &ferrante2019_alternating_predictor(),
+      &ferrante2019_proposition3_hold(),
+      &ferrante2019_proposition4_hold(),
+      &ferrante2019_alternating_hold(),
       &sferlazza2019_algorithm1(),
+      &sferlazza2019_equation17_design(),
   };
   return all;
 }

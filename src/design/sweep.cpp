@@ -46,11 +46,14 @@ Parameters known_to(const DesignMethod& method, const CertificateSubject& subjec
   return known;
 }
 
+GuaranteedFigure figure_of(const Theorem& theorem, Objective objective,
+                           const NamedMatrices& values) {
+  return objective == Objective::kMinGamma ? theorem.gain_figure(values)
+                                           : theorem.decay_figure(values);
+}
+
 double value_of(const Design& design) {
-  if (design.objective == Objective::kMinGamma) {
-    return scalar_value(design.certificate.values, "gamma");
-  }
-  return scalar_value(design.certificate.values, design.certificate.theorem->decay_parameter());
+  return figure_of(*design.certificate.theorem, design.objective, design.certificate.values).value;
 }
 
 void pack(const Parameters& parameters, Packer& packer) {
@@ -122,6 +125,19 @@ bool serves(const DesignMethod& method, const CertificateSubject& subject, Objec
 
 }  // namespace
 
+std::string drawn_quantity(const DesignMethod& method, const CertificateSubject& subject,
+                           Objective objective) {
+  // Of these values the meaning does not depend.
+  NamedMatrices values;
+  const Theorem& theorem = method.theorem();
+  for (const auto& shapes : {theorem.multipliers(subject), theorem.parameters(subject)}) {
+    for (const NamedShape& shape : shapes) {
+      values[shape.name] = Eigen::MatrixXd::Identity(shape.rows, shape.cols);
+    }
+  }
+  return figure_of(theorem, objective, values).meaning;
+}
+
 bool is_better(Objective objective, double first, double second) {
   return objective == Objective::kMinGamma ? first < second : first > second;
 }
@@ -155,12 +171,17 @@ std::vector<const DesignMethod*> methods_for(const CertificateSubject& subject,
                                              Objective objective) {
   std::vector<const DesignMethod*> methods;
   for (const DesignMethod* method : design_methods()) {
+    if (method->is_special_case()) continue;
     try {
       method->require_applicable(subject);
     } catch (const std::invalid_argument&) {
       continue;
     }
-    if (serves(*method, subject, objective)) methods.push_back(method);
+    if (!serves(*method, subject, objective)) continue;
+    const bool is_alike =
+        methods.empty() || drawn_quantity(*method, subject, objective) ==
+                               drawn_quantity(*methods.front(), subject, objective);
+    if (is_alike) methods.push_back(method);
   }
   return methods;
 }
@@ -176,6 +197,14 @@ void require_sense(const SweepRequest& request) {
     if (!serves(*method, subject, request.objective)) {
       throw cannot_serve(*method, subject, request.objective);
     }
+    const auto quantity = [&](const DesignMethod* of) {
+      return drawn_quantity(*of, subject, request.objective);
+    };
+    const DesignMethod* first = request.methods.front();
+    if (quantity(method) == quantity(first)) continue;
+    throw DesignError("one sweep draws one quantity, but " + first->name() + " is about the " +
+                      quantity(first) + " and " + method->name() + " about the " +
+                      quantity(method) + ": sweep them apart");
   }
   for (const auto& [name, value] : request.given) {
     if (!std::isfinite(value))

@@ -35,12 +35,33 @@ struct AnalyzeArguments {
   double time_limit = 20.0;
 };
 
+/// All theorems: those that a design for the least gain would prove first, then those of other
+/// designs.
+std::vector<const Theorem*> in_order_of_use(const CertificateSubject& subject) {
+  std::vector<const Theorem*> all = theorems();
+  const auto rank = [&](const Theorem* theorem) {
+    int best = 2;
+    for (const DesignMethod* method : design_methods()) {
+      if (&method->theorem() != theorem) continue;
+      const auto objectives = method->objectives(subject);
+      const bool has_gain =
+          std::find(objectives.begin(), objectives.end(), Objective::kMinGamma) != objectives.end();
+      best = std::min(best, has_gain ? 0 : 1);
+    }
+    return best;
+  };
+  std::stable_sort(all.begin(), all.end(), [&](const Theorem* first, const Theorem* second) {
+    return rank(first) < rank(second);
+  });
+  return all;
+}
+
 const Theorem& theorem_for(ConfigSection& root, const std::string& name,
                            const CertificateSubject& subject) {
   if (!name.empty()) return *find_theorem(name);
   const std::string type = root.text("observer");
   std::string reasons;
-  for (const Theorem* theorem : theorems()) {
+  for (const Theorem* theorem : in_order_of_use(subject)) {
     const auto types = theorem->observer_types();
     if (std::find(types.begin(), types.end(), type) == types.end()) continue;
     try {

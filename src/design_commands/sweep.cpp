@@ -102,12 +102,6 @@ SweepRequest request_of(const SweepArguments& arguments, const DesignConfig& con
   return request;
 }
 
-const char* axis_label(Objective objective) {
-  return objective == Objective::kMinGamma
-             ? "$\\gamma$, L2 gain from the disturbance to the performance output"
-             : "guaranteed rate of convergence [1/s]";
-}
-
 void draw(const SweepRequest& request, const std::vector<CurvePoint>& curves,
           const SweepArguments& arguments) {
   nlohmann::json json;
@@ -117,7 +111,7 @@ void draw(const SweepRequest& request, const std::vector<CurvePoint>& curves,
         json["title"].get<std::string>() + ", " + name + " = " + shortest_decimal(value);
   }
   json["x_label"] = "$T_2$, longest time between samples [s]";
-  json["y_label"] = axis_label(request.objective);
+  json["y_label"] = drawn_quantity(*request.methods.front(), request.subject, request.objective);
   json["curves"] = nlohmann::json::array();
   double least = std::numeric_limits<double>::infinity();
   double largest = 0.0;
@@ -146,7 +140,7 @@ void draw(const SweepRequest& request, const std::vector<CurvePoint>& curves,
 
 void print_summary(const SweepRequest& request, const std::vector<CurvePoint>& curves) {
   std::printf("%-34s %8s  %12s  %s\n", "method", "designs", "largest T2",
-              request.objective == Objective::kMinGamma ? "gamma at least and largest T2"
+              request.objective == Objective::kMinGamma ? "gain at least and largest T2"
                                                         : "rate at least and largest T2");
   for (const DesignMethod* method : request.methods) {
     std::vector<const CurvePoint*> designs;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "design/ferrante2019_examples.h"
 #include "design/paper_plants.h"
 #include "sampled_data_observers/design/design_method.h"
 
@@ -83,6 +84,44 @@ TEST(Explanation, SaysOfEveryMethodWhetherItApplies) {
                 text.find(method->name() + " no: ") != std::string::npos)
         << method->name();
   }
+}
+
+/// An oscillator of period pi, of which samples pi/2 apart show nothing; in [1, 4] that dip lies
+/// between all equidistant times.
+TEST(Explanation, TakesPathologicalTimesIntoTheLeastSingularValue) {
+  Eigen::MatrixXd A(2, 2);
+  A << -0.1, 2, -2, -0.1;
+  const CertificateSubject subject = test::linear_subject(A, Eigen::RowVector2d(1, 0), 1.0, 4.0);
+  const std::string text = words(explain(subject));
+  const std::size_t at = text.find("over [T1, T2] = [1, 4] s: ");
+  ASSERT_NE(at, std::string::npos) << text;
+  EXPECT_LT(std::stod(text.substr(at + 26)), 1e-12) << text;
+  EXPECT_NE(text.find("at tau = 1.571 s."), std::string::npos) << text;
+  EXPECT_EQ(text.find("NO OBSERVER"), std::string::npos) << text;  // all decays
+}
+
+/// The aircraft: pathological at 8.541 s; designs for [4, 8] s exist.
+TEST(Explanation, WarnsOfAPathologicalIntervalOnlyWhereT2IsClose) {
+  EXPECT_TRUE(says(test::aircraft(4.0, 8.0), "T2 is close to the pathological interval 8.541 s"));
+  EXPECT_FALSE(says(test::aircraft(1.0, 3.0), "T2 is close"));
+}
+
+TEST(Explanation, RecommendsOneMethod) {
+  EXPECT_TRUE(says(impulsive(), "begin with --method bernard2022_equation36"));
+  EXPECT_TRUE(says(test::aircraft(1.0, 3.0), "begin with --method sferlazza2019_algorithm1"));
+  EXPECT_TRUE(says(test::oscillator(0.2), "begin with --method ferrante2019_alternating"));
+}
+
+/// x2' = -x2 + w, which y = x1 does not show at all, has the gain 1 from w to x2, for any observer.
+TEST(Explanation, TellsTheGainThatNoT2CanDoWithout) {
+  Eigen::MatrixXd A(2, 2);
+  A << 0, 0, 0, -1;
+  CertificateSubject subject = test::linear_subject(A, Eigen::RowVector2d(1, 0), 0.1, 0.2);
+  subject.plant.N = Eigen::Vector2d(0, 1);
+  subject.plant.C_p = Eigen::RowVector2d(0, 1);
+  EXPECT_TRUE(says(subject, "less than about 1 by these methods")) << explain(subject);
+  EXPECT_TRUE(says(subject, "(31) of ferrante2019 has a solution"));
+  EXPECT_FALSE(says(test::aircraft(1.0, 3.0), "less than about"));
 }
 
 TEST(Explanation, SpeaksWithoutTimes) {

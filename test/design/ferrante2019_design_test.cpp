@@ -6,6 +6,7 @@
 #include "ferrante2019_examples.h"
 #include "sampled_data_observers/certificate/matrix_functions.h"
 #include "sampled_data_observers/design/parameter_search.h"
+#include "sampled_data_observers/design/request_error.h"
 #include "sampled_data_observers/design/synthesis.h"
 #include "sampled_data_observers/design/workers.h"
 
@@ -177,6 +178,59 @@ TEST(Ferrante2019Example3, ASearchForTheSlackScaleFindsASmallerGamma) {
   const char* method = "ferrante2019_proposition4";
   EXPECT_LT(gamma(design(method, subject, given, objective, {"a"})),
             0.9 * gamma(design(method, subject, given, objective)));
+}
+
+/// How far gains are from a predictor, H = −C L, and from a held innovation, H = 0.
+double distance_to_predictor(const Design& design) {
+  const NamedMatrices& values = design.certificate.values;
+  return norm2(values.at("H") + design.certificate.subject.plant.C() * values.at("L"));
+}
+double distance_to_hold(const Design& design) { return norm2(design.certificate.values.at("H")); }
+
+TEST(Ferrante2019Designs, ArePredictorsOrHoldTheInnovationWhereThatIsAskedFor) {
+  const CertificateSubject subject = oscillator(0.2);
+  const Parameters given = {{"lambda_t", 0.05}, {"gain_bound", 10.0}};
+  const auto gamma = [&](const Design& found) {
+    return scalar_value(found.certificate.values, "gamma");
+  };
+  const Design free = design("ferrante2019_alternating", subject, given);
+  const Design predictor = design("ferrante2019_alternating_predictor", subject, given);
+  const Design hold = design("ferrante2019_alternating_hold", subject, given);
+  EXPECT_EQ(distance_to_predictor(predictor), 0.0);
+  EXPECT_EQ(distance_to_hold(hold), 0.0);
+  EXPECT_EQ(distance_to_predictor(design("ferrante2019_proposition2_predictor", subject, given)),
+            0.0);
+  EXPECT_EQ(distance_to_hold(design("ferrante2019_proposition3_hold", subject, given)), 0.0);
+  EXPECT_EQ(distance_to_hold(design("ferrante2019_proposition4_hold", subject, given)), 0.0);
+  EXPECT_LE(gamma(free), 1.01 * gamma(predictor));
+  EXPECT_LE(gamma(free), 1.01 * gamma(hold));
+}
+
+/// Postoyan's gain is certified up to 0.1145 s.
+TEST(Ferrante2019Example3, APredictorReachesALongerTimeThanPostoyans) {
+  CertificateSubject subject = flexible_link(0.115);
+  const Design longer = design("ferrante2019_proposition2_predictor", subject,
+                               {{"lambda_t", 0.01}, {"gain_bound", 1e4}}, Objective::kFeasible);
+  EXPECT_EQ(distance_to_predictor(longer), 0.0);
+}
+
+TEST(Ferrante2019Designs, HaveNoGammaWithoutAPerformanceOutput) {
+  CertificateSubject subject = oscillator(0.2);
+  subject.plant.C_p.resize(0, 2);
+  for (const char* method :
+       {"ferrante2019_proposition2", "ferrante2019_proposition3", "ferrante2019_proposition4",
+        "ferrante2019_proposition5", "ferrante2019_alternating"}) {
+    DesignProblem problem;
+    problem.subject = subject;
+    problem.objective = Objective::kMinGamma;
+    try {
+      synthesize(*find_design_method(method), problem, {});
+      ADD_FAILURE() << method;
+    } catch (const RequestError& error) {
+      EXPECT_NE(std::string(error.what()).find("a gain needs design/N"), std::string::npos)
+          << error.what();
+    }
+  }
 }
 
 TEST(Ferrante2019Designs, HaveAsManyScalarVariablesAsTableII) {

@@ -78,6 +78,68 @@ TEST(Sferlazza2019Aircraft, HasALargestT2BelowHalfATurn) {
   EXPECT_LT(design.certificate.subject.T2, 8.541);
 }
 
+Eigen::MatrixXd gain_at(const CertificateGain& gain, const Eigen::MatrixXd& backward) {
+  Eigen::MatrixXd K(backward.rows(), 1);
+  Eigen::VectorXd workspace(gain.workspace_size());
+  gain.evaluate(backward.data(), K.data(), workspace.data());
+  return K;
+}
+
+/// The rate multiplies Ψ by e^{−2 decay τ}, which cancels in (25).
+TEST(Sferlazza2019Aircraft, HasTheSameGainForAPlantThatDecaysFaster) {
+  const CertificateSubject subject = aircraft(1.0, 3.0);
+  const CertificateGain gain(subject.plant.C(), kPrinted_1_3.at("P"), 0.0);
+  for (const double tau : {1.0, 2.0, 3.0}) {
+    const Eigen::MatrixXd backward = exponential_of(-tau * subject.plant.A());
+    const Eigen::MatrixXd K = gain_at(gain, backward);
+    EXPECT_LT(norm2(gain_at(gain, std::exp(-0.7 * tau) * backward) - K), 1e-9 * norm2(K));
+  }
+}
+
+/// With λ > 0 as without: V falls by e^{−2 decay τ} from sample to sample, with the observer's
+/// gain.
+TEST(Sferlazza2019Aircraft, ConvergesAtTheRateThatIsProved) {
+  for (const double lambda : {0.0, 0.1}) {
+    const CertificateSubject subject = aircraft(1.0, 3.0);
+    const Design design = design_by(kMethod, subject, {{"lambda", lambda}}, Objective::kMaxDecay);
+    const NamedMatrices& values = design.certificate.values;
+    const double decay = scalar_value(values, "decay");
+    // By (21) alone, with lambda = 0, 0.149 1/s.
+    EXPECT_GE(decay, lambda == 0.0 ? 1.0 : 0.5) << lambda;
+    const Eigen::MatrixXd R = cholesky_root(values.at("P"));
+    const Eigen::MatrixXd& C = subject.plant.C();
+    const CertificateGain gain(C, values.at("P"), lambda);
+    for (int i = 0; i <= 40; ++i) {
+      const double tau = 1.0 + 2.0 * i / 40.0;
+      const Eigen::MatrixXd flow = exponential_of(tau * subject.plant.A());
+      const Eigen::MatrixXd K = gain_at(gain, exponential_of(-tau * subject.plant.A()));
+      EXPECT_LE(norm2(R * (flow - K * (C * flow)) * inverse_of(R)), std::exp(-decay * tau)) << tau;
+    }
+  }
+}
+
+TEST(Sferlazza2019Equation17, KeepsLambdaOfTheErrorAtEachSample) {
+  const CertificateSubject subject =
+      linear_subject(aircraft(1.0, 3.0).plant.A(), Eigen::MatrixXd::Identity(3, 3), 1.0, 3.0);
+  const Design design = design_by("sferlazza2019_equation17", subject, {{"lambda", 0.3}});
+  ErrorAssumptions assumptions;
+  assumptions.initial_error = 2.0;
+  const auto bound =
+      design.certificate.theorem->error_bound(subject, design.certificate.values, assumptions);
+  std::vector<double> state(static_cast<std::size_t>(bound->state_size()));
+  std::vector<double> workspace(static_cast<std::size_t>(bound->workspace_size()));
+  bound->initialize(state.data());
+  for (const double tau : {1.0, 3.0, 2.0}) {
+    bound->flow(tau, state.data());
+    bound->sample(state.data(), workspace.data());
+  }
+  const double error = 2.0 * 0.3 * 0.3 * 0.3;
+  EXPECT_GE(bound->bound(state.data()), error);
+  EXPECT_LE(bound->bound(state.data()), 1.02 * error);
+  EXPECT_NE(refusal("sferlazza2019_equation17", aircraft(1.0, 3.0)).find("square and invertible"),
+            std::string::npos);
+}
+
 TEST(Sferlazza2019Algorithm1, TakesAnyPWhereAllOfTheStateIsMeasured) {
   const CertificateSubject subject =
       linear_subject(aircraft(1.0, 3.0).plant.A(), Eigen::MatrixXd::Identity(3, 3), 1.0, 20.0);
@@ -99,8 +161,10 @@ TEST(Sferlazza2019Algorithm1, TellsWhatItCannotDesignFor) {
 
   message = refusal(kMethod, aircraft(1.0, 3.0), {{"lambda", 1.0}});
   EXPECT_NE(message.find("lambda must be in [0, 1)"), std::string::npos) << message;
-  message = refusal(kMethod, aircraft(1.0, 3.0), {}, Objective::kMaxDecay);
-  EXPECT_NE(message.find("can't serve the objective max-decay"), std::string::npos) << message;
+  message = refusal(kMethod, aircraft(1.0, 3.0), {{"decay", -0.1}});
+  EXPECT_NE(message.find("decay must not be negative"), std::string::npos) << message;
+  message = refusal(kMethod, aircraft(1.0, 3.0), {{"lambda", 0.5}, {"decay", 0.3}});
+  EXPECT_NE(message.find("falls more slowly than by decay"), std::string::npos) << message;
 }
 
 /// Theorem 2's bound beside an error that the observer's own gain corrects.

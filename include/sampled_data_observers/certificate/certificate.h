@@ -74,6 +74,8 @@ class Theorem {
   virtual std::vector<NamedShape> gains(const CertificateSubject& subject) const = 0;
   /// What else the section `gains` of its observer must say: the form of a HighGainObserver.
   virtual std::map<std::string, std::string> gain_choices() const { return {}; }
+  /// Keys of the section `gains` with which the observer's law would be another one.
+  virtual std::vector<std::string> excluded_gains() const { return {}; }
   /// Matrices and multipliers in which the conditions are linear where all else is fixed.
   virtual std::vector<NamedShape> multipliers(const CertificateSubject& subject) const = 0;
   /// Scalars that are chosen: rates, levels, and those searched for.

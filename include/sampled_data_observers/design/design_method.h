@@ -78,6 +78,8 @@ class DesignMethod {
   virtual std::string summary() const = 0;
   /// The theorem whose original conditions its gains must satisfy.
   virtual const Theorem& theorem() const = 0;
+  /// Whether it restricts another method to gains of a certain form: it is tried where it is named.
+  virtual bool is_special_case() const { return false; }
   /// The observer type of its gains.
   virtual std::string observer_type() const { return theorem().observer_types().front(); }
 

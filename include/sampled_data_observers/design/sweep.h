@@ -24,13 +24,18 @@ struct SweepRequest {
 struct SweepPoint {
   std::string method;
   double T2 = 0.0;
-  /// The least gamma, or the largest rate of convergence; empty where there is no design.
+  /// The least gain, or the largest rate of convergence (drawn_quantity()); empty where there is no
+  /// design.
   std::optional<double> value;
   /// With which it was made.
   Parameters parameters;
   double seconds = 0.0;
   std::string message;
 };
+
+/// What a method makes least or largest, with its unit: not the same for all.
+std::string drawn_quantity(const DesignMethod& method, const CertificateSubject& subject,
+                           Objective objective);
 
 /// Whether `first` is a better value than `second`.
 bool is_better(Objective objective, double first, double second);
@@ -39,12 +44,13 @@ bool is_better(Objective objective, double first, double second);
 /// @throws DesignError where these are no `points` different numbers > 0.
 std::vector<double> sweep_times(double low, double high, std::size_t points);
 
-/// All methods that are about the plant and can serve the objective.
+/// All methods that are about the plant and can serve the objective, but for special cases of
+/// others and those that are about another quantity than the first.
 std::vector<const DesignMethod*> methods_for(const CertificateSubject& subject,
                                              Objective objective);
 
-/// @throws DesignError for a method that is not about the plant or the objective, and for a
-/// parameter that no method knows or that is not finite.
+/// @throws DesignError for a method that is not about the plant, the objective or the same quantity
+/// as the others, and for a parameter that no method knows or that is not finite.
 void require_sense(const SweepRequest& request);
 
 struct SweepOptions {

@@ -34,13 +34,13 @@ class HighGainDesign : public DesignMethod {
                           Objective) const override {
     const auto given = parameters.find("ell");
     if (given != parameters.end()) return with_gain(subject, parameters, given->second);
-    double low = 0.1 / subject.T2;
-    DesignCandidate best = with_gain(subject, parameters, low);
-    if (best.is_verified()) return best;
+    // What holds for an ell need not hold for larger ones: peaks of the high gain grow, too.
+    double low = kLeastGain / subject.T2;
     double high = low;
-    for (int i = 0; i < kMaxDoublings && !best.is_verified(); ++i) {
+    DesignCandidate best = with_gain(subject, parameters, high);
+    for (int i = 0; i < kScanSteps && !best.is_verified(); ++i) {
       low = high;
-      high *= 2.0;
+      high *= kScanRatio;
       best = with_gain(subject, parameters, high);
     }
     while (best.is_verified() && high / low > kSearchRatio) {
@@ -53,7 +53,9 @@ class HighGainDesign : public DesignMethod {
   }
 
  private:
-  static constexpr int kMaxDoublings = 20;
+  static constexpr double kLeastGain = 0.1;  ///< in units of 1/T2
+  static constexpr double kScanRatio = 1.2;
+  static constexpr int kScanSteps = 76;  ///< up to a million times the least gain
   static constexpr double kSearchRatio = 1.001;
 
   DesignCandidate with_gain(const CertificateSubject& subject, const Parameters& parameters,

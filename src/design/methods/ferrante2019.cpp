@@ -20,7 +20,10 @@ std::vector<DesignParameter> ferrante2019_parameters(const CertificateSubject& s
 
 std::vector<Objective> ferrante2019_objectives(const CertificateSubject& subject) {
   std::vector<Objective> all = {Objective::kFeasible, Objective::kMaxT2, Objective::kMaxDecay};
-  if (subject.plant.N.cols() > 0) all.push_back(Objective::kMinGamma);
+  // Without C_p the gain is zero, however bad the design.
+  if (subject.plant.N.cols() > 0 && subject.plant.C_p.rows() > 0) {
+    all.push_back(Objective::kMinGamma);
+  }
   return all;
 }
 

@@ -8,6 +8,13 @@ namespace sampled_data_observers {
 
 // What the designs of ferrante2019 share: all find gains for Theorem 2.
 
+/// What is demanded of the intersample injection H.
+enum class Injection {
+  kFree,
+  kPredictor,  ///< H = −C L (Remark 5): between samples the output of the estimate is predicted
+  kHold        ///< H = 0: the innovation is held
+};
+
 /// lambda_t, delta, gain_bound, and gamma where there is a disturbance.
 std::vector<DesignParameter> ferrante2019_parameters(const CertificateSubject& subject);
 std::vector<Objective> ferrante2019_objectives(const CertificateSubject& subject);

@@ -1,5 +1,7 @@
 #include <cmath>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "ferrante2019.h"
 #include "gain_bound.h"
@@ -21,12 +23,12 @@ constexpr double kRoom = 1.01;
 /// improved in turn, each with the other fixed, since Theorem 2 is linear in either.
 class Alternating : public DesignMethod {
  public:
-  std::string name() const override { return "ferrante2019_alternating"; }
+  Alternating(Injection injection, std::string name, std::string summary)
+      : injection_(injection), name_(std::move(name)), summary_(std::move(summary)) {}
 
-  std::string summary() const override {
-    return "the best of Propositions 2 to 5, improved by alternating between gains and Lyapunov "
-           "matrices";
-  }
+  std::string name() const override { return name_; }
+  std::string summary() const override { return summary_; }
+  bool is_special_case() const override { return injection_ != Injection::kFree; }
 
   const Theorem& theorem() const override { return *find_theorem("ferrante2019_theorem2"); }
 
@@ -69,20 +71,45 @@ class Alternating : public DesignMethod {
     };
     Parameters own = parameters;
     own["a"] = 1.0;
-    for (const DesignMethod* method :
-         {&ferrante2019_proposition2(), &ferrante2019_proposition4()}) {
+    for (const DesignMethod* method : starts(own.at("delta") > 2.0 * own.at("lambda_t"))) {
       offer(method->attempt(subject, own, objective));
     }
-    if (own.at("delta") > 2.0 * own.at("lambda_t")) {
-      offer(ferrante2019_proposition3().attempt(subject, own, objective));
-      offer(ferrante2019_proposition5().attempt(subject, own, objective));
-    }
+    if (injection_ == Injection::kHold) return best;
+    const DesignMethod& second = injection_ == Injection::kFree
+                                     ? ferrante2019_proposition2()
+                                     : ferrante2019_proposition2_predictor();
     for (const double factor : {3.0, 10.0, 30.0}) {
       own["gain_bound"] = factor * parameters.at("gain_bound");
-      const DesignCandidate large = ferrante2019_proposition2().attempt(subject, own, objective);
+      const DesignCandidate large = second.attempt(subject, own, objective);
       if (!large.values.empty()) offer(improved(subject, parameters, objective, large.values));
     }
     return best;
+  }
+
+  /// The propositions that know such an injection.
+  /// @param has_large_delta  what Propositions 3 and 5 ask for
+  std::vector<const DesignMethod*> starts(bool has_large_delta) const {
+    std::vector<const DesignMethod*> methods;
+    switch (injection_) {
+      case Injection::kFree:
+        methods = {&ferrante2019_proposition2(), &ferrante2019_proposition4()};
+        if (has_large_delta) {
+          methods.push_back(&ferrante2019_proposition3());
+          methods.push_back(&ferrante2019_proposition5());
+        }
+        break;
+      case Injection::kPredictor:
+        methods = {&ferrante2019_proposition2_predictor()};
+        break;
+      case Injection::kHold:
+        methods = {&ferrante2019_proposition4_hold()};
+        if (has_large_delta) {
+          methods.push_back(&ferrante2019_proposition3_hold());
+          methods.push_back(&ferrante2019_proposition5());
+        }
+        break;
+    }
+    return methods;
   }
 
   /// The design with the best gains for the Lyapunov matrices of another one, and then the best
@@ -99,8 +126,8 @@ class Alternating : public DesignMethod {
   }
 
   /// L and H for the Lyapunov matrices of a design; none where the solver finds none.
-  static NamedMatrices better_gains(const CertificateSubject& subject, const Parameters& parameters,
-                                    Objective objective, const NamedMatrices& values) {
+  NamedMatrices better_gains(const CertificateSubject& subject, const Parameters& parameters,
+                             Objective objective, const NamedMatrices& values) const {
     LmiSolution solution =
         solve_with_csdp(gain_program(subject, parameters, objective, values), SolverOptions());
     if (objective == Objective::kMinGamma && !solution.values.empty()) {
@@ -112,25 +139,37 @@ class Alternating : public DesignMethod {
     const bool is_of_use =
         !solution.values.empty() && keeps_gain_bound(solution.values.at("L"), parameters);
     if (!is_of_use) return {};
-    return {{"L", solution.values.at("L")}, {"H", solution.values.at("H")}};
+    const Eigen::MatrixXd& L = solution.values.at("L");
+    switch (injection_) {
+      case Injection::kPredictor:
+        return {{"L", L}, {"H", -(subject.plant.C() * L)}};
+      case Injection::kHold:
+        return {{"L", L}, {"H", Eigen::MatrixXd::Zero(L.cols(), L.cols())}};
+      case Injection::kFree:
+        break;
+    }
+    return {{"L", L}, {"H", solution.values.at("H")}};
   }
 
-  static LmiProgram gain_program(const CertificateSubject& subject, const Parameters& parameters,
-                                 Objective objective, const NamedMatrices& values) {
+  LmiProgram gain_program(const CertificateSubject& subject, const Parameters& parameters,
+                          Objective objective, const NamedMatrices& values) const {
     const PlantMatrices& plant = subject.plant;
     const Eigen::Index n = plant.states();
     const Eigen::Index m = plant.C().rows();
     LmiProgram program;
     for (const char* name : {"P1", "P2", "delta", "lambda_t"}) program.fix(name, values.at(name));
     const MatrixExpression L = program.matrix("L", n, m);
-    const MatrixExpression H = program.matrix("H", m, m);
+    // C L + H
+    MatrixExpression F22 = zeros(m, m);
+    if (injection_ != Injection::kPredictor) F22 = MatrixExpression(plant.C()) * L;
+    if (injection_ == Injection::kFree) F22 = F22 + program.matrix("H", m, m);
     if (!plant.is_linear()) program.require_positive("chi > 0", program.scalar("chi"));
     // What is neither asked for nor given stays as it was.
     Parameters with_gamma = parameters;
     if (values.count("gamma") > 0) with_gamma.insert({"gamma", scalar_value(values, "gamma")});
     add_gamma(program, subject, with_gamma, objective);
     const MatrixExpression P1_L = symbol("P1", n, n) * L;
-    const MatrixExpression P2_CL_H = symbol("P2", m, m) * (MatrixExpression(plant.C()) * L + H);
+    const MatrixExpression P2_CL_H = symbol("P2", m, m) * F22;
     const MatrixExpression lambda_t = symbol("lambda_t");
     const double e = std::exp(parameters.at("delta") * subject.T2);
     program.require_negative("M(0)", ferrante2019_M(plant, 1.0, lambda_t, P1_L, P2_CL_H));
@@ -140,12 +179,33 @@ class Alternating : public DesignMethod {
                         symmetric_blocks({{k * identity(n), L}, {k * identity(m)}}));
     return program;
   }
+
+  Injection injection_;
+  std::string name_;
+  std::string summary_;
 };
 
 }  // namespace
 
 const DesignMethod& ferrante2019_alternating() {
-  static const Alternating method;
+  static const Alternating method(
+      Injection::kFree, "ferrante2019_alternating",
+      "the best of Propositions 2 to 5, improved by alternating between gains and Lyapunov "
+      "matrices");
+  return method;
+}
+
+const DesignMethod& ferrante2019_alternating_predictor() {
+  static const Alternating method(
+      Injection::kPredictor, "ferrante2019_alternating_predictor",
+      "gain L of a predictor, H = -C L, improved as by ferrante2019_alternating");
+  return method;
+}
+
+const DesignMethod& ferrante2019_alternating_hold() {
+  static const Alternating method(Injection::kHold, "ferrante2019_alternating_hold",
+                                  "gain L for a held innovation, H = 0, improved as by "
+                                  "ferrante2019_alternating");
   return method;
 }
 

@@ -10,14 +10,21 @@ namespace sampled_data_observers {
 namespace {
 
 /// ferrante2019, Proposition 2: with J = P1 L and Y = (P2 (H + C L))ᵀ the conditions of Theorem 2
-/// are linear.
+/// are linear. Y = 0 makes it a predictor (Remark 5).
 class Proposition2 : public Ferrante2019Proposition {
  public:
-  std::string name() const override { return "ferrante2019_proposition2"; }
+  explicit Proposition2(Injection injection) : is_predictor_(injection == Injection::kPredictor) {}
+
+  std::string name() const override {
+    return is_predictor_ ? "ferrante2019_proposition2_predictor" : "ferrante2019_proposition2";
+  }
 
   std::string summary() const override {
-    return "gain L and intersample injection H together, by cancelling C L C";
+    return is_predictor_ ? "gain L of a predictor, H = -C L"
+                         : "gain L and intersample injection H together, by cancelling C L C";
   }
+
+  bool is_special_case() const override { return is_predictor_; }
 
   LmiProgram program(const CertificateSubject& subject, const Parameters& parameters,
                      Objective objective) const override {
@@ -26,7 +33,7 @@ class Proposition2 : public Ferrante2019Proposition {
     const Eigen::Index m = plant.C().rows();
     LmiProgram program = ferrante2019_program(subject, parameters, objective);
     const MatrixExpression J = program.matrix("J", n, m);
-    const MatrixExpression Y = program.matrix("Y", m, m);
+    const MatrixExpression Y = is_predictor_ ? zeros(m, m) : program.matrix("Y", m, m);
     const MatrixExpression lambda_t = symbol("lambda_t");
     const double e = std::exp(parameters.at("delta") * subject.T2);
     program.require_negative("(34), first", ferrante2019_M(plant, 1.0, lambda_t, J, transpose(Y)));
@@ -45,16 +52,24 @@ class Proposition2 : public Ferrante2019Proposition {
   NamedMatrices any_gains(const CertificateSubject& subject,
                           const NamedMatrices& solution) const override {
     const Eigen::MatrixXd L = solve_linear(solution.at("P1"), solution.at("J"));
-    const Eigen::MatrixXd H =
-        solve_linear(solution.at("P2"), solution.at("Y").transpose()) - subject.plant.C() * L;
+    Eigen::MatrixXd H = -(subject.plant.C() * L);
+    if (!is_predictor_) H += solve_linear(solution.at("P2"), solution.at("Y").transpose());
     return {{"L", L}, {"H", H}};
   }
+
+ private:
+  bool is_predictor_;
 };
 
 }  // namespace
 
 const DesignMethod& ferrante2019_proposition2() {
-  static const Proposition2 method;
+  static const Proposition2 method(Injection::kFree);
+  return method;
+}
+
+const DesignMethod& ferrante2019_proposition2_predictor() {
+  static const Proposition2 method(Injection::kPredictor);
   return method;
 }
 

@@ -27,11 +27,15 @@ enum class Choice {
 /// [C −I 0 0]; that is what is solved, a program with half the variables.
 class SlackProposition : public Ferrante2019Proposition {
  public:
-  SlackProposition(Choice choice, std::string name, std::string summary)
-      : choice_(choice), name_(std::move(name)), summary_(std::move(summary)) {}
+  SlackProposition(Choice choice, Injection injection, std::string name, std::string summary)
+      : choice_(choice),
+        is_held_(injection == Injection::kHold),
+        name_(std::move(name)),
+        summary_(std::move(summary)) {}
 
   std::string name() const override { return name_; }
   std::string summary() const override { return summary_; }
+  bool is_special_case() const override { return is_held_ && choice_ != Choice::kProposition5; }
 
   std::vector<DesignParameter> parameters(const CertificateSubject& subject) const override {
     std::vector<DesignParameter> all = Ferrante2019Proposition::parameters(subject);
@@ -56,7 +60,7 @@ class SlackProposition : public Ferrante2019Proposition {
     const double a = parameters.at("a");
     if (choice_ != Choice::kProposition5) {
       program.matrix("U", m, m);
-      program.matrix("W", m, m);  // Uᵀ H
+      if (!is_held_) program.matrix("W", m, m);  // Uᵀ H
     }
     program.require_negative("(36), first", inequality(plant, 1.0, a));
     program.require_negative("(36), second", inequality(plant, std::exp(delta * subject.T2), a));
@@ -74,9 +78,8 @@ class SlackProposition : public Ferrante2019Proposition {
     const Eigen::MatrixXd& J = solution.at("J");
     NamedMatrices gains;
     gains["L"] = solve_linear(solution.at("X").transpose(), J);
-    gains["H"] = choice_ == Choice::kProposition5
-                     ? Eigen::MatrixXd::Zero(J.cols(), J.cols())
-                     : solve_linear(solution.at("U").transpose(), solution.at("W"));
+    gains["H"] = is_held_ ? Eigen::MatrixXd::Zero(J.cols(), J.cols())
+                          : solve_linear(solution.at("U").transpose(), solution.at("W"));
     return gains;
   }
 
@@ -98,7 +101,7 @@ class SlackProposition : public Ferrante2019Proposition {
 
     const MatrixExpression zero = zeros(m, m);
     const MatrixExpression X6 = is_free ? zero : symbol("U", m, m);
-    const MatrixExpression X6_H = is_free ? zero : symbol("W", m, m);
+    const MatrixExpression X6_H = is_held_ ? zero : symbol("W", m, m);
     const bool has_X8 = choice_ == Choice::kProposition4;
     const MatrixExpression X8 = has_X8 ? X6 : zero;
     const MatrixExpression X8_H = has_X8 ? X6_H : zero;
@@ -121,6 +124,7 @@ class SlackProposition : public Ferrante2019Proposition {
   }
 
   Choice choice_;
+  bool is_held_;
   std::string name_;
   std::string summary_;
 };
@@ -129,20 +133,36 @@ class SlackProposition : public Ferrante2019Proposition {
 
 const DesignMethod& ferrante2019_proposition3() {
   static const SlackProposition method(
-      Choice::kProposition3, "ferrante2019_proposition3",
+      Choice::kProposition3, Injection::kFree, "ferrante2019_proposition3",
       "gain L and intersample injection H by slack matrices, for delta > 2 lambda_t");
   return method;
 }
 
 const DesignMethod& ferrante2019_proposition4() {
-  static const SlackProposition method(Choice::kProposition4, "ferrante2019_proposition4",
+  static const SlackProposition method(Choice::kProposition4, Injection::kFree,
+                                       "ferrante2019_proposition4",
                                        "gain L and intersample injection H by slack matrices");
   return method;
 }
 
 const DesignMethod& ferrante2019_proposition5() {
-  static const SlackProposition method(Choice::kProposition5, "ferrante2019_proposition5",
+  static const SlackProposition method(Choice::kProposition5, Injection::kHold,
+                                       "ferrante2019_proposition5",
                                        "gain L for a held innovation, H = 0, by slack matrices");
+  return method;
+}
+
+const DesignMethod& ferrante2019_proposition3_hold() {
+  static const SlackProposition method(
+      Choice::kProposition3, Injection::kHold, "ferrante2019_proposition3_hold",
+      "gain L for a held innovation, H = 0, by the slack matrices of Proposition 3");
+  return method;
+}
+
+const DesignMethod& ferrante2019_proposition4_hold() {
+  static const SlackProposition method(
+      Choice::kProposition4, Injection::kHold, "ferrante2019_proposition4_hold",
+      "gain L for a held innovation, H = 0, by the slack matrices of Proposition 4");
   return method;
 }
 

@@ -15,11 +15,18 @@ const DesignMethod& bernard2022_switched_jump_based_design();
 const DesignMethod& etienne2019_proposition1_design();
 const DesignMethod& etienne2019_proposition2_design();
 const DesignMethod& ferrante2016_corollary1();
+const DesignMethod& ferrante2016_proposition1();
 const DesignMethod& ferrante2019_proposition2();
+const DesignMethod& ferrante2019_proposition2_predictor();
 const DesignMethod& ferrante2019_proposition3();
+const DesignMethod& ferrante2019_proposition3_hold();
 const DesignMethod& ferrante2019_proposition4();
+const DesignMethod& ferrante2019_proposition4_hold();
 const DesignMethod& ferrante2019_proposition5();
 const DesignMethod& ferrante2019_alternating();
+const DesignMethod& ferrante2019_alternating_predictor();
+const DesignMethod& ferrante2019_alternating_hold();
 const DesignMethod& sferlazza2019_algorithm1();
+const DesignMethod& sferlazza2019_equation17_design();
 
 }  // namespace sampled_data_observers

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,8 +15,8 @@ namespace {
 constexpr int kMaxIterations = 40;
 
 /// sferlazza2019, Algorithm 1: (21) at a few times τ, to which the worst one is added until it
-/// holds at all. In place of the least p_M of (50), which breaks solvers, the largest t with Ξ_P(τ)
-/// >= t I and P <= I.
+/// holds at all; for a rate, with A + decay I. In place of the least p_M of (50), which breaks
+/// solvers, the largest t with Ξ_P(τ) >= t I and P <= I.
 class Algorithm1 : public DesignMethod {
  public:
   std::string name() const override { return "sferlazza2019_algorithm1"; }
@@ -24,23 +25,37 @@ class Algorithm1 : public DesignMethod {
     return "matrix P of the time-varying gain, from inequalities at a growing set of times";
   }
 
-  const Theorem& theorem() const override { return *find_theorem("sferlazza2019_theorem2"); }
+  const Theorem& theorem() const override { return *find_theorem("sferlazza2019_theorem2_rate"); }
 
   std::vector<DesignParameter> parameters(const CertificateSubject&) const override {
-    return {{"lambda", "how much of the error a sample keeps, in [0, 1)", 0.0, std::nullopt}};
+    return {{"lambda", "how much of the error a sample keeps, in [0, 1)", 0.0, std::nullopt},
+            {"decay", "rate of convergence from sample to sample [1/s]; 0: (21) as printed", 0.0,
+             std::nullopt}};
   }
 
   std::vector<Objective> objectives(const CertificateSubject&) const override {
-    return {Objective::kFeasible, Objective::kMaxT2};
+    return {Objective::kFeasible, Objective::kMaxT2, Objective::kMaxDecay};
   }
 
   DesignCandidate attempt(const CertificateSubject& subject, const Parameters& parameters,
                           Objective objective) const override {
     DesignCandidate none;
     const double lambda = parameters.at("lambda");
-    none.message =
-        lambda >= 0.0 && lambda < 1.0 ? undetectable_sampling(subject) : "lambda must be in [0, 1)";
+    const double decay = parameters.at("decay");
+    if (!(lambda >= 0.0 && lambda < 1.0)) {
+      none.message = "lambda must be in [0, 1)";
+    } else if (decay < 0.0) {
+      none.message = "decay must not be negative";
+    } else if (lambda * std::exp(decay * subject.T2) >= 1.0) {
+      none.message = "what lambda keeps of the error falls more slowly than by decay";
+    } else {
+      none.message = undetectable_sampling(subject);
+    }
     if (!none.message.empty()) return none;
+    const NamedMatrices scalars = {{"lambda", scalar_matrix(lambda)},
+                                   {"decay", scalar_matrix(decay)}};
+    const Eigen::Index n = subject.plant.states();
+    const Eigen::MatrixXd A = subject.plant.A() + decay * Eigen::MatrixXd::Identity(n, n);
 
     const std::vector<Condition> conditions = theorem().conditions(subject);
     const Eigen::MatrixXd complement = null_space(subject.plant.C());
@@ -48,7 +63,7 @@ class Algorithm1 : public DesignMethod {
     if (subject.T2 > subject.T1) times.push_back(subject.T2);
     for (int iteration = 1; iteration <= kMaxIterations; ++iteration) {
       const LmiSolution solution =
-          solve_with_csdp(program(conditions, subject, lambda, times), SolverOptions());
+          solve_with_csdp(program(conditions, subject, scalars, times), SolverOptions());
       none.solver = solution.solver;
       if (!solution.satisfies_all()) {
         none.message = "(21) for " + std::to_string(times.size()) + " times between T1 and T2 " +
@@ -60,11 +75,12 @@ class Algorithm1 : public DesignMethod {
         return none;
       }
       const Eigen::MatrixXd& P = solution.values.at("P");
-      const NamedMatrices values = {{"P", P}, {"lambda", scalar_matrix(lambda)}};
+      NamedMatrices values = scalars;
+      values["P"] = P;
       const std::optional<double> worst = worst_time(conditions, values, solution.margin);
       const IntervalVerification proof =
           worst ? IntervalVerification{false, worst, 0}
-                : verify_between(subject.plant.A(), complement, P, subject.T1, subject.T2);
+                : verify_between(A, complement, P, subject.T1, subject.T2);
       if (proof.holds) {
         DesignCandidate found = certify_here(theorem(), subject, values, objective);
         found.solver = solution.solver + ", in " + std::to_string(iteration) +
@@ -80,11 +96,11 @@ class Algorithm1 : public DesignMethod {
 
  private:
   static LmiProgram program(const std::vector<Condition>& conditions,
-                            const CertificateSubject& subject, double lambda,
+                            const CertificateSubject& subject, const NamedMatrices& scalars,
                             const std::vector<double>& times) {
     LmiProgram program;
     const MatrixExpression P = program.symmetric("P", subject.plant.states());
-    program.fix("lambda", scalar_matrix(lambda));
+    for (const auto& [name, value] : scalars) program.fix(name, value);
     program.bound_above("P <= I", P, identity(subject.plant.states()));
     for (const Condition& condition : conditions) {
       if (!condition.tau) {
@@ -111,7 +127,37 @@ class Algorithm1 : public DesignMethod {
   }
 };
 
+/// sferlazza2019, (17): nothing is searched for.
+class Equation17Design : public DesignMethod {
+ public:
+  std::string name() const override { return "sferlazza2019_equation17"; }
+  std::string summary() const override {
+    return "gain for outputs that show all of the state at once";
+  }
+  const Theorem& theorem() const override { return *find_theorem("sferlazza2019_equation17"); }
+
+  std::vector<DesignParameter> parameters(const CertificateSubject&) const override {
+    return {{"lambda", "how much of the error a sample keeps, in [0, 1)", 0.0, std::nullopt}};
+  }
+  std::vector<Objective> objectives(const CertificateSubject&) const override {
+    return {Objective::kFeasible};
+  }
+
+  DesignCandidate attempt(const CertificateSubject& subject, const Parameters& parameters,
+                          Objective objective) const override {
+    DesignCandidate candidate;
+    candidate.solver = "none";
+    return judged(theorem(), subject, {{"lambda", scalar_matrix(parameters.at("lambda"))}},
+                  objective, candidate);
+  }
+};
+
 }  // namespace
+
+const DesignMethod& sferlazza2019_equation17_design() {
+  static const Equation17Design method;
+  return method;
+}
 
 const DesignMethod& sferlazza2019_algorithm1() {
   static const Algorithm1 method;

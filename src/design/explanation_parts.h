@@ -1,0 +1,63 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "paragraphs.h"
+#include "sampled_data_observers/certificate/certificate.h"
+#include "sampled_data_observers/design/observability.h"
+
+namespace sampled_data_observers {
+
+/// Why no observer whatever can converge, and what would change that.
+struct Obstacle {
+  std::string name;
+  std::string why;
+  std::string remedy;
+};
+
+/// What the parts of an explanation share.
+struct ExplanationContext {
+  explicit ExplanationContext(const CertificateSubject& about)
+      : subject(about), plant(about.plant) {}
+
+  bool has_times() const { return subject.T2 > 0.0; }
+  std::string times() const {
+    return "[T1, T2] = [" + brief(subject.T1) + ", " + brief(subject.T2) + "] s";
+  }
+  /// Else jumps or other modes may show what one flow does not.
+  bool only_flows() const { return !plant.jumps() && plant.modes.size() == 1; }
+  std::string moved(const Mode& mode) const {
+    return states_moved(mode.directions, plant.state_names);
+  }
+
+  const CertificateSubject& subject;
+  const PlantMatrices& plant;
+  /// For headings: empty, or which mode of a switched plant they are about.
+  std::string mode_name;
+  std::vector<Obstacle> obstacles;
+  Paragraphs out;
+};
+
+std::string seconds(double value);
+
+/// What a mode does by itself.
+std::string fate(const Mode& mode, TimeDomain domain);
+
+// The parts, one source file each, or each family.
+
+void say_modes(ExplanationContext& c, const std::string& heading, const Eigen::MatrixXd& A,
+               TimeDomain domain);
+/// @return whether what is unseen decays
+bool say_unseen(ExplanationContext& c, const std::vector<Mode>& unseen, TimeDomain domain);
+void say_sampled_output(ExplanationContext& c, const ModeMatrices& mode);
+void say_continuous_output(ExplanationContext& c, const ModeMatrices& mode);
+void say_output_at_jumps(ExplanationContext& c, const ModeMatrices& mode);
+/// Conditions (C) of bernard2022 with a quadratic Lyapunov function, in terms of the error, not
+/// of its square.
+void say_dwell_times(ExplanationContext& c, const ModeMatrices& mode);
+/// What no time between samples can do by ferrante2019: Proposition 1, (31), and the gain of
+/// Remark 3.
+void say_least_gain(ExplanationContext& c);
+
+}  // namespace sampled_data_observers

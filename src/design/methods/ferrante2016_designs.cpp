@@ -1,0 +1,194 @@
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "methods.h"
+#include "sampled_data_observers/certificate/matrix_functions.h"
+#include "sampled_data_observers/design/certify.h"
+#include "sampled_data_observers/design/polytopic_embedding.h"
+#include "sampled_plant.h"
+
+namespace sampled_data_observers {
+namespace {
+
+/// ferrante2016 (36): with J = F L, (12) is linear in F, J and P for each value of e^{Aτ}.
+class ConstantGainDesign : public LmiDesignMethod {
+ public:
+  const Theorem& theorem() const override { return *find_theorem("ferrante2016_theorem1"); }
+
+  std::vector<DesignParameter> parameters(const CertificateSubject&) const override {
+    return {{"decay", "rate of convergence from sample to sample [1/s]; 0: (12) as printed", 0.0,
+             std::nullopt}};
+  }
+
+  std::vector<Objective> objectives(const CertificateSubject&) const override {
+    return {Objective::kFeasible, Objective::kMaxT2, Objective::kMaxDecay};
+  }
+
+ protected:
+  static std::string objection(const CertificateSubject& subject, const Parameters& parameters) {
+    if (parameters.at("decay") < 0.0) return "decay must not be negative";
+    return undetectable_sampling(subject);
+  }
+
+  static Eigen::MatrixXd flow(const CertificateSubject& subject, const Parameters& parameters) {
+    const Eigen::Index n = subject.plant.states();
+    return subject.plant.A() + parameters.at("decay") * Eigen::MatrixXd::Identity(n, n);
+  }
+
+  /// (36) with each of these in place of e^{Aτ}.
+  static LmiProgram program_at(const CertificateSubject& subject,
+                               const std::vector<Eigen::MatrixXd>& exponentials,
+                               const std::string& number) {
+    const Eigen::Index n = subject.plant.states();
+    const MatrixExpression C = subject.plant.C();
+    LmiProgram program;
+    const MatrixExpression P = program.symmetric("P", n);
+    const MatrixExpression F = program.matrix("F", n, n);
+    const MatrixExpression J = program.matrix("J", n, subject.plant.C().rows());
+    for (const Eigen::MatrixXd& X : exponentials) {
+      program.require_negative(
+          number,
+          symmetric_blocks(
+              {{-He(F), F - J * C, transpose(MatrixExpression(X)) * P}, {-P, zeros(n, n)}, {-P}}));
+    }
+    program.bound_above("P <= I", P, identity(n));
+    return program;
+  }
+
+  NamedMatrices gains(const CertificateSubject&, const Parameters&,
+                      const NamedMatrices& solution) const override {
+    return {{"L", solve_linear(solution.at("F"), solution.at("J"))}};
+  }
+};
+
+/// ferrante2016, Corollary 1: the vertices of a polytope around e^{Aτ} are enough. P of the
+/// solution is the proof for all τ.
+class Corollary1 : public ConstantGainDesign {
+ public:
+  std::string name() const override { return "ferrante2016_corollary1"; }
+
+  std::string summary() const override {
+    return "constant gain L, by a polytope around e^(A tau); up to 2^n inequalities";
+  }
+
+  DesignCandidate attempt(const CertificateSubject& subject, const Parameters& parameters,
+                          Objective objective) const override {
+    DesignCandidate none;
+    none.message = objection(subject, parameters);
+    if (!none.message.empty()) return none;
+    DesignCandidate candidate = solve(subject, parameters, objective);
+    if (!candidate.is_verified() || candidate.margin > kLeastMargin) return candidate;
+    none.message = on_the_edge(candidate.margin);
+    return none;
+  }
+
+  LmiProgram program(const CertificateSubject& subject, const Parameters& parameters,
+                     Objective) const override {
+    return program_at(
+        subject, polytopic_embedding(flow(subject, parameters), subject.T1, subject.T2), "(41)");
+  }
+};
+
+/// ferrante2016, Proposition 1: (36) is equivalent to (12), so that a few times τ, to which the
+/// worst one is added until (12) holds at all, lose nothing that a polytope would. Those that
+/// others imply in the end cost time only.
+class Proposition1 : public ConstantGainDesign {
+ public:
+  std::string name() const override { return "ferrante2016_proposition1"; }
+
+  std::string summary() const override {
+    return "constant gain L, from inequalities at a growing set of times";
+  }
+
+  DesignCandidate attempt(const CertificateSubject& subject, const Parameters& parameters,
+                          Objective objective) const override {
+    DesignCandidate none;
+    none.message = objection(subject, parameters);
+    if (!none.message.empty()) return none;
+    const std::vector<Condition> conditions = theorem().conditions(subject);
+    std::vector<double> times = first_times(subject);
+    for (int iteration = 1; iteration <= kMaxIterations; ++iteration) {
+      const LmiSolution solution =
+          solve_with_csdp(program_at_times(subject, parameters, times), SolverOptions());
+      none.solver = solution.solver;
+      if (!solution.satisfies_all()) {
+        none.message = "(36) for " + std::to_string(times.size()) + " times between T1 and T2 " +
+                       why_unsolved(solution);
+        return none;
+      }
+      NamedMatrices values = gains(subject, parameters, solution.values);
+      values["P"] = solution.values.at("P");
+      values["decay"] = scalar_matrix(parameters.at("decay"));
+      const std::optional<double> worst = violated_time(conditions, values);
+      if (!worst) return finished(subject, std::move(values), objective, solution, iteration);
+      times.push_back(*worst);
+    }
+    none.message = "(12) does not hold for all times between T1 and T2 after " +
+                   std::to_string(kMaxIterations) + " iterations";
+    return none;
+  }
+
+  LmiProgram program(const CertificateSubject& subject, const Parameters& parameters,
+                     Objective) const override {
+    return program_at_times(subject, parameters, first_times(subject));
+  }
+
+ private:
+  static constexpr int kMaxIterations = 40;
+  static constexpr int kFirstTimes = 9;
+
+  static std::vector<double> first_times(const CertificateSubject& subject) {
+    if (subject.T1 == subject.T2) return {subject.T1};
+    std::vector<double> times;
+    for (int i = 0; i < kFirstTimes; ++i) {
+      times.push_back(subject.T1 + (subject.T2 - subject.T1) * i / (kFirstTimes - 1));
+    }
+    return times;
+  }
+
+  static LmiProgram program_at_times(const CertificateSubject& subject,
+                                     const Parameters& parameters,
+                                     const std::vector<double>& times) {
+    const Eigen::MatrixXd A = flow(subject, parameters);
+    std::vector<Eigen::MatrixXd> exponentials;
+    for (const double tau : times) exponentials.push_back(exponential_of(A * tau));
+    return program_at(subject, exponentials, "(36)");
+  }
+
+  /// Where (12) holds least, if it does not hold there by the margin that a design needs.
+  static std::optional<double> violated_time(const std::vector<Condition>& conditions,
+                                             const NamedMatrices& values) {
+    std::optional<double> worst;
+    double least = kLeastMargin;
+    for (const ConditionCheck& check : check(conditions, values)) {
+      if (!check.tau || check.min_eigenvalue > least) continue;
+      least = check.min_eigenvalue;
+      worst = check.tau;
+    }
+    return worst;
+  }
+
+  DesignCandidate finished(const CertificateSubject& subject, NamedMatrices values,
+                           Objective objective, const LmiSolution& solution, int iteration) const {
+    DesignCandidate found = judged(theorem(), subject, std::move(values), objective, {});
+    found.solver = solution.solver + ", in " + std::to_string(iteration) +
+                   (iteration == 1 ? " iteration" : " iterations");
+    return found;
+  }
+};
+
+}  // namespace
+
+const DesignMethod& ferrante2016_corollary1() {
+  static const Corollary1 method;
+  return method;
+}
+
+const DesignMethod& ferrante2016_proposition1() {
+  static const Proposition1 method;
+  return method;
+}
+
+}  // namespace sampled_data_observers
