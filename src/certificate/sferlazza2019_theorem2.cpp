@@ -240,6 +240,9 @@ class Theorem2 : public Theorem {
       const CertificateSubject& subject, const NamedMatrices& values,
       const ErrorAssumptions& assumptions) const override {
     require_no_disturbance("sferlazza2019", assumptions);
+    if (has_rate_ && scalar_value(values, "decay") < 0.0) {
+      throw std::invalid_argument("decay must not be negative: V would not fall at samples");
+    }
     // Symmetric to the bit, as the gain needs it.
     const Eigen::MatrixXd P = (values.at("P") + values.at("P").transpose()) / 2.0;
     return std::make_unique<const Theorem2Bound>(

@@ -118,6 +118,14 @@ TEST(Sferlazza2019Aircraft, ConvergesAtTheRateThatIsProved) {
   }
 }
 
+TEST(Sferlazza2019Theorem2, GivesNoBoundForANegativeRate) {
+  NamedMatrices values = kPrinted_1_3;
+  values["decay"] = scalar_matrix(-1.0);
+  EXPECT_THROW(find_theorem("sferlazza2019_theorem2_rate")
+                   ->error_bound(aircraft(1.0, 3.0), values, ErrorAssumptions()),
+               std::invalid_argument);
+}
+
 TEST(Sferlazza2019Equation17, KeepsLambdaOfTheErrorAtEachSample) {
   const CertificateSubject subject =
       linear_subject(aircraft(1.0, 3.0).plant.A(), Eigen::MatrixXd::Identity(3, 3), 1.0, 3.0);
