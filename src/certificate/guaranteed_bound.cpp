@@ -9,22 +9,22 @@ namespace sampled_data_observers {
 namespace {
 
 // The decorator's own numbers: the time since the last sample, jump or start [ns], whether the
-// outputs of the last jump are still to come, and two parts: the bound then, and the bound now,
-// which is always computed from that one, however often the flow is interrupted.
+// outputs of the last jump are still to come, and two parts: the bound then (before a jump whose
+// outputs are still to come), and the bound now, which is always computed from that one, however
+// often the flow is interrupted.
 constexpr Eigen::Index kSince = 0;
 constexpr Eigen::Index kAwaiting = 1;
 constexpr Eigen::Index kParts = 2;
 
-// A part: whether the bound is lost, and the state of the ErrorBound. Infinity itself would make
-// the whole state unusable to the timeline, as would numbers beyond its limit.
+// A part: why the bound is lost (BoundLoss), 0 where it is not, and the state of the ErrorBound.
+// Infinity itself would make the whole state unusable to the timeline, as would numbers beyond its
+// limit.
 constexpr Eigen::Index kLost = 0;
 constexpr Eigen::Index kState = 1;
 constexpr double kLargest = 1e100;
 
-void lose(double* part, Eigen::Index size) {
-  part[kLost] = 1.0;
-  std::fill_n(part + kState, size, 0.0);
-}
+/// Of |x̂| and each state: rounding of the estimate.
+constexpr double kRounding = 64.0 * std::numeric_limits<double>::epsilon();
 
 }  // namespace
 
@@ -54,11 +54,22 @@ double GuaranteedBound::bound_of(const double* part) const {
   return bound_->bound(part + kState);
 }
 
-void GuaranteedBound::settle(double* part) const {
-  const Eigen::Index size = bound_->state_size();
+void GuaranteedBound::lose(double* part, BoundLoss reason) const {
+  if (part[kLost] != 0.0) return;
+  part[kLost] = static_cast<double>(reason);
+  std::fill_n(part + kState, bound_->state_size(), 0.0);
+}
+
+void GuaranteedBound::settle(double* part, BoundLoss reason) const {
   const auto is_moderate = [](double value) { return std::abs(value) <= kLargest; };
-  if (is_moderate(bound_of(part)) && std::all_of(part, part + kState + size, is_moderate)) return;
-  lose(part, size);
+  const double* first = part;
+  const double* last = first + kState + bound_->state_size();
+  if (!is_moderate(bound_of(part)) || !std::all_of(first, last, is_moderate)) lose(part, reason);
+}
+
+void GuaranteedBound::give_up(double* state, BoundLoss reason) const {
+  lose(then(state), reason);
+  lose(now(state), reason);
 }
 
 void GuaranteedBound::take_over(const double* from, double* to) const {
@@ -71,69 +82,96 @@ void GuaranteedBound::initialize(double* state) const {
   own(state)[kAwaiting] = 0.0;
   then(state)[kLost] = 0.0;
   bound_->initialize(then(state) + kState);
-  settle(then(state));
+  settle(then(state), BoundLoss::kTooLarge);
   take_over(then(state), now(state));
+}
+
+Eigen::Index GuaranteedBound::event_size(EventKind kind, int channel) const {
+  if (kind != EventKind::kRejected) return law().event_size(kind, channel);
+  const bool matters = channel == static_cast<int>(EventKind::kInput) ||
+                       channel == static_cast<int>(EventKind::kJump);
+  return matters ? 0 : -1;
 }
 
 void GuaranteedBound::flow(Duration duration, double* state, double* workspace) const {
   law().flow(duration, state, workspace);
-  double* numbers = own(state);
-  numbers[kSince] += static_cast<double>(duration);
+  own(state)[kSince] += static_cast<double>(duration);
+  flow_part(state);
+}
+
+/// Sets the bound now from the one at the last sample, jump or start.
+void GuaranteedBound::flow_part(double* state) const {
+  const double* numbers = own(state);
   double* part = now(state);
   take_over(then(state), part);
-  if (numbers[kSince] == 0.0) return;
+  if (part[kLost] != 0.0) return;
   if (numbers[kAwaiting] != 0.0) {
-    lose(part, bound_->state_size());
-  } else if (part[kLost] == 0.0) {
-    bound_->flow(numbers[kSince] / static_cast<double>(kNanosecondsPerSecond), part + kState);
-    settle(part);
+    bound_->uncorrected_jump(part + kState);
+    settle(part, BoundLoss::kJumpTimes);
   }
+  if (part[kLost] != 0.0 || numbers[kSince] == 0.0) return;
+  bound_->flow(numbers[kSince] / static_cast<double>(kNanosecondsPerSecond), part + kState);
+  settle(part, BoundLoss::kTooLarge);
 }
 
 Effect GuaranteedBound::reset(const Event& event, double* state, double* workspace) const {
-  const Effect effect = law().reset(event, state, workspace);
-  if (!took_effect(effect)) return effect;
-  double& awaiting = own(state)[kAwaiting];
-  const bool comes_to_jump =
-      event.kind == EventKind::kJumpOutput && awaiting != 0.0 && own(state)[kSince] == 0.0;
-  if (event.kind == EventKind::kSample) {
-    begin_reset(state);
-    bound_->sample(then(state) + kState, workspace);
-    end_reset(state);
-  } else if (event.kind == EventKind::kJump && jumps_are_measured_ && event.channel == kPlainJump) {
-    begin_reset(state);
-    awaiting = 1.0;
-    end_reset(state);
-  } else if (event.kind == EventKind::kJump || comes_to_jump) {
-    begin_reset(state);
-    awaiting = 0.0;
-    bound_->jump(then(state) + kState);
-    end_reset(state);
+  if (event.kind == EventKind::kRejected) {
+    const bool is_input = event.channel == static_cast<int>(EventKind::kInput);
+    give_up(state, is_input ? BoundLoss::kUnknownInput : BoundLoss::kUnknownJump);
+    return Effect::kApplied;
   }
+  const Effect effect = law().reset(event, state, workspace);
+  if (!took_effect(effect)) {
+    if (event.kind == EventKind::kJump) give_up(state, BoundLoss::kRefusedJump);
+    return effect;
+  }
+  const bool is_jump = event.kind == EventKind::kJump;
+  const bool comes_to_jump = event.kind == EventKind::kJumpOutput && own(state)[kAwaiting] != 0.0 &&
+                             own(state)[kSince] == 0.0;
+  if (event.kind == EventKind::kSample || is_jump) begin_interval(state);
+  double* part = then(state);
+  if (event.kind == EventKind::kSample) {
+    bound_->sample(part + kState, workspace);
+    settle(part, BoundLoss::kTooLarge);
+  } else if (is_jump && jumps_are_measured_ && event.channel == kPlainJump) {
+    // The part stays as before the jump, to which the outputs of the same stamp belong.
+    own(state)[kAwaiting] = 1.0;
+    flow_part(state);
+    return effect;
+  } else if (is_jump || comes_to_jump) {
+    own(state)[kAwaiting] = 0.0;
+    bound_->jump(part + kState);
+    settle(part, BoundLoss::kJumpTimes);
+  } else {
+    return effect;
+  }
+  take_over(part, now(state));
   return effect;
 }
 
-void GuaranteedBound::begin_reset(double* state) const {
+void GuaranteedBound::begin_interval(double* state) const {
   double* part = then(state);
   take_over(now(state), part);
   own(state)[kSince] = 0.0;
-  if (bound_of(part) > error_limit_) lose(part, bound_->state_size());
-}
-
-void GuaranteedBound::end_reset(double* state) const {
-  settle(then(state));
-  take_over(then(state), now(state));
+  own(state)[kAwaiting] = 0.0;
+  if (bound_of(part) > error_limit_) lose(part, BoundLoss::kAngle);
 }
 
 void GuaranteedBound::hold(double* state) const {
   law().hold(state);
-  lose(then(state), bound_->state_size());
-  lose(now(state), bound_->state_size());
+  give_up(state, BoundLoss::kNotVouched);
 }
 
 double GuaranteedBound::error_bound(const double* state) const {
-  const bool awaits = own(state)[kAwaiting] != 0.0;
-  return awaits ? std::numeric_limits<double>::infinity() : bound_of(now(state));
+  if (bound_loss(state) != BoundLoss::kNone) return std::numeric_limits<double>::infinity();
+  double sum = 0.0;
+  for (Eigen::Index i = 0; i < law().estimate_size(); ++i) sum += state[i] * state[i];
+  return bound_of(now(state)) +
+         kRounding * static_cast<double>(law().estimate_size()) * std::sqrt(sum);
+}
+
+BoundLoss GuaranteedBound::bound_loss(const double* state) const {
+  return static_cast<BoundLoss>(static_cast<int>(now(state)[kLost]));
 }
 
 }  // namespace sampled_data_observers

@@ -27,6 +27,8 @@ class JumpBasedBound : public ErrorBound {
     growth_ = growth_above(P, A);
     push_ = weighted_norm(subject.plant.N, P) * assumptions.disturbance;
     reset_ = raised(std::sqrt(largest_generalized_eigenvalue(reset.transpose() * P * reset, P)));
+    const Eigen::MatrixXd A_d = jump_of(subject.plant.mode());
+    uncorrected_ = raised(std::sqrt(largest_generalized_eigenvalue(A_d.transpose() * P * A_d, P)));
     noise_ = weighted_norm(L_d, P) * assumptions.noise;
     initial_ = std::sqrt(largest_eigenvalue_above(P)) * assumptions.initial_error;
     least_ = std::sqrt(least_eigenvalue_below(P));
@@ -55,9 +57,14 @@ class JumpBasedBound : public ErrorBound {
                       : reset_ * flowed_linearly(state[kAfterJump], growth_, 0.0, tau);
       state[kAfterJump] = carried + reset_ * state[kCausedSince] + noise_;
     }
-    state[kCausedSince] = 0.0;
-    state[kTau] = 0.0;
-    state[kJumped] = 1.0;
+    begin_interval(state);
+  }
+  void uncorrected_jump(double* state) const override {
+    if (state[kJumped] != 0.0 && state[kTau] < T1_) lose(state);
+    state[kAfterJump] =
+        uncorrected_ *
+        (flowed_linearly(state[kAfterJump], growth_, 0.0, state[kTau]) + state[kCausedSince]);
+    begin_interval(state);
   }
   void sample(double*, double*) const override {}
   double bound(const double* state) const override {
@@ -68,6 +75,11 @@ class JumpBasedBound : public ErrorBound {
  private:
   enum Entry { kAfterJump, kCausedSince, kTau, kJumped, kEntries };
 
+  static void begin_interval(double* state) {
+    state[kCausedSince] = 0.0;
+    state[kTau] = 0.0;
+    state[kJumped] = 1.0;
+  }
   static void lose(double* state) { state[kAfterJump] = std::numeric_limits<double>::infinity(); }
 
   double T1_;
@@ -75,7 +87,8 @@ class JumpBasedBound : public ErrorBound {
   JumpContraction contraction_;
   double growth_ = 0.0;
   double push_ = 0.0;
-  double reset_ = 0.0;
+  double reset_ = 0.0;        // ‖A_d − L_d H_d‖ in the norm of P
+  double uncorrected_ = 0.0;  // ‖A_d‖ in it
   double noise_ = 0.0;
   double initial_ = 0.0;
   double least_ = 0.0;

@@ -139,8 +139,10 @@ double assumption(ConfigSection& section, const std::string& key) {
   return section.number_in(key, 0.0, kLargestAssumption, std::nullopt);
 }
 
+constexpr double kLongestLatency = 1e5;  // s
+
 ErrorAssumptions read_assumptions(ConfigSection& root, const CertificateSubject& subject,
-                                  const Plant& plant) {
+                                  const Plant& plant, Duration& latency) {
   ErrorAssumptions assumptions;
   ConfigSection section = root.section("error_assumptions");
   assumptions.initial_error = assumption(section, "initial_error");
@@ -153,6 +155,7 @@ ErrorAssumptions read_assumptions(ConfigSection& root, const CertificateSubject&
                         "with design/N)",
                         "'" + section.text("disturbance") + "'");
   }
+  latency = from_seconds(section.number_in("latency", 0.0, kLongestLatency, 0.0));
   section.finish();
   ConfigSection theta = root.section("gains").section_or_empty("theta0");
   for (const Sensor& sensor : plant.sensors()) {
@@ -219,7 +222,8 @@ Guarantee read_guarantee(ConfigSection& root, const ConfigNode& tree, const Obse
   if (error) guarantee.warning = std::string("no guarantee and no error bound: ") + error->what();
   if (!root.has("error_assumptions")) return guarantee;
   require_bounded(root, config);
-  const ErrorAssumptions assumptions = read_assumptions(root, certificate.subject, *config.plant);
+  const ErrorAssumptions assumptions =
+      read_assumptions(root, certificate.subject, *config.plant, guarantee.latency);
   if (error) return guarantee;
   try {
     guarantee.bound = theorem.error_bound(certificate.subject, certificate.values, assumptions);

@@ -124,6 +124,7 @@ ObserverConfig read_observer_config(const ConfigNode& tree, const PlantPluginLoa
     const std::string found = find_divergence(*bare_law, plant, config.options.sampling);
     if (!found.empty()) config.warnings.push_back("gains: " + found);
   }
+  config.options.latency = guarantee.latency;
   if (guarantee.bound) {
     config.law = std::make_shared<const GuaranteedBound>(config.law, std::move(guarantee.bound),
                                                          guarantee.error_limit);
@@ -151,6 +152,9 @@ ObserverConfig read_observer_config(const ConfigNode& tree, const PlantPluginLoa
   // future would push all present ones out of it.
   if (config.publish_delay >= config.options.history.history) {
     throw root.error("publish_delay", "less than history/duration", "as much or more");
+  }
+  if (config.options.latency >= config.options.history.history) {
+    throw root.error("error_assumptions/latency", "less than history/duration", "as much or more");
   }
   if (config.options.future_tolerance >= config.options.history.history) {
     throw root.error("future_tolerance", "less than history/duration (it is 0.5 where not given)",

@@ -46,7 +46,7 @@ Timeline::Timeline(std::shared_ptr<const HybridSystem> system, Limits limits)
 Timeline::InsertReport Timeline::insert(const Event& event) {
   InsertReport report;
   const std::size_t position = position_after(event);
-  report.previous_sample = previous_sample(position, event);
+  report.previous = previous(position, event);
   if (position > 0 && compare(slot(position - 1).event, event) == 0) {
     report.insertion = Insertion::kDuplicate;
     return report;
@@ -103,6 +103,7 @@ void Timeline::restart(Stamp stamp, ConstStateRef state) {
   base_counts_ = EventCounts{};
   base_state_ = state;
   std::fill(base_samples_.begin(), base_samples_.end(), std::nullopt);
+  base_jump_.reset();
 }
 
 void Timeline::rebase(Stamp stamp, ConstStateRef state) {
@@ -127,6 +128,15 @@ std::optional<Stamp> Timeline::earliest() const {
   if (base_stamp_) return base_stamp_;
   if (size_ > 0) return slot(0).event.stamp;
   return std::nullopt;
+}
+
+std::optional<Stamp> Timeline::earliest_insertion() const {
+  std::optional<Stamp> earliest;
+  if (base_stamp_) earliest = *base_stamp_ + 1;
+  if (size_ > 0) {
+    earliest = std::max(earliest.value_or(0), slot(size_ - 1).event.stamp - limits_.history);
+  }
+  return earliest;
 }
 
 /// The position behind all events that come before `event` or equal it.
@@ -182,7 +192,7 @@ void Timeline::flow_from(std::size_t origin, Duration duration, StateRef state) 
 void Timeline::apply(std::size_t position) {
   Slot& current = slots_[order(position)];
   current.counts = position == 0 ? base_counts_ : slot(position - 1).counts;
-  ++current.counts.events;
+  if (current.event.kind != EventKind::kRejected) ++current.counts.events;
   current.effect = reset(position);
   if (!took_effect(current.effect)) return;
   if (current.event.kind == EventKind::kJump) ++current.counts.jumps;
@@ -228,6 +238,8 @@ Effect Timeline::reset(std::size_t position) {
   } else {
     hold();
   }
+  // The plant has jumped all the same.
+  if (event.kind == EventKind::kJump) system_->hold(state.data());
   return Effect::kNotFinite;
 }
 
@@ -236,6 +248,7 @@ void Timeline::forget_oldest() {
   if (oldest.kind == EventKind::kSample && took_effect(slot(0).effect)) {
     base_samples_[static_cast<std::size_t>(oldest.channel)] = oldest.stamp;
   }
+  if (oldest.kind == EventKind::kJump && took_effect(slot(0).effect)) base_jump_ = oldest.stamp;
   if (cursor_.origin == base_origin()) cursor_.origin.reset();
   base_stamp_ = slot(0).event.stamp;
   base_is_restart_ = false;
@@ -245,16 +258,18 @@ void Timeline::forget_oldest() {
   --size_;
 }
 
-std::optional<Stamp> Timeline::previous_sample(std::size_t position, const Event& event) const {
-  if (event.kind != EventKind::kSample) return std::nullopt;
+std::optional<Stamp> Timeline::previous(std::size_t position, const Event& event) const {
+  const bool is_sample = event.kind == EventKind::kSample;
+  if (!is_sample && event.kind != EventKind::kJump) return std::nullopt;
   while (position > 0) {
     const Event& earlier = slot(--position).event;
-    if (earlier.kind == EventKind::kSample && earlier.channel == event.channel &&
-        earlier.stamp < event.stamp && took_effect(slot(position).effect)) {
+    const bool is_alike =
+        earlier.kind == event.kind && (!is_sample || earlier.channel == event.channel);
+    if (is_alike && earlier.stamp < event.stamp && took_effect(slot(position).effect)) {
       return earlier.stamp;
     }
   }
-  return base_samples_[static_cast<std::size_t>(event.channel)];
+  return is_sample ? base_samples_[static_cast<std::size_t>(event.channel)] : base_jump_;
 }
 
 }  // namespace sampled_data_observers

@@ -1,6 +1,7 @@
 #include "sampled_data_observers/observer/estimator.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -39,6 +40,13 @@ EventOutcome outcome_of(const Timeline::InsertReport& report) {
                                                             : EventOutcome::kUsedLate;
 }
 
+bool is_sampled(const ObserverLaw& law) {
+  for (std::size_t i = 0; i < law.sensors(); ++i) {
+    if (law.event_size(EventKind::kSample, static_cast<int>(i)) >= 0) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 bool is_admissible(const Eigen::Ref<const Eigen::VectorXd>& values) {
@@ -53,12 +61,18 @@ Estimator::Estimator(std::shared_ptr<const ObserverLaw> law, const Options& opti
       before_restart_(make_estimate()),
       restart_state_(law_->state_size()),
       workspace_(law_->workspace_size()),
-      innovation_(law_->max_event_size()) {
+      innovation_(law_->max_event_size()),
+      is_sampled_(is_sampled(*law_)),
+      has_other_events_(law_->event_size(EventKind::kInput, 0) > 0 ||
+                        law_->event_size(EventKind::kJump, kPlainJump) >= 0) {
   if (options_.sampling.T1 <= 0 || options_.sampling.T1 > options_.sampling.T2) {
     throw std::invalid_argument("Estimator: 0 < T1 <= T2 must hold");
   }
   if (options_.future_tolerance < 0) {
     throw std::invalid_argument("Estimator: future_tolerance must not be negative");
+  }
+  if (options_.latency < 0) {
+    throw std::invalid_argument("Estimator: latency must not be negative");
   }
 }
 
@@ -77,6 +91,7 @@ EventReport Estimator::submit(const Event& event, Stamp now) {
   EventReport report;
   if (const std::optional<EventOutcome> outcome = objection(event, now)) {
     report.outcome = *outcome;
+    note_rejected(event, now);
     return report;
   }
   if (awaits_sample_ && event.kind == EventKind::kSample && event.stamp > *timeline_.earliest()) {
@@ -96,9 +111,16 @@ EventReport Estimator::submit(const Event& event, Stamp now) {
   if (is_in_log && event.kind == EventKind::kJump && law_->delays_jumps()) {
     insert_release(event.stamp, std::max(event.stamp, event.release > 0 ? event.release : now));
   }
-  if (report.used() && event.kind == EventKind::kSample && inserted.previous_sample) {
-    report.interval = event.stamp - *inserted.previous_sample;
-    report.interval_check = check(*report.interval, options_.sampling);
+  if (report.outcome == EventOutcome::kTooOld) note_rejected(event, now);
+  const bool tells_input = is_in_log && event.kind == EventKind::kInput;
+  if (tells_input && event.stamp > input_unknown_since_.value_or(event.stamp)) {
+    input_unknown_since_.reset();
+  }
+  if (report.used() && inserted.previous) {
+    report.interval = event.stamp - *inserted.previous;
+    if (event.kind == EventKind::kSample || !is_sampled_) {
+      report.interval_check = check(*report.interval, options_.sampling);
+    }
   }
   return report;
 }
@@ -111,6 +133,33 @@ double Estimator::innovation_of(const Event& measured) {
   }
   law_->innovation(measured, before_restart_.state.data(), innovation_.data());
   return innovation_.head(measured.size).norm();
+}
+
+void Estimator::note_rejected(const Event& event, Stamp now) {
+  if (law_->event_size(EventKind::kRejected, static_cast<int>(event.kind)) < 0) return;
+  const Stamp stamp = event.stamp > 0 ? std::min(event.stamp, now) : now;
+  if (stamp <= 0) return;
+  if (event.kind == EventKind::kInput) {
+    input_unknown_since_ = std::max(stamp, input_unknown_since_.value_or(stamp));
+  } else if (stamp <= timeline_.restarted_at().value_or(0)) {
+    return;  // Somebody vouches for what came after this jump.
+  }
+  insert_rejected(event.kind, stamp);
+}
+
+void Estimator::insert_rejected(EventKind kind, Stamp stamp) {
+  stamp = std::max(stamp, timeline_.earliest_insertion().value_or(stamp));
+  timeline_.insert({stamp, EventKind::kRejected, static_cast<int>(kind), nullptr, 0});
+}
+
+PublishedBound Estimator::bound(const Estimate& estimate, Stamp now) const {
+  const double* state = estimate.state.data();
+  const double value = law_->error_bound(state);
+  const bool may_change = has_other_events_ && now - estimate.stamp < options_.latency;
+  if (may_change && std::isfinite(value)) {
+    return {std::numeric_limits<double>::infinity(), BoundLoss::kStillOnTheirWay};
+  }
+  return {value, law_->bound_loss(state)};
 }
 
 void Estimator::insert_release(Stamp jump, Stamp release) {
@@ -150,14 +199,18 @@ bool Estimator::prepare_restart(Estimator& from, Stamp stamp) {
 
 void Estimator::restart(Stamp stamp) {
   prepare_restart(*this, stamp);
-  timeline_.restart(stamp, restart_state_);
-  awaits_sample_ = false;
+  begin(stamp);
 }
 
 void Estimator::restart(Stamp stamp, Timeline::ConstStateRef estimate) {
   prepare_restart(*this, stamp);
   law_->start_from(estimate.data(), restart_state_.data());
+  begin(stamp);
+}
+
+void Estimator::begin(Stamp stamp) {
   timeline_.restart(stamp, restart_state_);
+  if (input_unknown_since_) insert_rejected(EventKind::kInput, stamp + 1);
   awaits_sample_ = false;
 }
 
@@ -173,6 +226,7 @@ void Estimator::begin_at(const Event& sample) {
   prepare_restart(*this, start);
   law_->fit_to(sample, restart_state_.data(), workspace_.data());
   timeline_.rebase(start, restart_state_);
+  if (input_unknown_since_) insert_rejected(EventKind::kInput, sample.stamp);
   awaits_sample_ = false;
 }
 
@@ -193,6 +247,7 @@ void Estimator::take_over(Estimator& other, Stamp stamp) {
 
 void Estimator::clear() {
   timeline_.clear();
+  input_unknown_since_.reset();
   awaits_sample_ = false;
 }
 

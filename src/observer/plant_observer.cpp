@@ -152,6 +152,7 @@ Eigen::Index PlantObserver::event_size(EventKind kind, int channel) const {
                  ? mode_values() + plant_->outputs(SensorTiming::kAtJumps)
                  : -1;
     case EventKind::kRelease:
+    case EventKind::kRejected:
       break;
   }
   return -1;
@@ -236,6 +237,7 @@ Effect PlantObserver::reset(const Event& event, double* state, double* workspace
       return Effect::kApplied;
     }
     case EventKind::kRelease:
+    case EventKind::kRejected:
       return Effect::kRefused;
   }
   complete(held(state), state, workspace);

@@ -45,6 +45,7 @@ void RunStatistics::add(const RunStatistics& later) {
   newest_estimate = later.newest_estimate;
   error_bound = later.error_bound;
   bound_lost_since = later.bound_lost_since;
+  bound_loss = later.bound_loss;
 }
 
 StatisticsRecorder::StatisticsRecorder(std::size_t channels) : channels_(channels) {
@@ -76,14 +77,14 @@ void StatisticsRecorder::record_event(std::size_t index, const Event& event,
 }
 
 void StatisticsRecorder::record_estimate(const ObserverLaw& law, const Estimate& estimate,
-                                         Duration lateness) noexcept {
+                                         const PublishedBound& bound, Duration lateness) noexcept {
   lateness_.record(lateness);
   if (estimate.held) increment(held_);
   if (law.is_saturated(estimate.state.data())) increment(saturated_);
   newest_estimate_.store(estimate.stamp, kRelaxed);
-  const double bound = law.error_bound(estimate.state.data());
-  error_bound_.store(bound, kRelaxed);
-  if (!std::isinf(bound)) {
+  error_bound_.store(bound.value, kRelaxed);
+  bound_loss_.store(bound.loss, kRelaxed);
+  if (!std::isinf(bound.value)) {
     bound_lost_since_.store(0, kRelaxed);
   } else if (bound_lost_since_.load(kRelaxed) == 0) {
     bound_lost_since_.store(estimate.stamp, kRelaxed);
@@ -114,6 +115,7 @@ void StatisticsRecorder::take(RunStatistics& statistics) noexcept {
   statistics.tick_cpu_time = tick_cpu_time_.take();
   statistics.newest_estimate = as_stamp(newest_estimate_.load(kRelaxed));
   statistics.error_bound = error_bound_.load(kRelaxed);
+  statistics.bound_loss = bound_loss_.load(kRelaxed);
   statistics.bound_lost_since = as_stamp(bound_lost_since_.load(kRelaxed));
 }
 

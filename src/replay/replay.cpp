@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <deque>
 #include <set>
 #include <sstream>
 
@@ -78,7 +79,8 @@ class Replay {
     // delay.
     rosbag::View all(bag_);
     const Stamp end = to_stamp(all.getEndTime());
-    if (clock_) publish_due(end + config_.publish_delay);
+    if (clock_) publish_due(end + std::max(config_.publish_delay, config_.options.latency));
+    if (clock_) compare_waiting(*clock_);
     for (EventIntake& intake : intakes_) intake.give_up();
     output_.close();
 
@@ -160,6 +162,7 @@ class Replay {
       output_.write(instance.getTopic(), instance.getTime(), instance,
                     instance.getConnectionHeader());
     }
+    compare_waiting(now);
     if (instance.getTopic() == truth_.topic) compare(instance);
   }
 
@@ -240,6 +243,7 @@ class Replay {
       runtime_.write(*estimate, estimate_message_);
       final_is_held_ = estimate->held;
       ++summary_.estimates;
+      note_bound(estimate->stamp, runtime_.bound(*estimate).loss);
       if (output_.isOpen()) {
         output_.write(resolved("estimate"), to_ros_time(estimate->stamp + config_.publish_delay),
                       estimate_message_);
@@ -250,6 +254,16 @@ class Replay {
              row.dot(estimate->state.head(row.size())));
       }
     }
+  }
+
+  /// That events may still come says the least, and is so from the first estimate on.
+  void note_bound(Stamp stamp, BoundLoss loss) {
+    if (loss == BoundLoss::kNone) return;
+    const bool may_go_on = !bound_loss_ || *bound_loss_ == BoundLoss::kStillOnTheirWay;
+    if (bound_loss_ && (!may_go_on || loss == *bound_loss_)) return;
+    bound_loss_ = loss;
+    summary_.bound_lost_at = to_seconds(stamp);
+    summary_.bound_loss = describe(loss);
   }
 
   void compare(const rosbag::MessageInstance& instance) {
@@ -265,10 +279,27 @@ class Replay {
     }
     const double elapsed = to_seconds(stamp - *first_truth_);
     if (elapsed < options_.from || elapsed > options_.to) return;
+    if (config_.options.latency == 0) {
+      compare(stamp, truth_values_);
+    } else {
+      waiting_truth_.push_back({stamp, truth_values_});
+    }
+  }
+
+  /// Compares what had to wait until no more events can come before its stamp.
+  void compare_waiting(Stamp now) {
+    while (!waiting_truth_.empty() &&
+           now - waiting_truth_.front().stamp >= config_.options.latency) {
+      compare(waiting_truth_.front().stamp, waiting_truth_.front().values);
+      waiting_truth_.pop_front();
+    }
+  }
+
+  void compare(Stamp stamp, const std::vector<double>& values) {
     const Timeline::Query query = runtime_.estimator().estimate_at(stamp, truth_estimate_);
     if (query != Timeline::Query::kOk && query != Timeline::Query::kHeld) return;
-    comparison_->add_truth(truth_values_, truth_estimate_.state.data(),
-                           config_.law->error_bound(truth_estimate_.state.data()));
+    comparison_->add_truth(values, truth_estimate_.state.data(),
+                           runtime_.bound(truth_estimate_).value);
   }
 
   void plot_sample(std::size_t sensor, const Event& event) {
@@ -347,6 +378,12 @@ class Replay {
   std::vector<double> truth_values_;
   Estimate truth_estimate_;
   std::optional<Stamp> first_truth_;
+  struct WaitingTruth {
+    Stamp stamp;
+    std::vector<double> values;
+  };
+  std::deque<WaitingTruth> waiting_truth_;
+  std::optional<BoundLoss> bound_loss_;
   std::optional<Comparison> comparison_;
   std::vector<Quantity> plotted_;
   std::vector<std::vector<Stamp>> used_stamps_;

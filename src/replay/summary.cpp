@@ -54,6 +54,14 @@ void print_comparison(const ReplaySummary& summary, std::ostream& out) {
       << " of it\n";
 }
 
+/// Also where there is no truth.
+void print_bound_loss(const ReplaySummary& summary, std::ostream& out) {
+  if (!summary.bound_lost_at) return;
+  std::ostringstream stamp;
+  stamp << std::fixed << std::setprecision(3) << *summary.bound_lost_at;
+  out << "error bound infinite from " << stamp.str() << " s on: " << summary.bound_loss << "\n";
+}
+
 nlohmann::json number(const std::optional<double>& value) {
   return value ? nlohmann::json(*value) : nlohmann::json();
 }
@@ -95,6 +103,7 @@ void print_table(const ReplaySummary& summary, std::ostream& out) {
   for (const auto& [name, value] : summary.final_state) out << " " << name << "=" << shown(value);
   out << "\n";
   if (!summary.guarantee.empty()) out << "certified   by " << summary.guarantee << "\n";
+  print_bound_loss(summary, out);
   print_comparison(summary, out);
   if (!summary.diverged.empty()) out << "\nDIVERGED: " << summary.diverged << "\n";
 }
@@ -124,6 +133,9 @@ void write_json(const ReplaySummary& summary, const std::string& path) {
   json["hold_rmse"] = by_name(summary.compared, summary.hold_rmse);
   json["hold_rmse_norm"] = number(summary.hold_rmse_norm);
   json["guarantee"] = summary.guarantee;
+  if (summary.bound_lost_at) {
+    json["error_bound_lost"] = {{"stamp", *summary.bound_lost_at}, {"why", summary.bound_loss}};
+  }
   if (summary.bounded) {
     json["error_bound"] = {{"finite", summary.bound_stamps},
                            {"exceeded", summary.bound_exceeded},

@@ -173,7 +173,7 @@ std::optional<Diagnosis::Suspension> Diagnosis::find_suspension() const {
       const bool is_long = statistics.long_intervals > 0;
       return Suspension{
           statistics.violations.smallest,
-          "a time between samples of " + subject_.channels[i].name + " of " +
+          "a time between events of " + subject_.channels[i].name + " of " +
               seconds(is_long ? statistics.interval.largest : statistics.interval.smallest) +
               (is_long ? ", above T2 = " + seconds(subject_.sampling.T2)
                        : ", below T1 = " + seconds(subject_.sampling.T1))};
@@ -190,17 +190,9 @@ std::optional<Diagnosis::Suspension> Diagnosis::find_suspension() const {
 }
 
 std::string Diagnosis::why_bound_is_lost() const {
-  for (std::size_t i = 0; i < subject_.channels.size(); ++i) {
-    const ChannelStatistics& statistics = window_.channels[i];
-    if (statistics.short_intervals == 0 && statistics.long_intervals == 0) continue;
-    return "times between samples of " + subject_.channels[i].name + " from " +
-           extremes(statistics.interval) + " left [T1, T2]";
-  }
-  std::string old_stamps = why_stamps_are_old();
-  if (!old_stamps.empty()) return old_stamps;
-  if (window_.held > 0) return "the model's flow is not finite";
-  return "a time without samples above T2, a jump without its outputs, or a bound too large for "
-         "the theorem";
+  std::string reason = describe(window_.bound_loss);
+  const std::string old_stamps = why_stamps_are_old();
+  return old_stamps.empty() ? reason : reason + "; " + old_stamps;
 }
 
 std::string Diagnosis::rejections(const ChannelStatistics& statistics) const {
@@ -411,9 +403,8 @@ Finding Diagnosis::certificate() const {
   } else if (suspension_) {
     finding.level = HealthLevel::kWarn;
     finding.message = "suspended since " + instant(suspension_->since) + ": " + suspension_->reason;
-    if (window_.bound_lost_since) {
-      finding.message +=
-          "; the error bound stays infinite until what is missing comes late, or reset is called";
+    if (window_.bound_lost_since && window_.bound_loss != BoundLoss::kStillOnTheirWay) {
+      finding.message += "; the error bound stays infinite until reset is called";
     }
   } else if (restored_ > 0) {
     finding.message = "restored at " + instant(restored_) + ", suspended since " +

@@ -1,5 +1,7 @@
 #include "sampled_data_observers/ros/diagnostics_reporter.h"
 
+#include <ros/console.h>
+
 #include <utility>
 
 #include "sampled_data_observers/ros/observer_runtime.h"
@@ -35,7 +37,8 @@ DiagnosticsReporter::DiagnosticsReporter(const ros::NodeHandle& handle,
                                          const ros::NodeHandle& private_handle,
                                          const std::string& name, DiagnosisSubject subject,
                                          StatisticsRecorder& recorder)
-    : recorder_(recorder),
+    : name_(name),
+      recorder_(recorder),
       diagnosis_(std::move(subject)),
       window_(diagnosis_.subject().channels.size()),
       updater_(handle, private_handle, name) {
@@ -48,6 +51,19 @@ DiagnosticsReporter::DiagnosticsReporter(const ros::NodeHandle& handle,
   }
   timer_ = ros::NodeHandle(handle).createSteadyTimer(ros::WallDuration(kReportPeriod),
                                                      &DiagnosticsReporter::report, this);
+}
+
+/// Once when the guarantee is suspended, and once when it is restored.
+void DiagnosticsReporter::tell_of_guarantee() {
+  const bool is_suspended = diagnosis_.is_suspended();
+  if (is_suspended == was_suspended_) return;
+  was_suspended_ = is_suspended;
+  const std::string message = "guarantee " + diagnosis_.certificate().message;
+  if (is_suspended) {
+    ROS_WARN_NAMED(name_, "%s", message.c_str());
+  } else {
+    ROS_INFO_NAMED(name_, "%s", message.c_str());
+  }
 }
 
 void DiagnosticsReporter::note_published_type(std::size_t channel, const std::string& type) {
@@ -64,6 +80,7 @@ void DiagnosticsReporter::report(const ros::SteadyTimerEvent&) {
   recorder_.take(window_);
   const std::lock_guard<std::mutex> lock(mutex_);
   diagnosis_.update(window_, now, now - last_now_);
+  tell_of_guarantee();
   last_now_ = now;
   updater_.force_update();
 }

@@ -107,7 +107,7 @@ std::optional<Duration> EstimatePublication::publish_next() {
     access->write(*estimate, *message);
     const ObserverLaw& law = access->estimator().law();
     if (outputs_) outputs_->take(law, *estimate);
-    runtime_.statistics().record_estimate(law, *estimate,
+    runtime_.statistics().record_estimate(law, *estimate, access->bound(*estimate),
                                           access->lateness(estimate->stamp, access.now()));
   }
   publisher_.publish(message);

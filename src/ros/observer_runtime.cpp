@@ -132,6 +132,7 @@ bool ObserverRuntime::is_enabled(const EventChannel& channel) const {
 
 EventReport ObserverRuntime::receive(const EventChannel& channel, const Event& event, Stamp now,
                                      EventStatus& status) {
+  now_ = now;
   EventReport report;
   if (is_enabled(channel)) {
     report = estimator_.submit(event, now);
@@ -159,6 +160,8 @@ void ObserverRuntime::forget_innovations() {
 EventReport ObserverRuntime::reject(const EventChannel& channel, const Event& event,
                                     EventOutcome outcome, const std::string& detail, Stamp now,
                                     EventStatus& status) {
+  now_ = now;
+  if (is_enabled(channel)) estimator_.note_rejected(event, now);
   EventReport report;
   report.outcome = outcome;
   write(channel, event, report, now, status);
@@ -180,6 +183,7 @@ void ObserverRuntime::write(const EventChannel& channel, const Event& event,
 }
 
 const Estimate* ObserverRuntime::next_due(Stamp now) {
+  now_ = now;
   const std::optional<Stamp> earliest = estimator_.earliest();
   if (!enabled_ || !earliest) return nullptr;
   std::optional<Stamp> stamp = grid_.next(now, *earliest);
@@ -292,7 +296,7 @@ void ObserverRuntime::write(const Estimate& estimate, StateEstimate& message) co
   message.state.assign(estimate.state.data(), estimate.state.data() + size);
   const double* covariance = estimator_.law().covariance(estimate.state.data());
   if (covariance != nullptr) message.covariance.assign(covariance, covariance + size * size);
-  message.error_bound = estimator_.law().error_bound(estimate.state.data());
+  message.error_bound = bound(estimate).value;
   message.time_since_sample = estimate.counts.last_sample
                                   ? to_seconds(estimate.stamp - *estimate.counts.last_sample)
                                   : kNone;

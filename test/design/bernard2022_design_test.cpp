@@ -254,6 +254,13 @@ TEST(Bernard2022, TheBoundHoldsAlongErrorsAndIsLostAtAJumpSoonerThanT1) {
     ASSERT_LE(e.norm(), bound.value());
   }
   ASSERT_TRUE(std::isfinite(bound.value()));
+  // Without its outputs a jump corrects nothing.
+  bound.flow_to(3.0);
+  e = exponential_of(plant.A * 3.0) * e;
+  bound.uncorrected_jump();
+  e = (*plant.A_d * e).eval();
+  EXPECT_LE(e.norm(), bound.value());
+  ASSERT_TRUE(std::isfinite(bound.value()));
   const double before = bound.value();
   bound.flow_to(9.0);
   e = exponential_of(plant.A * 9.0) * e;

@@ -61,6 +61,10 @@ class DrivenBound {
     bound_->jump(now_.data());
     then_ = now_;
   }
+  void uncorrected_jump() {
+    bound_->uncorrected_jump(now_.data());
+    then_ = now_;
+  }
   double value() const { return bound_->bound(now_.data()); }
 
  private:

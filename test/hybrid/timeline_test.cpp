@@ -158,7 +158,7 @@ TEST_F(TimelineTest, ALateEventRewindsTheLaterOnes) {
   const Timeline::InsertReport report = timeline.insert(sample(kStart + 3 * kSecond / 10).view());
   EXPECT_EQ(Timeline::Insertion::kRewound, report.insertion);
   EXPECT_EQ(2u, report.rewound);
-  EXPECT_EQ(kStart + 2 * kSecond / 10, *report.previous_sample);
+  EXPECT_EQ(kStart + 2 * kSecond / 10, *report.previous);
 }
 
 TEST_F(TimelineTest, ADuplicateChangesNothing) {

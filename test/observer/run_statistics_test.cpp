@@ -136,21 +136,23 @@ TEST(StatisticsRecorderTest, CountsEventsByChannelAndOutcome) {
 TEST(StatisticsRecorderTest, KnowsSinceWhenTheBoundIsLost) {
   const BoundLaw law;
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const PublishedBound lost = {kInfinity, BoundLoss::kUnknownInput};
   StatisticsRecorder recorder(0);
   RunStatistics window(0);
-  recorder.record_estimate(law, estimate(10, 0.5), 3);
+  recorder.record_estimate(law, estimate(10, 0.5), {0.5, BoundLoss::kNone}, 3);
   recorder.take(window);
   EXPECT_FALSE(window.bound_lost_since);
   EXPECT_EQ(0.5, window.error_bound);
   EXPECT_EQ(0u, window.saturated);
-  recorder.record_estimate(law, estimate(20, kInfinity), 4);
-  recorder.record_estimate(law, estimate(30, kInfinity), 9);
+  recorder.record_estimate(law, estimate(20, kInfinity), lost, 4);
+  recorder.record_estimate(law, estimate(30, kInfinity), lost, 9);
   recorder.take(window);
   EXPECT_EQ(20, *window.bound_lost_since);
+  EXPECT_EQ(BoundLoss::kUnknownInput, window.bound_loss);
   EXPECT_EQ(30, *window.newest_estimate);
   EXPECT_EQ(2u, window.saturated);
   EXPECT_EQ(9, window.lateness.largest);
-  recorder.record_estimate(law, estimate(40, 0.25), 3);
+  recorder.record_estimate(law, estimate(40, 0.25), {0.25, BoundLoss::kNone}, 3);
   recorder.take(window);
   EXPECT_FALSE(window.bound_lost_since);
 }
@@ -180,7 +182,7 @@ TEST(StatisticsRecorderTest, AllocatesNothing) {
   const std::size_t before = test::allocations();
   recorder.record_missing_transform(0, transform);
   recorder.record_event(0, sample(100), used_after(30, IntervalCheck::kLong), 5);
-  recorder.record_estimate(law, some, 3);
+  recorder.record_estimate(law, some, {0.5, BoundLoss::kNone}, 3);
   recorder.record_tick(100);
   recorder.take(window);
   EXPECT_EQ(before, test::allocations());

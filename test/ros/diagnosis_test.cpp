@@ -233,14 +233,13 @@ TEST_F(DiagnosisTest, ALostBoundSuspendsTheCertificateUntilAReset) {
   RunStatistics lost = good();
   lost.error_bound = std::numeric_limits<double>::infinity();
   lost.bound_lost_since = 100'250'000'000;
-  lost.channels[0].long_intervals = 1;
-  lost.channels[0].interval = {1, kSecond, kSecond, kSecond};
+  lost.bound_loss = BoundLoss::kUnknownInput;
   update(lost);
-  expect(HealthLevel::kWarn, {"suspended since 100.250 s", "position", "reset"},
+  expect(HealthLevel::kWarn, {"suspended since 100.250 s", "an input was rejected", "reset"},
          diagnosis_.certificate());
-  lost.channels[0] = good().channels[0];
+  EXPECT_TRUE(diagnosis_.is_suspended());
   update(lost);
-  expect(HealthLevel::kWarn, {"suspended since 100.250 s", "position", "reset"},
+  expect(HealthLevel::kWarn, {"suspended since 100.250 s", "an input was rejected", "reset"},
          diagnosis_.certificate());
   update(good());
   expect(HealthLevel::kOk, {"restored at 103.000 s"}, diagnosis_.certificate());

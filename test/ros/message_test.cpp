@@ -137,8 +137,8 @@ TEST_F(ObserverRuntimeTest, WritesStatusAndEstimate) {
 
 TEST_F(ObserverRuntimeTest, ReportsAMessageThatIsNoEvent) {
   const Event event{1'000'000'000, EventKind::kSample, 0, nullptr, 0};
-  const EventReport report = ObserverRuntime::reject(channels_[0], event, EventOutcome::kNoField,
-                                                     "", 1'250'000'000, status_);
+  const EventReport report =
+      runtime_.reject(channels_[0], event, EventOutcome::kNoField, "", 1'250'000'000, status_);
   EXPECT_FALSE(report.used());
   EXPECT_EQ(EventStatus::NO_FIELD, status_.outcome);
   EXPECT_EQ("the message does not hold a configured field", status_.reason);

@@ -46,6 +46,10 @@ class ErrorBound {
   virtual void sample(double* state, double* workspace) const = 0;
   virtual void jump(double* state) const = 0;
 
+  /// At a jump of the plant whose outputs, which the law corrects with, did not come: x̂ only takes
+  /// the jump map.
+  virtual void uncorrected_jump(double* state) const { jump(state); }
+
   /// The bound on |x − x̂|, units of the state.
   virtual double bound(const double* state) const = 0;
 };

@@ -18,6 +18,8 @@ struct Guarantee {
   std::string warning;
   /// Null where the configuration asks for none.
   std::unique_ptr<const ErrorBound> bound;
+  /// How long after their stamps inputs and jumps may come [ns].
+  Duration latency = 0;
   /// As GuaranteedBound takes it.
   double error_limit = std::numeric_limits<double>::infinity();
 };

@@ -16,7 +16,8 @@ enum class EventKind : std::uint8_t {
   kJumpOutput = 2,  ///< an output y_d that was measured just before a jump of the same stamp
   kRelease = 3,     ///< a reset that was computed for an earlier jump takes effect
   kOutput = 4,      ///< a continuous output y_c, held until the next or a jump
-  kSample = 5       ///< a sample of a sensor
+  kSample = 5,      ///< a sample of a sensor
+  kRejected = 6     ///< something that the plant saw, and the estimate did not: no event itself
 };
 
 /// Channels of jumps: the event carries the outputs y_d at the jump or does not.
@@ -27,7 +28,8 @@ constexpr int kMeasuredJump = 1;
 struct Event {
   Stamp stamp = 0;
   EventKind kind = EventKind::kSample;
-  /// Index of the sensor for what is measured, kPlainJump or kMeasuredJump for jumps, else 0.
+  /// Index of the sensor for what is measured, kPlainJump or kMeasuredJump for jumps, the EventKind
+  /// of what was rejected, else 0.
   int channel = 0;
   /// u of inputs, y of what is measured. Of jumps: the label of the mode that follows, where the
   /// plant switches, then y_d. Of releases: the time since the jump [ns].

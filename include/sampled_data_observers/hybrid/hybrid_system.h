@@ -63,8 +63,9 @@ class HybridSystem {
   /// as not finite.
   virtual Duration flow_horizon() const { return std::numeric_limits<Duration>::max(); }
 
-  /// Told where the state is held instead of flowed, since the flow is not finite: for systems that
-  /// keep what must not outlive such a gap.
+  /// Told where the state is held instead of flowed, since the flow is not finite, and where a jump
+  /// of the plant had no effect, since its result is not: for systems that keep what must not
+  /// outlive that.
   virtual void hold(double* state) const { static_cast<void>(state); }
 
   /// Reset map of an event that event_size() accepts. Where the event must not take effect, nothing

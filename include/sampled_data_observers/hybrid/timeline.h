@@ -59,8 +59,9 @@ class Timeline {
     Insertion insertion = Insertion::kAppended;
     std::size_t rewound = 0;
     Effect effect = Effect::kApplied;
-    /// For a sample: stamp of the newest one of the same channel before it that took effect.
-    std::optional<Stamp> previous_sample;
+    /// For a sample: stamp of the newest one of the same channel before it that took effect; for a
+    /// jump: of the newest jump.
+    std::optional<Stamp> previous;
   };
 
   enum class Query {
@@ -101,6 +102,14 @@ class Timeline {
   /// The earliest stamp at which there is a state now.
   std::optional<Stamp> earliest() const;
 
+  /// The earliest stamp at which an event can be taken in now; nothing where any can.
+  std::optional<Stamp> earliest_insertion() const;
+
+  /// The stamp of the last restart, where no event after it was forgotten yet.
+  std::optional<Stamp> restarted_at() const {
+    return base_is_restart_ ? base_stamp_ : std::nullopt;
+  }
+
   /// Number of events in the log now.
   std::size_t size() const { return size_; }
 
@@ -127,7 +136,7 @@ class Timeline {
   void flow_from(std::size_t origin, Duration duration, StateRef state) const;
   std::size_t base_origin() const { return slots_.size(); }
   void forget_oldest();
-  std::optional<Stamp> previous_sample(std::size_t position, const Event& event) const;
+  std::optional<Stamp> previous(std::size_t position, const Event& event) const;
   auto state_after(std::size_t position) {
     return states_.col(static_cast<Eigen::Index>(order(position)));
   }
@@ -155,6 +164,8 @@ class Timeline {
   /// Stamp of the newest sample of each channel that took effect before the oldest event of the
   /// log.
   std::vector<std::optional<Stamp>> base_samples_;
+  /// The same of the newest jump.
+  std::optional<Stamp> base_jump_;
 
   /// Scratch of the maps; it makes even queries a matter of one thread at a time.
   mutable Eigen::VectorXd workspace_;

@@ -41,7 +41,7 @@ enum class EventOutcome : std::uint8_t {
 
 /// How the time since the previous sample compares with the configured bounds.
 enum class IntervalCheck : std::uint8_t {
-  kNone = 0,    ///< not a sample that was used, or the first one
+  kNone = 0,    ///< not a sample or jump that was used, the first one, or a jump beside samples
   kWithin = 1,  ///< in [T1, T2]
   kShort = 2,   ///< below T1
   kLong = 3     ///< above T2
@@ -53,8 +53,8 @@ struct EventReport {
   std::size_t rewound = 0;
   /// What the event did, where it was taken in.
   Effect effect = Effect::kApplied;
-  /// Time since the newest sample of the same sensor that was used and has an earlier stamp; used
-  /// samples only.
+  /// Time since the newest sample of the same sensor, or the newest jump, that was used and has an
+  /// earlier stamp; used samples and jumps only.
   std::optional<Duration> interval;
   IntervalCheck interval_check = IntervalCheck::kNone;
   /// The norm of the innovation of a sample or a continuous output, before it took effect; NaN for
@@ -68,10 +68,17 @@ struct EventReport {
   bool recovers() const { return effect == Effect::kPastGate || effect == Effect::kRestarted; }
 };
 
-/// The bounds T1 <= T2 on the time between samples for which the gains were designed [ns].
+/// The bounds T1 <= T2 on the time between samples, or between jumps where there are no samples,
+/// for which the gains were designed [ns].
 struct SamplingBounds {
   Duration T1 = 0;
   Duration T2 = 0;
+};
+
+/// A guaranteed bound on |x − x̂|, infinite where there is none, and why; NaN without certificate.
+struct PublishedBound {
+  double value = std::numeric_limits<double>::quiet_NaN();
+  BoundLoss loss = BoundLoss::kNone;
 };
 
 /// An estimate and what it rests on.
@@ -94,6 +101,9 @@ class Estimator {
     SamplingBounds sampling;
     /// How far a stamp may lie after the time of its arrival [ns], >= 0.
     Duration future_tolerance = 0;
+    /// How long after their stamps inputs and jumps may come [ns], >= 0; 0 where they are taken to
+    /// be there at once.
+    Duration latency = 0;
   };
 
   /// @throws std::invalid_argument for options out of range.
@@ -104,6 +114,16 @@ class Estimator {
   /// Admits an event that arrived at `now`. Whatever it holds, the estimate stays finite.
   /// @pre the channel exists: law().event_size(event.kind, event.channel) >= 0
   EventReport submit(const Event& event, Stamp now);
+
+  /// Takes note of something that was rejected before it was an event. What is known of a rejected
+  /// input or jump, in submit() too, goes into the timeline as an event of kind kRejected, where
+  /// the law minds: at its stamp, or as near to it as events can be taken in; at `now` where it has
+  /// no stamp or one in the future. Rejected samples were not taken.
+  void note_rejected(const Event& event, Stamp now);
+
+  /// The bound on the error of an estimate as it can be given at `now`: none while inputs or jumps
+  /// of before its stamp may still come.
+  PublishedBound bound(const Estimate& estimate, Stamp now) const;
 
   /// The estimate at `stamp` from all events taken in; `estimate` is written for kOk and kHeld.
   /// @pre estimate.state.size() == law().state_size()
@@ -144,7 +164,9 @@ class Estimator {
  private:
   std::optional<EventOutcome> objection(const Event& event, Stamp now) const;
   void insert_release(Stamp jump, Stamp release);
+  void insert_rejected(EventKind kind, Stamp stamp);
   bool prepare_restart(Estimator& from, Stamp stamp);
+  void begin(Stamp stamp);
   void begin_at(const Event& sample);
   double innovation_of(const Event& measured);
 
@@ -156,6 +178,12 @@ class Estimator {
   Eigen::VectorXd workspace_;
   Eigen::VectorXd innovation_;
   bool awaits_sample_ = false;
+  /// Whether `sampling` is about jumps.
+  bool is_sampled_;
+  /// Whether something else than samples may come late.
+  bool has_other_events_;
+  /// Stamp of the last rejected input, until a later one is there: no start knows it.
+  std::optional<Stamp> input_unknown_since_;
 };
 
 }  // namespace sampled_data_observers

@@ -43,6 +43,7 @@ class LawDecorator : public ObserverLaw {
     return law_->mahalanobis_distance(sample, state, workspace);
   }
   double error_bound(const double* state) const override { return law_->error_bound(state); }
+  BoundLoss bound_loss(const double* state) const override { return law_->bound_loss(state); }
   bool is_saturated(const double* state) const override { return law_->is_saturated(state); }
   void hold(double* state) const override { law_->hold(state); }
   bool delays_jumps() const override { return law_->delays_jumps(); }

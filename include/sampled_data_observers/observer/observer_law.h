@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sampled_data_observers/hybrid/hybrid_system.h"
+#include "sampled_data_observers/observer/bound_loss.h"
 
 namespace sampled_data_observers {
 
@@ -73,6 +74,12 @@ class ObserverLaw : public HybridSystem {
   virtual double error_bound(const double* state) const {
     static_cast<void>(state);
     return std::numeric_limits<double>::quiet_NaN();
+  }
+
+  /// Why error_bound() is infinite in a state.
+  virtual BoundLoss bound_loss(const double* state) const {
+    static_cast<void>(state);
+    return BoundLoss::kNone;
   }
 
   /// Whether a state of the estimate stands at a bound that the law keeps it within.

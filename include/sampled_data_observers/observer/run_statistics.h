@@ -64,6 +64,8 @@ struct RunStatistics {
   double error_bound = 0.0;
   /// Stamp of the first estimate without finite error bound since the last one that had one.
   std::optional<Stamp> bound_lost_since;
+  /// Why the last published estimate has none.
+  BoundLoss bound_loss = BoundLoss::kNone;
 
   /// @pre as many channels
   void add(const RunStatistics& later);
@@ -85,7 +87,7 @@ class StatisticsRecorder {
   /// An estimate that was published.
   /// @param lateness  how long after it was due [ns]
   void record_estimate(const ObserverLaw& law, const Estimate& estimate,
-                       Duration lateness) noexcept;
+                       const PublishedBound& bound, Duration lateness) noexcept;
 
   /// @param cpu_time  of the thread, in one tick [ns]
   void record_tick(Duration cpu_time) noexcept { tick_cpu_time_.record(cpu_time); }
@@ -117,6 +119,7 @@ class StatisticsRecorder {
   std::atomic<Stamp> newest_estimate_{0};
   std::atomic<Stamp> bound_lost_since_{0};
   std::atomic<double> error_bound_{0.0};
+  std::atomic<BoundLoss> bound_loss_{BoundLoss::kNone};
 };
 
 }  // namespace sampled_data_observers

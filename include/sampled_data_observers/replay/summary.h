@@ -79,6 +79,9 @@ struct ReplaySummary {
 
   /// Whether the truth refutes the guarantee: the error was larger than its bound.
   bool is_guarantee_broken() const { return truth_is_given && bound_exceeded > 0; }
+  /// Where a published estimate was first without finite bound: its stamp [s], and why.
+  std::optional<double> bound_lost_at;
+  std::string bound_loss;
 
   double bag_seconds = 0.0;
   double wall_seconds = 0.0;

@@ -63,6 +63,9 @@ class Diagnosis {
   /// Whether what the certificate rests on holds.
   Finding certificate() const;
 
+  /// Whether what the certificate rests on does not hold now.
+  bool is_suspended() const { return suspension_.has_value(); }
+
   const DiagnosisSubject& subject() const { return subject_; }
 
  private:

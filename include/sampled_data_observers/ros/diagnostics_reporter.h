@@ -31,12 +31,15 @@ class DiagnosticsReporter {
 
  private:
   void report(const ros::SteadyTimerEvent&);
+  void tell_of_guarantee();
 
+  const std::string name_;
   StatisticsRecorder& recorder_;
   std::mutex mutex_;  ///< of the diagnosis
   Diagnosis diagnosis_;
   RunStatistics window_;
   Stamp last_now_ = 0;
+  bool was_suspended_ = false;
   diagnostic_updater::Updater updater_;
   ros::SteadyTimer timer_;
 };

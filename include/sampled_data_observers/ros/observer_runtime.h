@@ -46,8 +46,8 @@ class ObserverRuntime {
 
   /// Reports what can't be taken in as an event, with the stamp of `event`.
   /// @param detail  what is said beside the outcome; may be empty
-  static EventReport reject(const EventChannel& channel, const Event& event, EventOutcome outcome,
-                            const std::string& detail, Stamp now, EventStatus& status);
+  EventReport reject(const EventChannel& channel, const Event& event, EventOutcome outcome,
+                     const std::string& detail, Stamp now, EventStatus& status);
 
   /// The next estimate due at `now`, if any: to be called until there is none. With
   /// `publish_on_event` the last one is that of `now`, where an event was used since the last call.
@@ -87,6 +87,9 @@ class ObserverRuntime {
   /// Writes an estimate into a message. Allocates nothing when the message held one before.
   void write(const Estimate& estimate, StateEstimate& message) const;
 
+  /// The bound on the error of an estimate as it can be given now (Estimator::bound()).
+  PublishedBound bound(const Estimate& estimate) const { return estimator_.bound(estimate, now_); }
+
   const Estimator& estimator() const { return estimator_; }
 
   /// What the innovations of a sensor do.
@@ -103,6 +106,8 @@ class ObserverRuntime {
   Estimator estimator_;
   PublicationGrid grid_;
   Estimate estimate_;
+  /// The time of the last call that told it.
+  Stamp now_ = 0;
   bool enabled_ = true;
   /// One per sensor.
   std::vector<bool> sensors_enabled_;

@@ -1,0 +1,31 @@
+#include "sampled_data_observers/observer/bound_loss.h"
+
+namespace sampled_data_observers {
+
+const char* describe(BoundLoss loss) {
+  switch (loss) {
+    case BoundLoss::kNone:
+      return "it is finite";
+    case BoundLoss::kNotVouched:
+      return "the estimate went on from one that nobody vouches for, after an overflow, a pause, "
+             "new "
+             "gains or a recovery by reset";
+    case BoundLoss::kAngle:
+      return "the innovation of an angle may have been wrapped";
+    case BoundLoss::kJumpTimes:
+      return "a jump came sooner after another than T1";
+    case BoundLoss::kTooLarge:
+      return "it grew too large";
+    case BoundLoss::kRefusedJump:
+      return "a jump was refused: jumps/min_separation or max_per_second";
+    case BoundLoss::kUnknownInput:
+      return "an input was rejected, so that the estimate rests on another one";
+    case BoundLoss::kUnknownJump:
+      return "a jump was rejected, so that the estimate lacks it";
+    case BoundLoss::kStillOnTheirWay:
+      return "events may still be on their way (error_assumptions/latency)";
+  }
+  return "";
+}
+
+}  // namespace sampled_data_observers
