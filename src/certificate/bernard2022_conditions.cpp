@@ -134,13 +134,14 @@ std::vector<Condition> quadratic_conditions(const CertificateSubject& subject, F
   const MatrixExpression a_c = decays ? -rate : rate;
   const MatrixExpression a_d =
       -(a_c * MatrixExpression(decays ? subject.T1 : subject.T2)) - 2.0 * jump_decay;
-  return {
-      {"P > 0", P, std::nullopt},
-      {decays ? "a_c < 0" : "a_c > 0", rate, std::nullopt},
-      {"jump_decay > 0", jump_decay, std::nullopt},
-      {"flow, " + source + "a)", a_c * P - He(P * flow), std::nullopt},
-      {"jump, " + source + "b)", exponential(a_d) * P - transpose(reset) * P * reset, std::nullopt},
-  };
+  std::vector<Condition> all = domain_of_times(subject.T1, subject.T2);
+  all.push_back({decays ? "a_c < 0" : "a_c > 0", rate, std::nullopt, Condition::Kind::kPositive});
+  all.push_back(positive("jump_decay"));
+  all.push_back({"P > 0", P, std::nullopt});
+  all.push_back({"flow, " + source + "a)", a_c * P - He(P * flow), std::nullopt});
+  all.push_back({"jump, " + source + "b)", exponential(a_d) * P - transpose(reset) * P * reset,
+                 std::nullopt});
+  return all;
 }
 
 const Theorem& bernard2022_equation14() {

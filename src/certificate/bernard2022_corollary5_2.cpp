@@ -54,12 +54,13 @@ class Corollary52 : public Theorem {
     const MatrixExpression jump_decay = symbol("jump_decay");
     const MatrixExpression cycle = (*plant.A_d - symbol("L_d", n, plant.C_d.rows()) * plant.C_d) *
                                    exponential(time_tau() * MatrixExpression(plant.A));
-    return {
-        {"P > 0", P, std::nullopt},
-        {"jump_decay > 0", jump_decay, std::nullopt},
-        {"bernard2022 (32)", exponential(-2.0 * jump_decay) * P - transpose(cycle) * P * cycle,
-         Condition::Range{subject.T1, subject.T2}},
-    };
+    std::vector<Condition> all = domain_of_times(subject.T1, subject.T2);
+    all.push_back(positive("jump_decay"));
+    all.push_back({"P > 0", P, std::nullopt});
+    all.push_back({"bernard2022 (32)",
+                   exponential(-2.0 * jump_decay) * P - transpose(cycle) * P * cycle,
+                   Condition::Range{subject.T1, subject.T2}});
+    return all;
   }
 
   std::unique_ptr<const ErrorBound> error_bound(

@@ -58,9 +58,11 @@ class Example42 : public Theorem {
 
   std::vector<Condition> conditions(const CertificateSubject& subject) const override {
     const ModeMatrices& plant = subject.plant.mode();
-    return quadratic_conditions(subject, FlowOfError::kDecays,
-                                plant.A - high_gain_of(plant) * plant.C_c,
-                                MatrixExpression(*plant.A_d), "bernard2022 (22");
+    std::vector<Condition> all = quadratic_conditions(
+        subject, FlowOfError::kDecays, plant.A - high_gain_of(plant) * plant.C_c,
+        MatrixExpression(*plant.A_d), "bernard2022 (22");
+    all.push_back(positive("ell"));
+    return all;
   }
 
   std::unique_ptr<const ErrorBound> error_bound(const CertificateSubject&, const NamedMatrices&,

@@ -86,8 +86,9 @@ class Example71 : public SwitchedCondition {
     const MatrixExpression jump_decay = symbol("jump_decay");
     const MatrixExpression a_c = -flow_decay;
     const MatrixExpression a_d = flow_decay * MatrixExpression(subject.T1) - 2.0 * jump_decay;
-    std::vector<Condition> all = {{"a_c < 0", flow_decay, std::nullopt},
-                                  {"jump_decay > 0", jump_decay, std::nullopt}};
+    std::vector<Condition> all = domain_of_times(subject.T1, subject.T2);
+    all.push_back({"a_c < 0", flow_decay, std::nullopt, Condition::Kind::kPositive});
+    all.push_back(positive("jump_decay"));
     for (const ModeMatrices& mode : subject.plant.modes) {
       const MatrixExpression P = P_of(mode);
       const MatrixExpression L = symbol(of_mode("L_c", mode), mode.A.rows(), mode.C_c.rows());
@@ -138,7 +139,8 @@ class Section732 : public SwitchedCondition {
   std::vector<Condition> conditions(const CertificateSubject& subject) const override {
     const MatrixExpression jump_decay = symbol("jump_decay");
     const MatrixExpression kept = exponential(-2.0 * jump_decay);
-    std::vector<Condition> all = {{"jump_decay > 0", jump_decay, std::nullopt}};
+    std::vector<Condition> all = domain_of_times(subject.T1, subject.T2);
+    all.push_back(positive("jump_decay"));
     for (const ModeMatrices& mode : subject.plant.modes) {
       const MatrixExpression P = P_of(mode);
       const MatrixExpression L = symbol(of_mode("L_d", mode), mode.A.rows(), mode.C_d.rows());

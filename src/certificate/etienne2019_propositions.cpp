@@ -135,8 +135,12 @@ class Proposition : public Theorem {
     const MatrixExpression Y = symbol("Y", n, n);
     const MatrixExpression alpha = symbol("alpha");
     const MatrixExpression LC = symbol("L", n, subject.plant.C().rows()) * subject.plant.C();
-    std::vector<Condition> all = {
-        {"P > 0", P, std::nullopt}, {"X > 0", X, std::nullopt}, {"Y > 0", Y, std::nullopt}};
+    std::vector<Condition> all = domain_of_times(subject.T1, subject.T2);
+    all.push_back(positive("alpha"));
+    if (!channels.empty()) all.push_back(positive("gamma"));
+    all.push_back({"P > 0", P, std::nullopt});
+    all.push_back({"X > 0", X, std::nullopt});
+    all.push_back({"Y > 0", Y, std::nullopt});
     const MatrixExpression decayed = exponential(-(alpha * MatrixExpression(subject.T2)));
     int vertex = 0;
     for (const Eigen::MatrixXd& R : flow_vertices_of(subject.plant)) {
@@ -312,12 +316,12 @@ class Proposition2Channels : public Proposition {
     for (const char* name : {"G_1", "G_2", "G_3"}) G.push_back(symbol(name, n, n));
     G.push_back(symbol("G_4", n, outputs));
     std::vector<Channel> channels = {{symbol("noise_size") * symbol("L", n, outputs), outputs}};
-    std::vector<Condition> sizes = {{"noise_size > 0", symbol("noise_size"), std::nullopt}};
+    std::vector<Condition> sizes = {positive("noise_size")};
     if (has_disturbance(subject)) {
       const Eigen::Index inputs = subject.plant.N.cols();
       G.push_back(symbol("G_5", n, inputs));
       channels.push_back({symbol("disturbance_size") * MatrixExpression(subject.plant.N), inputs});
-      sizes.push_back({"disturbance_size > 0", symbol("disturbance_size"), std::nullopt});
+      sizes.push_back(positive("disturbance_size"));
     }
     std::vector<Condition> all =
         finsler_conditions(subject, G, channels, "etienne2019 (15) by channels");

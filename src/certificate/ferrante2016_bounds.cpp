@@ -12,7 +12,7 @@ constexpr std::size_t kPoints = 513;
 
 double least_eigenvalue(const MatrixExpression& matrix, const NamedMatrices& values, double low,
                         double high) {
-  return check({{"", matrix, Condition::Range{low, high}}}, values, kPoints).front().min_eigenvalue;
+  return least_eigenvalue(matrix, values, {low, high}, kPoints);
 }
 
 }  // namespace

@@ -102,11 +102,12 @@ class Theorem1 : public Theorem {
     const MatrixExpression L = symbol("L", n, subject.plant.C().rows());
     const MatrixExpression flow = exponential(time_tau() * (A + symbol("decay") * identity(n)));
     const MatrixExpression step = flow * (identity(n) - L * C);
-    return {
-        {"P > 0", P, std::nullopt},
-        {"(I - L C)' e^(A' tau) P e^(A tau) (I - L C) - P < 0, ferrante2016 (12)",
-         P - transpose(step) * P * step, Condition::Range{subject.T1, subject.T2}},
-    };
+    std::vector<Condition> all = domain_of_times(subject.T1, subject.T2);
+    all.push_back(not_negative("decay"));
+    all.push_back({"P > 0", P, std::nullopt});
+    all.push_back({"(I - L C)' e^(A' tau) P e^(A tau) (I - L C) - P < 0, ferrante2016 (12)",
+                   P - transpose(step) * P * step, Condition::Range{subject.T1, subject.T2}});
+    return all;
   }
 
   std::vector<GuaranteedFigure> guaranteed_figures(const CertificateSubject& subject,

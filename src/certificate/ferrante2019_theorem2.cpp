@@ -165,14 +165,19 @@ class Ferrante2019Theorem : public Theorem {
 
   std::vector<Condition> conditions(const CertificateSubject& subject) const override {
     const auto [n, m] = sizes(subject);
-    std::vector<Condition> all = {
-        {"P1 > 0", symbol("P1", n, n), std::nullopt},
-        {"P2 > 0", symbol("P2", m, m), std::nullopt},
-        {"M(0) <= 0, ferrante2019 " + variant_.number, -M(subject, 1.0), std::nullopt},
-        {"M(T2) <= 0, ferrante2019 " + variant_.number,
-         -M(subject, exponential(symbol("delta") * MatrixExpression(subject.T2))), std::nullopt},
-    };
-    if (!subject.plant.is_linear()) all.push_back({"chi > 0", symbol("chi"), std::nullopt});
+    std::vector<Condition> all = domain_of_times(subject.T1, subject.T2);
+    for (const NamedShape& parameter : parameters(subject)) all.push_back(positive(parameter.name));
+    if (!subject.plant.is_linear()) {
+      all.push_back({"lipschitz_constant >= 0", *subject.plant.lipschitz_constant, std::nullopt,
+                     Condition::Kind::kNonNegative});
+      all.push_back(positive("chi"));
+    }
+    all.push_back({"P1 > 0", symbol("P1", n, n), std::nullopt});
+    all.push_back({"P2 > 0", symbol("P2", m, m), std::nullopt});
+    all.push_back({"M(0) <= 0, ferrante2019 " + variant_.number, -M(subject, 1.0), std::nullopt});
+    all.push_back({"M(T2) <= 0, ferrante2019 " + variant_.number,
+                   -M(subject, exponential(symbol("delta") * MatrixExpression(subject.T2))),
+                   std::nullopt});
     return all;
   }
 

@@ -204,7 +204,10 @@ class Theorem2 : public Theorem {
     const Eigen::Index n = subject.plant.states();
     const MatrixExpression P = symbol("P", n, n);
     const MatrixExpression remains = 1.0 - square("lambda");
-    std::vector<Condition> all = {{"lambda < 1, sferlazza2019 (38)", remains, std::nullopt}};
+    std::vector<Condition> all = domain_of_times(subject.T1, subject.T2);
+    all.push_back(not_negative("lambda"));
+    all.push_back(
+        {"lambda < 1, sferlazza2019 (38)", remains, std::nullopt, Condition::Kind::kPositive});
     MatrixExpression A = subject.plant.A();
     MatrixExpression P_kept = P;
     if (has_rate_) {
@@ -212,7 +215,9 @@ class Theorem2 : public Theorem {
       const auto left_after = [&](const MatrixExpression& tau) {
         return 1.0 - square("lambda") * exponential(2.0 * decay * tau);
       };
-      all.push_back({"lambda exp(decay T2) < 1", left_after(subject.T2), std::nullopt});
+      all.push_back(not_negative("decay"));
+      all.push_back({"lambda exp(decay T2) < 1", left_after(subject.T2), std::nullopt,
+                     Condition::Kind::kPositive});
       A = A + decay * identity(n);
       P_kept = left_after(time_tau()) * inverse(remains) * P;
     }
@@ -288,8 +293,12 @@ class Equation17 : public Theorem {
 
   std::vector<Condition> conditions(const CertificateSubject& subject) const override {
     const MatrixExpression C = subject.plant.C();
-    return {{"lambda < 1, sferlazza2019 (38)", 1.0 - square("lambda"), std::nullopt},
-            {"C invertible", C * transpose(C), std::nullopt}};
+    std::vector<Condition> all = domain_of_times(subject.T1, subject.T2);
+    all.push_back(not_negative("lambda"));
+    all.push_back({"lambda < 1, sferlazza2019 (38)", 1.0 - symbol("lambda"), std::nullopt,
+                   Condition::Kind::kPositive});
+    all.push_back({"C invertible", C * transpose(C), std::nullopt});
+    return all;
   }
 
   std::unique_ptr<const ErrorBound> error_bound(

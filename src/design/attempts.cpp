@@ -15,6 +15,8 @@ namespace {
 
 /// By which a least gamma is enlarged where its own proof fails.
 constexpr double kFurtherInflations[] = {1.003, 1.01, 1.03};
+/// For the proof of one attempt [s].
+constexpr double kProofTime = 10.0;
 /// Of the norm of a gain, for rounding.
 constexpr double kBoundTolerance = 1e-9;
 
@@ -47,7 +49,9 @@ void require_gain_bound(const DesignMethod& method, const CertificateSubject& su
 
 void require_proof(const Theorem& theorem, const CertificateSubject& subject,
                    DesignCandidate& candidate) {
-  const auto proofs = prove(theorem.conditions(subject), candidate.values);
+  ProofOptions options;
+  options.time_limit = kProofTime;
+  const auto proofs = prove(theorem.conditions(subject), candidate.values, options);
   for (const ConditionProof& proof : proofs) {
     if (proof.status == ProofStatus::kProved) continue;
     std::ostringstream text = number_text();

@@ -1,7 +1,6 @@
 #include "sampled_data_observers/design/certify.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 namespace sampled_data_observers {
@@ -64,10 +63,9 @@ DesignCandidate judged(const Theorem& theorem, const CertificateSubject& subject
     }
   }
   const std::vector<ConditionCheck> checks = check(theorem.conditions(subject), candidate.values);
-  candidate.margin = std::numeric_limits<double>::infinity();
+  candidate.margin = least_margin(checks);
   candidate.message.clear();
   for (const ConditionCheck& check : checks) {
-    candidate.margin = std::min(candidate.margin, check.min_eigenvalue);
     if (check.holds()) continue;
     candidate.message += (candidate.message.empty() ? "violated: " : "; ") + check.name;
   }

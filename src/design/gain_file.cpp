@@ -70,7 +70,7 @@ void write_gain_file(const Design& design, const GainFileOrigin& origin, std::os
   write_values(theorem.parameters(subject), certificate.values, out);
   write_values(theorem.multipliers(subject), certificate.values, out);
   out << "  margin: " << shortest_decimal(design.margin)
-      << "  # least eigenvalue of the conditions\n"
+      << "  # least eigenvalue of the conditions, scaled, beyond its rounding\n"
       << "  proof: ball arithmetic, " << design.proved_conditions << " conditions\n"
       << "  method: " << design.method << '\n'
       << "  objective: " << to_string(design.objective)

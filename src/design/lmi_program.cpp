@@ -135,6 +135,12 @@ void LmiProgram::require_positive(const std::string& name, const MatrixExpressio
 }
 
 void LmiProgram::require(const Condition& condition, std::size_t points) {
+  if (condition.is_domain()) {
+    const MatrixExpression::Node& node = condition.positive_definite.node();
+    const bool is_variable =
+        node.kind == MatrixExpression::Kind::kSymbol && find(node.name, false) != nullptr;
+    if (!is_variable) return;
+  }
   if (!condition.tau) {
     require_positive(condition.name, condition.positive_definite);
     return;

@@ -1,6 +1,7 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "sampled_data_observers/config/plant_fingerprint.h"
 #include "sampled_data_observers/config/yaml_file.h"
 #include "sampled_data_observers/design/rigorous_check.h"
+#include "sampled_data_observers/replay/progress_bar.h"
 #include "sampled_data_observers/ros/plant_plugins.h"
 
 namespace sampled_data_observers {
@@ -22,6 +24,7 @@ struct VerifyArguments {
   std::string gains;
   std::vector<std::string> plant;
   bool is_rigorous = false;
+  double time_limit = ProofOptions().time_limit;  // [s]
 };
 
 /// The claim of a gain file together with its plant: the one named, or the one given.
@@ -51,20 +54,36 @@ CertificateConfig read_claim(const VerifyArguments& arguments) {
 void verify_in_floating_point(const Certificate& certificate) {
   const auto checks = check(certificate);
   for (const ConditionCheck& check : checks) {
-    std::printf("  %-9s %s, least eigenvalue %.3g", check.holds() ? "holds" : "VIOLATED",
-                check.name.c_str(), check.min_eigenvalue);
+    std::printf("  %-9s %s", check.holds() ? "holds" : "VIOLATED", check.name.c_str());
+    if (check.kind == Condition::Kind::kDefinite) {
+      std::printf(", least eigenvalue %.3g (scaled, rounding %.1e)", check.min_eigenvalue,
+                  check.rounding);
+    } else {
+      std::printf(", by %.6g", std::abs(check.min_eigenvalue));
+    }
     if (check.tau) std::printf(" at tau = %.6g s", *check.tau);
     std::printf("\n");
   }
   if (!all_hold(checks)) throw ExitStatus{kNotVerified};
 }
 
-void verify_rigorously(const Certificate& certificate) {
-  const auto proofs =
-      prove(certificate.theorem->conditions(certificate.subject), certificate.values);
+void verify_rigorously(const Certificate& certificate, double time_limit) {
+  const auto conditions = certificate.theorem->conditions(certificate.subject);
+  std::vector<ConditionProof> proofs;
+  {
+    constexpr std::size_t kSteps = 1000;
+    ProgressBar progress("verify", kSteps);
+    ProofOptions options;
+    options.time_limit = time_limit;
+    options.on_progress = [&](double share) {
+      progress.advance_to(static_cast<std::size_t>(share * static_cast<double>(kSteps)));
+    };
+    proofs = prove(conditions, certificate.values, options);
+  }
   bool is_disproved = false;
   bool is_undecided = false;
-  for (const ConditionProof& proof : proofs) {
+  for (std::size_t i = 0; i < proofs.size(); ++i) {
+    const ConditionProof& proof = proofs[i];
     std::printf("  %-9s %s", to_string(proof.status), proof.name.c_str());
     switch (proof.status) {
       case ProofStatus::kProved:
@@ -72,7 +91,8 @@ void verify_rigorously(const Certificate& certificate) {
         break;
       case ProofStatus::kDisproved:
         is_disproved = true;
-        std::printf(", an eigenvalue <= %.17g", proof.value);
+        std::printf(conditions[i].is_domain() ? ", by %.17g" : ", an eigenvalue <= %.17g",
+                    proof.value);
         if (proof.tau) std::printf(" at tau = %.17g s", *proof.tau);
         break;
       case ProofStatus::kUndecided:
@@ -91,7 +111,7 @@ void verify_command(const VerifyArguments& arguments) {
   const Certificate& certificate = config.certificate;
   std::printf("%s\n", statement(certificate).c_str());
   if (arguments.is_rigorous) {
-    verify_rigorously(certificate);
+    verify_rigorously(certificate, arguments.time_limit);
   } else {
     verify_in_floating_point(certificate);
   }
@@ -111,6 +131,12 @@ void add_verify(CLI::App& app) {
   command->add_flag("--rigorous", arguments->is_rigorous,
                     "Prove or disprove them in ball arithmetic, for all tau and for the decimals "
                     "in the files, instead of a check in floating point");
+  command
+      ->add_option("--time-limit", arguments->time_limit,
+                   "With --rigorous: what is not decided after this time [s] is undecided")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber)
+      ->type_name("SECONDS");
   command->callback([arguments] { verify_command(*arguments); });
 }
 

@@ -46,7 +46,7 @@ TEST(RigorousCheck, ProvesABoundOnTheCosineOverManyTurns) {
   EXPECT_FALSE(proof.tau);
 }
 
-TEST(RigorousCheck, DisprovesWhereTheFloatingPointCheckFindsNothing) {
+TEST(RigorousCheck, DisprovesBetweenThePointsThatAreLookedAt) {
   // The grid of the floating-point check has a point at π, where the condition holds, and two
   // around 3π, where it is violated on an interval of 5e-4 s between them.
   const double step = 2.0 * kPi / 40.5;
@@ -55,7 +55,10 @@ TEST(RigorousCheck, DisprovesWhereTheFloatingPointCheckFindsNothing) {
   const MatrixExpression expression = cosine() + 1.0 + 1e-8 * (2.0 * kPi - time_tau());
   const std::vector<Condition> conditions = {
       {"condition", expression, Condition::Range{low, high}}};
-  ASSERT_TRUE(all_hold(check(conditions, {})));
+  // It looks there again, since it can't enclose the condition.
+  const ConditionCheck in_floating_point = check(conditions, {}).front();
+  EXPECT_FALSE(in_floating_point.holds());
+  EXPECT_NEAR(*in_floating_point.tau, 3.0 * kPi, 3e-4);
 
   const ConditionProof proof = prove(conditions, {}).front();
   EXPECT_EQ(proof.status, ProofStatus::kDisproved) << proof.reason;
@@ -71,6 +74,44 @@ TEST(RigorousCheck, LeavesUndecidedWhatIsSingularAtAPoint) {
   ASSERT_TRUE(proof.tau);
   EXPECT_NEAR(*proof.tau, kPi, 1e-6);
   EXPECT_NE(proof.reason.find("too close to zero"), std::string::npos) << proof.reason;
+}
+
+TEST(RigorousCheck, SaysWhetherTheTimeOrTheMatrixIsToBlame) {
+  const std::vector<Condition> conditions = {
+      {"first", cosine() + 1.001, Condition::Range{0.0, 50.0}}, {"second", 1.0, std::nullopt}};
+  double share = 0.0;
+  ProofOptions options;
+  options.on_progress = [&](double done) {
+    EXPECT_GE(done, share);
+    share = done;
+  };
+  EXPECT_EQ(first_unproved(prove(conditions, {}, options)), "");
+  EXPECT_EQ(share, 1.0);
+
+  options.time_limit = 0.0;
+  options.on_progress = nullptr;
+  const std::vector<ConditionProof> proofs = prove(conditions, {}, options);
+  EXPECT_EQ(proofs[0].status, ProofStatus::kUndecided);
+  EXPECT_EQ(proofs[1].status, ProofStatus::kProved);
+  const std::string reason = first_unproved(proofs);
+  EXPECT_EQ(reason.rfind("first: ", 0), 0u) << reason;
+  EXPECT_NE(reason.find("time limit of 0 s"), std::string::npos) << reason;
+  EXPECT_EQ(reason.find("too close"), std::string::npos) << reason;
+}
+
+TEST(RigorousCheck, DoesNotDependOnUnits) {
+  // e^{A τ} of a fast and a slow mode, in units that are 1e12 apart.
+  const Eigen::MatrixXd D = Eigen::Vector2d(1e6, 1e-6).asDiagonal();
+  const Eigen::MatrixXd A = matrix(2, 2, {-1, 1, -100, -100});
+  const auto status = [&](const MatrixExpression& scale, double bound) {
+    const MatrixExpression flow = exponential(time_tau() * A);
+    const MatrixExpression F = bound * identity(2) - transpose(flow) * flow;
+    return prove_over(transpose(scale) * F * scale, 0.0, 1.0).status;
+  };
+  for (const double bound : {30.0, 0.5}) {
+    EXPECT_EQ(status(D, bound), status(identity(2), bound)) << bound;
+    EXPECT_NE(status(D, bound), ProofStatus::kUndecided) << bound;
+  }
 }
 
 TEST(RigorousCheck, LeavesUndecidedWhatIsSingularEverywhere) {
@@ -161,6 +202,20 @@ TEST(RigorousCheck, ProvesThePrintedMatrixOfSferlazza2019For1To3Seconds) {
   expect_proved(prove_theorem("sferlazza2019_theorem2", aircraft(1.0, 3.0), printed));
   // From samples 8.541 s apart the plant is not observable.
   EXPECT_TRUE(is_disproved(prove_theorem("sferlazza2019_theorem2", aircraft(8.5, 8.6), printed)));
+}
+
+TEST(RigorousCheck, ProvesAFastMotorOverLongTimes) {
+  // Flown back over 1 s, the speed grows by e^50.
+  const CertificateSubject motor =
+      linear_subject(matrix(2, 2, {0, 1, 0, -50}), matrix(1, 2, {1, 0}), 0.05, 1.0);
+  for (const auto& P : {matrix(2, 2, {1, 0, 0, 1}), matrix(2, 2, {1, 0.02, 0.02, 0.001})}) {
+    expect_proved(
+        prove_theorem("sferlazza2019_theorem2", motor, {{"P", P}, {"lambda", scalar_matrix(0.0)}}));
+  }
+  const NamedMatrices values = certified(
+      "ferrante2016_theorem1", motor, {{"L", matrix(2, 1, {1, 0})}, {"decay", scalar_matrix(0.0)}});
+  ASSERT_FALSE(values.empty());
+  expect_proved(prove_theorem("ferrante2016_theorem1", motor, values));
 }
 
 TEST(RigorousCheck, DisprovesThePrintedMatrixOfSferlazza2019For4To8Seconds) {

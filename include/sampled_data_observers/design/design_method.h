@@ -51,7 +51,7 @@ struct DesignProblem {
 struct DesignCandidate {
   /// All that the theorem names; empty where there is no design.
   NamedMatrices values;
-  /// Least eigenvalue of the theorem's own conditions: > 0 where they hold.
+  /// least_margin() of the theorem's own conditions: > 0 where they hold.
   double margin = 0.0;
   /// How good it is by the objective: the smaller the better.
   double cost = 0.0;

@@ -37,6 +37,8 @@ class LmiProgram {
   void require_positive(const std::string& name, const MatrixExpression& block);
   void require_negative(const std::string& name, const MatrixExpression& block);
   /// A condition of a theorem; where it depends on τ, one block at each of `points` values of it.
+  /// The domain of a number that is no variable here, or a variable by its square, is none: the
+  /// solver has no say in it.
   void require(const Condition& condition, std::size_t points);
   /// A condition of a theorem, at one value of τ [s].
   void require_at(const Condition& condition, double tau);

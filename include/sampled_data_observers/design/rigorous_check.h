@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,12 +20,20 @@ struct ConditionProof {
   /// Of a condition over τ: where it is violated, or where it could not be decided [s].
   std::optional<double> tau;
   /// Where disproved: vᵀ F v is certainly not larger than this for a vector v of norm 1, F being
-  /// the matrix that should be positive definite. Where undecided: its least eigenvalue, about.
+  /// the matrix that should be positive definite; of a domain, the number itself. Where undecided:
+  /// the least eigenvalue, about, of F scaled as by check().
   double value = 0.0;
   /// Intervals of τ that were looked at.
   std::size_t intervals = 0;
   /// Why it is undecided.
   std::string reason;
+};
+
+struct ProofOptions {
+  /// Of all conditions together [s]. What is not decided by then is undecided.
+  double time_limit = 60.0;
+  /// Called now and then with the share that is done, from 0 to 1; may be empty.
+  std::function<void(double)> on_progress;
 };
 
 /// Proves or disproves conditions, over all τ of their intervals and not on a grid, in ball
@@ -34,11 +43,16 @@ struct ConditionProof {
 /// all numbers of which it is the nearest double. Its decimal in a file is one of them, and the
 /// double that an observer computes with is another: a proof is about both.
 ///
-/// An interval of τ is proved by the Cholesky decomposition of an enclosure, or bisected. A
-/// condition is disproved by a τ and a vector. Undecided is one whose matrix is singular, or too
-/// close to it, at some τ.
+/// An interval of τ is proved by the Cholesky decomposition of an enclosure, scaled by a
+/// congruence, or bisected. A condition is disproved by a τ and a vector. Undecided is one whose
+/// matrix is singular, or too close to it, at some τ, or for which the time was not enough; its
+/// reason says which.
 /// @throws as evaluate()
 std::vector<ConditionProof> prove(const std::vector<Condition>& conditions,
-                                  const NamedMatrices& values);
+                                  const NamedMatrices& values, const ProofOptions& options = {});
+
+/// Of the first condition that is not proved, which one it is, where and why, in one line; empty
+/// where all are proved.
+std::string first_unproved(const std::vector<ConditionProof>& proofs);
 
 }  // namespace sampled_data_observers

@@ -77,7 +77,7 @@ class Algorithm1 : public DesignMethod {
       const Eigen::MatrixXd& P = solution.values.at("P");
       NamedMatrices values = scalars;
       values["P"] = P;
-      const std::optional<double> worst = worst_time(conditions, values, solution.margin);
+      const std::optional<double> worst = worst_time(conditions, values, times);
       const IntervalVerification proof =
           worst ? IntervalVerification{false, worst, 0}
                 : verify_between(A, complement, P, subject.T1, subject.T2);
@@ -104,7 +104,7 @@ class Algorithm1 : public DesignMethod {
     program.bound_above("P <= I", P, identity(subject.plant.states()));
     for (const Condition& condition : conditions) {
       if (!condition.tau) {
-        program.require_at(condition, 0.0);
+        program.require(condition, 1);
         continue;
       }
       for (const double tau : times) program.require_at(condition, tau);
@@ -115,12 +115,21 @@ class Algorithm1 : public DesignMethod {
   /// The time at which (21) is less than half as far inside as at those solved for (51); none where
   /// there is none.
   static std::optional<double> worst_time(const std::vector<Condition>& conditions,
-                                          const NamedMatrices& values, double margin) {
+                                          const NamedMatrices& values,
+                                          const std::vector<double>& times) {
+    std::vector<Condition> at_times;
+    for (Condition condition : conditions) {
+      if (!condition.tau) continue;
+      for (const double tau : times) {
+        condition.tau = Condition::Range{tau, tau};
+        at_times.push_back(condition);
+      }
+    }
     std::optional<double> worst;
-    double least = margin / 2.0;
+    double least = least_margin(check(at_times, values)) / 2.0;
     for (const ConditionCheck& check : check(conditions, values)) {
-      if (!check.tau || check.min_eigenvalue >= least) continue;
-      least = check.min_eigenvalue;
+      if (!check.tau || check.margin() >= least) continue;
+      least = check.margin();
       worst = check.tau;
     }
     return worst;

@@ -1,0 +1,136 @@
+// The domain of every number that a theorem speaks of is one of its conditions.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "paper_plants.h"
+#include "sampled_data_observers/design/rigorous_check.h"
+
+namespace sampled_data_observers::test {
+namespace {
+
+Eigen::MatrixXd two_by_two(double a, double b, double c, double d) {
+  Eigen::MatrixXd result(2, 2);
+  result << a, b, c, d;
+  return result;
+}
+
+/// A plant with outputs of all timings, jumps, modes, a disturbance and a Lipschitz flow, so far as
+/// the theorem allows.
+CertificateSubject subject_of(const Theorem& theorem) {
+  const Eigen::MatrixXd row = Eigen::MatrixXd::Identity(1, 2);
+  CertificateSubject subject = linear_subject(two_by_two(0, 1, -4, 0), row, 0.2, 0.4);
+  const auto is_of = [&](const char* name) { return theorem.name().rfind(name, 0) == 0; };
+  PlantMatrices& plant = subject.plant;
+  if (is_of("ferrante2019") || is_of("etienne2019")) {
+    plant.G = Eigen::MatrixXd::Identity(2, 1);
+    plant.S = row;
+    plant.lipschitz_constant = 0.1;
+    plant.vertices.emplace_back(Eigen::MatrixXd::Zero(2, 2));
+    plant.N = Eigen::MatrixXd::Identity(2, 1);
+    plant.C_p = row;
+  }
+  if (is_of("sferlazza2019_equation17")) plant.modes.front().C = Eigen::MatrixXd::Identity(2, 2);
+  if (is_of("bernard2022")) {
+    ModeMatrices& mode = plant.modes.front();
+    mode.label = 1;
+    mode.C.resize(0, 2);
+    mode.C_c = row;
+    mode.C_d = row;
+    mode.A_d = Eigen::MatrixXd::Identity(2, 2);
+    if (is_of("bernard2022_example7_1") || is_of("bernard2022_section7_3_2")) {
+      plant.modes.push_back(mode);
+      plant.modes.back().label = 2;
+    }
+  }
+  theorem.require_applicable(subject);
+  return subject;
+}
+
+std::vector<Condition> domains(const Theorem& theorem, const CertificateSubject& subject) {
+  std::vector<Condition> all = theorem.conditions(subject);
+  all.erase(std::remove_if(all.begin(), all.end(),
+                           [](const Condition& condition) { return !condition.is_domain(); }),
+            all.end());
+  return all;
+}
+
+bool has(const std::vector<ConditionProof>& proofs, ProofStatus status) {
+  return std::any_of(proofs.begin(), proofs.end(),
+                     [status](const ConditionProof& proof) { return proof.status == status; });
+}
+
+class TheoremDomainsTest : public ::testing::TestWithParam<const Theorem*> {
+ protected:
+  const Theorem& theorem_ = *GetParam();
+  const CertificateSubject subject_ = subject_of(theorem_);
+
+  std::vector<std::string> scalars() const {
+    std::vector<std::string> names;
+    for (const auto& shapes : {theorem_.gains(subject_), theorem_.multipliers(subject_),
+                               theorem_.parameters(subject_)}) {
+      for (const NamedShape& shape : shapes) {
+        if (shape.form == NamedShape::Form::kScalar) names.push_back(shape.name);
+      }
+    }
+    return names;
+  }
+};
+
+TEST_P(TheoremDomainsTest, AreConditionsForEachNumber) {
+  const std::vector<Condition> conditions = domains(theorem_, subject_);
+  NamedMatrices values;
+  for (const std::string& name : scalars()) values[name] = scalar_matrix(0.5);
+  EXPECT_TRUE(all_hold(check(conditions, values)))
+      << describe_violations(check(conditions, values));
+  EXPECT_EQ(first_unproved(prove(conditions, values)), "");
+  for (const std::string& name : scalars()) {
+    SCOPED_TRACE(name);
+    NamedMatrices negative = values;
+    negative[name] = scalar_matrix(-0.5);
+    EXPECT_FALSE(all_hold(check(conditions, negative)));
+    EXPECT_TRUE(has(prove(conditions, negative), ProofStatus::kDisproved));
+    negative[name] = scalar_matrix(std::nan(""));
+    EXPECT_FALSE(all_hold(check(conditions, negative)));
+    EXPECT_NE(first_unproved(prove(conditions, negative)), "");
+  }
+}
+
+TEST_P(TheoremDomainsTest, AreConditionsForTheTimes) {
+  NamedMatrices values;
+  for (const std::string& name : scalars()) values[name] = scalar_matrix(0.5);
+  for (const auto& [T1, T2] : {std::pair(-0.1, 0.4), std::pair(0.4, 0.2), std::pair(-0.4, -0.2)}) {
+    CertificateSubject broken = subject_;
+    broken.T1 = T1;
+    broken.T2 = T2;
+    const std::vector<Condition> conditions = domains(theorem_, broken);
+    EXPECT_FALSE(all_hold(check(conditions, values)));
+    EXPECT_TRUE(has(prove(conditions, values), ProofStatus::kDisproved));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, TheoremDomainsTest, ::testing::ValuesIn(theorems()),
+                         [](const auto& info) { return info.param->name(); });
+
+/// With a rate of −2 the conditions are about an error that is let grow by e^{2 t}, and hold
+/// without any correction.
+TEST(TheoremDomains, LetNoNegativeRateProveAnUnstableObserver) {
+  const Eigen::MatrixXd A = two_by_two(1, 0, 0, -1);
+  const CertificateSubject subject = linear_subject(A, Eigen::MatrixXd::Identity(1, 2), 0.1, 0.5);
+  const NamedMatrices values = {{"L", Eigen::MatrixXd::Zero(2, 1)},
+                                {"P", Eigen::MatrixXd::Identity(2, 2)},
+                                {"decay", scalar_matrix(-2.0)}};
+  const std::vector<Condition> conditions =
+      find_theorem("ferrante2016_theorem1")->conditions(subject);
+  EXPECT_EQ(describe_violations(check(conditions, values)), "decay >= 0 is violated by 2");
+  const std::vector<ConditionProof> proofs = prove(conditions, values);
+  EXPECT_TRUE(has(proofs, ProofStatus::kDisproved));
+  EXPECT_EQ(first_unproved(proofs), "decay >= 0: disproved, -2");
+}
+
+}  // namespace
+}  // namespace sampled_data_observers::test
