@@ -50,6 +50,13 @@ DesignConfig read_design_config(const std::vector<std::string>& files,
     config.parameters[name] = parameters.number(name);
   }
   section.finish();
+  ConfigSection assumptions = root.section_or_empty("error_assumptions");
+  const auto assumption = [&](const char* key) -> std::optional<double> {
+    if (!assumptions.has(key)) return std::nullopt;
+    return assumptions.number_in(key, 0.0, 1e50, std::nullopt);
+  };
+  config.noise = assumption("noise");
+  config.disturbance = assumption("disturbance");
   return config;
 }
 

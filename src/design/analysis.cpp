@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "sampled_data_observers/design/certify.h"
+#include "sampled_data_observers/design/final_error.h"
 #include "sampled_data_observers/design/request_error.h"
 
 namespace sampled_data_observers {
@@ -57,13 +58,21 @@ class GivenGains : public DesignMethod {
     std::vector<Objective> all = {Objective::kFeasible, Objective::kMaxT2};
     if (has_gamma(theorem_, subject)) all.insert(all.begin(), Objective::kMinGamma);
     if (!theorem_.decay_parameter().empty()) all.push_back(Objective::kMaxDecay);
+    if (has_final_error_level(theorem_)) all.push_back(Objective::kMinFinalError);
     return all;
   }
 
   DesignCandidate attempt(const CertificateSubject& subject, const Parameters& parameters,
                           Objective objective) const override {
     NamedMatrices fixed = gains_;
-    for (const auto& [name, value] : parameters) fixed[name] = scalar_matrix(value);
+    for (const NamedShape& shape : theorem_.parameters(subject)) {
+      const auto given = parameters.find(shape.name);
+      if (given != parameters.end()) fixed[shape.name] = scalar_matrix(given->second);
+    }
+    if (objective == Objective::kMinFinalError) {
+      return certify_final_error(theorem_, subject, fixed, FinalErrorNorm::kState,
+                                 final_error_assumptions(parameters));
+    }
     return certify_here(theorem_, subject, fixed, objective);
   }
 
@@ -85,6 +94,7 @@ bool is_as_good(const Design& analysis, const Design& design, const std::string&
     case Objective::kMaxDecay:
       return value(analysis, decay) >= value(design, decay);
     case Objective::kFeasible:
+    case Objective::kMinFinalError:
       break;
   }
   return false;
@@ -95,6 +105,8 @@ bool is_as_good(const Design& analysis, const Design& design, const std::string&
 std::vector<Objective> analysis_objectives(const Theorem& theorem,
                                            const CertificateSubject& subject) {
   std::vector<Objective> all = GivenGains(theorem, {}).objectives(subject);
+  // The final error needs assumptions on noise and disturbance.
+  all.erase(std::remove(all.begin(), all.end(), Objective::kMinFinalError), all.end());
   // A proof of a gain is one.
   if (all.front() == Objective::kMinGamma) {
     all.erase(std::find(all.begin(), all.end(), Objective::kFeasible));
@@ -111,9 +123,11 @@ Design analyze(const AnalysisProblem& problem, const SynthesisOptions& options) 
     throw RequestError(theorem.name() + " is not for this plant: " + fault.what());
   }
   for (const DesignParameter& parameter : method.parameters(problem.subject)) {
-    const bool is_found =
-        parameter.search || parameter.default_value || parameter.name == "gamma" ||
-        (problem.objective == Objective::kMaxDecay && parameter.name == theorem.decay_parameter());
+    const bool is_found = parameter.search || parameter.default_value ||
+                          parameter.name == "gamma" ||
+                          ((problem.objective == Objective::kMaxDecay ||
+                            problem.objective == Objective::kMinFinalError) &&
+                           parameter.name == theorem.decay_parameter());
     if (is_found || problem.given.count(parameter.name) > 0) continue;
     throw DesignError(theorem.name() + " needs a value of " + parameter.name + ": give --set " +
                       parameter.name + "=NUMBER");
@@ -123,10 +137,11 @@ Design analyze(const AnalysisProblem& problem, const SynthesisOptions& options) 
   search.given = problem.given;
   search.objective = problem.objective;
   search.accepts_less = true;
+  search.assumptions = problem.assumptions;
   Design found = search_design(method, search, options);
-  const bool has_any_gamma = problem.objective != Objective::kMinGamma &&
-                             has_gamma(theorem, problem.subject) &&
-                             problem.given.count("gamma") == 0;
+  const bool has_any_gamma =
+      problem.objective != Objective::kMinGamma && problem.objective != Objective::kMinFinalError &&
+      has_gamma(theorem, problem.subject) && problem.given.count("gamma") == 0;
   if (!has_any_gamma) return found;
   search.subject = found.certificate.subject;
   search.objective = Objective::kMinGamma;
@@ -143,6 +158,37 @@ Design analyze(const AnalysisProblem& problem, const SynthesisOptions& options) 
     // At the edge the proof at hand may be the only one.
   }
   return found;
+}
+
+Design prove_final_error(const Design& design, const ErrorAssumptions& assumptions,
+                         const SynthesisOptions& options) {
+  const Certificate& certificate = design.certificate;
+  const Theorem& theorem = *certificate.theorem;
+  if (!has_final_error_level(theorem)) return design;
+  AnalysisProblem problem;
+  problem.theorem = &theorem;
+  problem.subject = certificate.subject;
+  problem.objective = Objective::kMinFinalError;
+  problem.assumptions = assumptions;
+  for (const NamedShape& shape : theorem.gains(problem.subject)) {
+    problem.gains[shape.name] = certificate.values.at(shape.name);
+  }
+  const auto figure = [&](const Design& of) {
+    return final_error(theorem, problem.subject, of.certificate.values, assumptions);
+  };
+  Design best = design;
+  try {
+    const Design analysis = analyze(problem, options);
+    best.attempts += analysis.attempts;
+    best.seconds += analysis.seconds;
+    if (figure(analysis) < figure(design)) {
+      best.certificate = analysis.certificate;
+      best.margin = analysis.margin;
+    }
+  } catch (const DesignError&) {
+    // The proof at hand is the best.
+  }
+  return best;
 }
 
 Design prove_further(const Design& design, const SynthesisOptions& options) {

@@ -1,7 +1,11 @@
 #include "sampled_data_observers/design/certify.h"
 
 #include <algorithm>
+#include <functional>
+#include <limits>
 #include <utility>
+
+#include "sampled_data_observers/design/final_error.h"
 
 namespace sampled_data_observers {
 namespace {
@@ -22,7 +26,8 @@ struct FurtherTime {
 
 LmiProgram analysis_program(const Theorem& theorem, const CertificateSubject& subject,
                             const NamedMatrices& fixed, bool minimizes_gamma,
-                            const std::vector<FurtherTime>& further = {}) {
+                            const std::vector<FurtherTime>& further = {},
+                            bool bounds_multiples = true) {
   LmiProgram program;
   for (const auto& [name, value] : fixed) {
     if (!(minimizes_gamma && name == "gamma")) program.fix(name, value);
@@ -31,7 +36,7 @@ LmiProgram analysis_program(const Theorem& theorem, const CertificateSubject& su
     if (fixed.count(shape.name) > 0) continue;
     if (shape.form == NamedShape::Form::kSymmetric) {
       const MatrixExpression P = program.symmetric(shape.name, shape.rows);
-      if (theorem.is_homogeneous(subject)) {
+      if (bounds_multiples && theorem.is_homogeneous(subject)) {
         program.bound_above(shape.name + " <= I", P, identity(shape.rows));
       }
     } else {
@@ -47,6 +52,37 @@ LmiProgram analysis_program(const Theorem& theorem, const CertificateSubject& su
     program.require_at(conditions[time.condition], time.tau);
   }
   return program;
+}
+
+/// Looks for a proof with the multipliers of `program_for`, which is asked again with more values
+/// of τ until the conditions hold at those looked at.
+DesignCandidate certify_inside(
+    const Theorem& theorem, const CertificateSubject& subject, NamedMatrices all,
+    Objective objective, DesignCandidate candidate,
+    const std::function<LmiProgram(const std::vector<FurtherTime>&)>& program_for) {
+  std::vector<FurtherTime> further;
+  for (int round = 0; round < kMaxRounds; ++round) {
+    const LmiProgram program = program_for(further);
+    bool can_improve = program.scalar_variables() > 0;
+    if (can_improve) {
+      const LmiSolution inside = solve_with_csdp(program, SolverOptions());
+      candidate.solver = inside.solver;
+      if (inside.values.empty()) {
+        candidate.message = "the program of the proof " + why_unsolved(inside);
+        return candidate;
+      }
+      for (const auto& [name, value] : inside.values) all[name] = value;
+      can_improve = inside.satisfies_all();
+    }
+    const std::vector<ConditionCheck> checks = check(theorem.conditions(subject), all);
+    // What holds at the values of τ solved for may be violated between them.
+    const std::size_t before = further.size();
+    for (std::size_t i = 0; i < checks.size(); ++i) {
+      if (!checks[i].holds() && checks[i].tau) further.push_back({i, *checks[i].tau});
+    }
+    if (!can_improve || further.size() == before) break;
+  }
+  return judged(theorem, subject, std::move(all), objective, std::move(candidate));
 }
 
 }  // namespace
@@ -90,30 +126,50 @@ DesignCandidate certify_here(const Theorem& theorem, const CertificateSubject& s
     }
     all["gamma"] = (is_asked ? kGammaInflation : kUnaskedGammaInflation) * best.values.at("gamma");
   }
-  const NamedMatrices given = all;
-  std::vector<FurtherTime> further;
-  for (int round = 0; round < kMaxRounds; ++round) {
-    const LmiProgram program = analysis_program(theorem, subject, given, false, further);
-    bool can_improve = program.scalar_variables() > 0;
-    if (can_improve) {
-      const LmiSolution inside = solve_with_csdp(program, SolverOptions());
-      candidate.solver = inside.solver;
-      if (inside.values.empty()) {
-        candidate.message = "the program of the proof " + why_unsolved(inside);
-        return candidate;
-      }
-      for (const auto& [name, value] : inside.values) all[name] = value;
-      can_improve = inside.satisfies_all();
+  return certify_inside(theorem, subject, all, objective, std::move(candidate),
+                        [&](const std::vector<FurtherTime>& further) {
+                          return analysis_program(theorem, subject, all, false, further);
+                        });
+}
+
+DesignCandidate certify_final_error(const Theorem& theorem, const CertificateSubject& subject,
+                                    const NamedMatrices& fixed, FinalErrorNorm norm,
+                                    const ErrorAssumptions& assumptions) {
+  Parameters parameters = {{kNoise, assumptions.noise}, {kDisturbance, assumptions.disturbance}};
+  const auto program_for = [&](const std::vector<FurtherTime>& further) {
+    LmiProgram program = analysis_program(theorem, subject, fixed, false, further, false);
+    if (names(theorem.parameters(subject), "gamma") && fixed.count("gamma") == 0) {
+      program.squared("gamma");
     }
-    const std::vector<ConditionCheck> checks = check(theorem.conditions(subject), all);
-    // What holds at the values of τ solved for may be violated between them.
-    const std::size_t before = further.size();
-    for (std::size_t i = 0; i < checks.size(); ++i) {
-      if (!checks[i].holds() && checks[i].tau) further.push_back({i, *checks[i].tau});
+    minimize_final_error(program, theorem, subject, fixed, norm, parameters);
+    return program;
+  };
+  DesignCandidate candidate;
+  if (!has_final_error_level(theorem)) {
+    candidate = certify_here(theorem, subject, fixed, Objective::kMinGamma);
+    if (candidate.is_verified()) {
+      candidate.cost = final_error(theorem, subject, candidate.values, assumptions);
     }
-    if (!can_improve || further.size() == before) break;
+    return candidate;
   }
-  return judged(theorem, subject, std::move(all), objective, std::move(candidate));
+  const LmiSolution least = solve_with_csdp(program_for({}), SolverOptions());
+  candidate.solver = least.solver;
+  if (least.values.empty() || least.status == SolverStatus::kInfeasible) {
+    candidate.message = "the program of the proof " + why_unsolved(least);
+    return candidate;
+  }
+  parameters[kFinalErrorLevel] = kFinalErrorRoom * least.values.at(kFinalErrorLevel)(0, 0);
+  candidate = certify_inside(theorem, subject, fixed, Objective::kMinFinalError,
+                             std::move(candidate), program_for);
+  for (const char* name : {kFinalErrorLevel, "P2_level", "noise_level"}) {
+    candidate.values.erase(name);
+  }
+  if (!candidate.is_verified()) return candidate;
+  candidate.cost =
+      norm == FinalErrorNorm::kState
+          ? final_error(theorem, subject, candidate.values, assumptions)
+          : final_error_of_level(theorem, subject, fixed, parameters.at(kFinalErrorLevel));
+  return candidate;
 }
 
 }  // namespace sampled_data_observers

@@ -5,6 +5,7 @@
 
 #include "methods/methods.h"
 #include "sampled_data_observers/design/certify.h"
+#include "sampled_data_observers/design/final_error.h"
 
 namespace sampled_data_observers {
 
@@ -16,6 +17,8 @@ const char* to_string(Objective objective) {
       return "min-gamma";
     case Objective::kMaxT2:
       return "max-T2";
+    case Objective::kMinFinalError:
+      return "min-final-error";
     case Objective::kMaxDecay:
       break;
   }
@@ -25,8 +28,14 @@ const char* to_string(Objective objective) {
 DesignCandidate LmiDesignMethod::solve(const CertificateSubject& subject,
                                        const Parameters& parameters, Objective objective) const {
   DesignCandidate candidate;
-  const LmiSolution solution =
-      solve_with_csdp(program(subject, parameters, objective), SolverOptions());
+  LmiSolution solution = solve_with_csdp(program(subject, parameters, objective), SolverOptions());
+  const auto level = solution.values.find(kFinalErrorLevel);
+  if (objective == Objective::kMinFinalError && level != solution.values.end()) {
+    // Gains at the very edge could hardly be proved.
+    Parameters with_room = parameters;
+    with_room[kFinalErrorLevel] = kFinalErrorRoom * level->second(0, 0);
+    solution = solve_with_csdp(program(subject, with_room, objective), SolverOptions());
+  }
   candidate.solver = solution.solver;
   candidate.message = "the design's program " + why_unsolved(solution);
   if (solution.values.empty() || solution.status == SolverStatus::kInfeasible ||
@@ -64,6 +73,12 @@ DesignCandidate LmiDesignMethod::attempt(const CertificateSubject& subject,
   for (const NamedShape& shape : theorem().parameters(subject)) {
     const auto given = parameters.find(shape.name);
     if (given != parameters.end()) fixed[shape.name] = scalar_matrix(given->second);
+  }
+  if (objective == Objective::kMinFinalError) {
+    DesignCandidate least = certify_final_error(
+        theorem(), subject, fixed, FinalErrorNorm::kWeighted, final_error_assumptions(parameters));
+    least.solver = solved.solver;
+    return least;
   }
   DesignCandidate candidate = certify_here(theorem(), subject, fixed, objective);
   candidate.solver = solved.solver;

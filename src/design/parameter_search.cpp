@@ -9,9 +9,11 @@ namespace {
 
 constexpr int kRounds = 6;
 constexpr double kSmallChange = 1e-3;
+constexpr double kSmallChangeOfSmallCost = 3e-2;
 
 /// Points in each direction, so that a grid stays small in several.
-std::size_t points_per_range(std::size_t ranges) {
+std::size_t points_per_range(std::size_t ranges, SearchGoal goal) {
+  if (goal == SearchGoal::kSmallCost) return ranges <= 1 ? 9 : 5;
   if (ranges <= 1) return 13;
   return ranges == 2 ? 7 : 5;
 }
@@ -53,7 +55,7 @@ std::vector<Parameters> grid(const std::vector<NamedRange>& ranges, const std::v
 std::size_t search_parameters(const std::vector<NamedRange>& ranges, SearchGoal goal,
                               const BatchCost& cost) {
   if (ranges.empty()) return cost({{}}).size();
-  std::size_t points = points_per_range(ranges.size());
+  std::size_t points = points_per_range(ranges.size(), goal);
   std::vector<Box> whole;
   for (const NamedRange& named : ranges) {
     whole.push_back({scaled(named.range, named.range.low), scaled(named.range, named.range.high)});
@@ -78,11 +80,13 @@ std::size_t search_parameters(const std::vector<NamedRange>& ranges, SearchGoal 
       continue;
     }
     if (goal == SearchGoal::kAnySolution) break;
-    if (round > 0 && !(before - best_cost > kSmallChange * std::abs(best_cost)) &&
+    const double small_change =
+        goal == SearchGoal::kSmallCost ? kSmallChangeOfSmallCost : kSmallChange;
+    if (round > 0 && !(before - best_cost > small_change * std::abs(best_cost)) &&
         std::isfinite(before)) {
       break;
     }
-    points = points_per_range(ranges.size());
+    points = points_per_range(ranges.size(), goal);
     for (std::size_t r = 0; r < ranges.size(); ++r) {
       const double reach = (boxes[r].high - boxes[r].low) / static_cast<double>(points - 1);
       const double centre = best < choices.size()

@@ -11,6 +11,7 @@
 #include "methods/sampled_plant.h"
 #include "sampled_data_observers/design/analysis.h"
 #include "sampled_data_observers/design/attempts.h"
+#include "sampled_data_observers/design/final_error.h"
 #include "sampled_data_observers/design/parameter_search.h"
 #include "sampled_data_observers/design/request_error.h"
 #include "sampled_data_observers/design/require_detectable.h"
@@ -73,7 +74,10 @@ class Synthesis {
     switch (problem_.objective) {
       case Objective::kFeasible:
       case Objective::kMinGamma:
-        search(problem_.subject, problem_.given, problem_.objective, SearchGoal::kLeastCost);
+      case Objective::kMinFinalError:
+        search(problem_.subject, problem_.given, problem_.objective,
+               problem_.objective == Objective::kMinFinalError ? SearchGoal::kSmallCost
+                                                               : SearchGoal::kLeastCost);
         break;
       case Objective::kMaxT2:
         maximize(problem_.subject.T2, !problem_.accepts_less, "T2", [this](double T2) {
@@ -142,12 +146,20 @@ class Synthesis {
   /// Defaults are those of the problem as it was given, whatever is maximized.
   Choices choices_of(const CertificateSubject& subject, const Parameters& given) const {
     Choices choices;
+    const bool seeks_rate = problem_.objective == Objective::kMinFinalError;
+    if (seeks_rate) {
+      choices.fixed[kNoise] = problem_.assumptions.noise;
+      choices.fixed[kDisturbance] = problem_.assumptions.disturbance;
+    }
     const std::vector<DesignParameter> as_given = method_.parameters(problem_.subject);
     for (const DesignParameter& parameter : method_.parameters(subject)) {
       const auto own = given.find(parameter.name);
       const auto& default_value = parameter_named(as_given, parameter.name).default_value;
       if (own != given.end()) {
         choices.fixed[parameter.name] = own->second;
+      } else if (seeks_rate && parameter.name == method_.decay_parameter()) {
+        choices.open.push_back(
+            {parameter.name, final_error_rates(subject, problem_.assumptions)});
       } else if (parameter.search &&
                  (!default_value || problem_.searched.count(parameter.name) > 0)) {
         choices.open.push_back({parameter.name, *parameter.search});
@@ -342,7 +354,11 @@ Design search_design(const DesignMethod& method, const DesignProblem& problem,
 
 Design synthesize(const DesignMethod& method, const DesignProblem& problem,
                   const SynthesisOptions& options) {
-  return prove_further(search_design(method, problem, options), options);
+  const Design design = search_design(method, problem, options);
+  if (problem.objective == Objective::kMinFinalError) {
+    return prove_final_error(design, problem.assumptions, options);
+  }
+  return prove_further(design, options);
 }
 
 }  // namespace sampled_data_observers

@@ -9,6 +9,7 @@
 
 #include "commands.h"
 #include "gain_files.h"
+#include "run_time_report.h"
 #include "sampled_data_observers/config/certificate_config.h"
 #include "sampled_data_observers/config/design_config.h"
 #include "sampled_data_observers/config/named_values.h"
@@ -150,6 +151,13 @@ void analyze_command(const AnalyzeArguments& arguments, const std::string& comma
   if (arguments.objective.empty()) {
     objectives = analysis_objectives(*problem.theorem, problem.subject);
   }
+  if (objectives.front() == Objective::kMinFinalError) {
+    DesignProblem assumed;
+    assumed.subject = problem.subject;
+    assume({config.noise, config.disturbance}, assumed);
+    problem.subject = assumed.subject;
+    problem.assumptions = assumed.assumptions;
+  }
   SynthesisOptions options;
   options.jobs = arguments.jobs;
   options.time_limit = arguments.time_limit;
@@ -169,7 +177,10 @@ void analyze_command(const AnalyzeArguments& arguments, const std::string& comma
     }
   }
   if (!main) throw ExitStatus{kNoDesign};
-  print_figures(*main);
+  DesignProblem assumed;
+  assumed.subject = problem.subject;
+  assume({config.noise, config.disturbance}, assumed);
+  print_run_time_figures(*main, assumed.assumptions);
   if (arguments.output.empty()) return;
   save_gain_file(*main, files.front(), config.plant_hash, command_line, arguments.output);
   std::printf("written to %s\n", arguments.output.c_str());
@@ -198,7 +209,7 @@ void add_analyze(CLI::App& app, const std::string& command_line) {
   command
       ->add_option("--objective", arguments->objective,
                    "What to look for (default: all that have a meaning)")
-      ->check(CLI::IsMember({"feasible", "min-gamma", "max-T2", "max-decay"}));
+      ->check(CLI::IsMember({"feasible", "min-gamma", "max-T2", "max-decay", "min-final-error"}));
   command->add_option("-o,--output", arguments->output,
                       "Gain file to write, with the first of the proofs found");
   command->add_option("--T1", arguments->T1, "Instead of that of the gain file [s]")

@@ -56,7 +56,7 @@ void assign(const std::string& assignment, Parameters& parameters) {
 
 Objective objective_of(const std::string& name) {
   for (const Objective objective :
-       {Objective::kMinGamma, Objective::kMaxT2, Objective::kMaxDecay}) {
+       {Objective::kMinFinalError, Objective::kMinGamma, Objective::kMaxT2, Objective::kMaxDecay}) {
     if (name == to_string(objective)) return objective;
   }
   return Objective::kFeasible;
@@ -79,17 +79,6 @@ std::string save_gain_file(const Design& design, const std::string& plant_file,
   file.close();
   if (!file) throw std::runtime_error("cannot write " + output);
   return text.str();
-}
-
-void print_figures(const Design& design) {
-  const Certificate& certificate = design.certificate;
-  const std::vector<GuaranteedFigure> figures =
-      certificate.theorem->guaranteed_figures(certificate.subject, certificate.values);
-  if (figures.empty()) return;
-  std::printf("By the proof for %s:\n", to_string(design.objective));
-  for (const GuaranteedFigure& figure : figures) {
-    std::printf("  %s: %.6g\n", figure.meaning.c_str(), figure.value);
-  }
 }
 
 }  // namespace sampled_data_observers

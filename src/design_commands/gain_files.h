@@ -29,7 +29,4 @@ std::string save_gain_file(const Design& design, const std::string& plant_file,
                            const std::string& plant_hash, const std::string& command_line,
                            const std::string& output);
 
-/// Prints what follows from the proof of a design, such as the error that noise leaves in the end.
-void print_figures(const Design& design);
-
 }  // namespace sampled_data_observers

@@ -1,6 +1,8 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <vector>
@@ -8,8 +10,11 @@
 #include "commands.h"
 #include "cross_check.h"
 #include "gain_files.h"
+#include "run_time_report.h"
 #include "sampled_data_observers/certificate/matrix_functions.h"
 #include "sampled_data_observers/config/design_config.h"
+#include "sampled_data_observers/design/best_design.h"
+#include "sampled_data_observers/design/final_error.h"
 #include "sampled_data_observers/design/request_error.h"
 #include "sampled_data_observers/design/synthesis.h"
 #include "sampled_data_observers/design/workers.h"
@@ -22,7 +27,7 @@ namespace {
 struct SynthesizeArguments {
   std::vector<std::string> files;
   std::string method;
-  std::string objective = "feasible";
+  std::string objective;
   std::string output;
   double T1 = 0.0;
   double T2 = 0.0;
@@ -50,8 +55,7 @@ void note_gains_near_their_bound(const Design& design) {
   }
 }
 
-void synthesize_command(const SynthesizeArguments& arguments, const std::string& command_line) {
-  const DesignConfig config = read_design_config(arguments.files, load_plant_plugin);
+DesignProblem read_problem(const SynthesizeArguments& arguments, const DesignConfig& config) {
   DesignProblem problem;
   problem.subject = config.subject;
   if (arguments.T1 > 0.0) problem.subject.T1 = arguments.T1;
@@ -69,14 +73,86 @@ void synthesize_command(const SynthesizeArguments& arguments, const std::string&
   problem.given = config.parameters;
   for (const std::string& assignment : arguments.assignments) assign(assignment, problem.given);
   problem.searched.insert(arguments.searched.begin(), arguments.searched.end());
-  problem.objective = objective_of(arguments.objective);
+  return problem;
+}
+
+void print_outcomes(const std::vector<MethodOutcome>& outcomes) {
+  std::printf("  %-32s %s\n", "method", "bound on the final error");
+  for (const MethodOutcome& outcome : outcomes) {
+    if (outcome.design && std::isfinite(outcome.final_error)) {
+      std::printf("  %-32s %.6g\n", outcome.method.c_str(), outcome.final_error);
+    } else {
+      const std::string first_line = outcome.message.substr(0, outcome.message.find('\n'));
+      std::printf("  %-32s %s\n", outcome.method.c_str(),
+                  outcome.design ? "none" : first_line.c_str());
+    }
+  }
+}
+
+/// Tries all methods that apply, and says so.
+Design best_design(const DesignProblem& problem, const SynthesisOptions& options) {
+  const std::vector<const DesignMethod*> methods = methods_that_apply(problem);
+  if (methods.empty()) {
+    throw RequestError(std::string("no method serves the objective ") +
+                       to_string(problem.objective) + " for this plant: see --method");
+  }
+  const std::vector<MethodOutcome> outcomes = synthesize_by_all(methods, problem, options);
+  const MethodOutcome* best = best_of(outcomes);
+  if (best == nullptr) {
+    std::string text = "none of the methods that apply found a design";
+    for (const MethodOutcome& outcome : outcomes) text += "\n" + outcome.message;
+    throw DesignError(text);
+  }
+  print_outcomes(outcomes);
+  std::printf("taken: %s\n\n", best->method.c_str());
+  return *best->design;
+}
+
+/// min-final-error where a method serves it for the plant, else feasible.
+Objective default_objective(const DesignProblem& problem, const DesignMethod* method) {
+  DesignProblem least = problem;
+  least.objective = Objective::kMinFinalError;
+  if (method == nullptr) {
+    return methods_that_apply(least).empty() ? Objective::kFeasible : least.objective;
+  }
+  const auto objectives = method->objectives(problem.subject);
+  const bool serves =
+      std::find(objectives.begin(), objectives.end(), least.objective) != objectives.end();
+  return serves ? least.objective : Objective::kFeasible;
+}
+
+void synthesize_command(const SynthesizeArguments& arguments, const std::string& command_line) {
+  const DesignConfig config = read_design_config(arguments.files, load_plant_plugin);
+  const DesignMethod* method = find_design_method(arguments.method);
+  DesignProblem problem = read_problem(arguments, config);
+  DesignProblem assumed = problem;
+  DeclaredAssumptions declared = {config.noise, config.disturbance};
+  if (method != nullptr && !declared.disturbance && !bounds_disturbances(method->theorem())) {
+    declared.disturbance = 0.0;
+  }
+  assume(declared, assumed);
+  problem.assumptions = assumed.assumptions;
+  problem.objective = arguments.objective.empty() ? default_objective(assumed, method)
+                                                  : objective_of(arguments.objective);
+  if (problem.objective == Objective::kMinFinalError) {
+    assumed.objective = problem.objective;
+    problem = assumed;
+    print_assumptions(declared, problem);
+  } else if (arguments.objective.empty()) {
+    std::printf(
+        "Any gains whose proof is far from its edge (--objective feasible): %s is not for "
+        "%s.\n",
+        to_string(Objective::kMinFinalError),
+        method == nullptr ? "this plant" : method->name().c_str());
+  }
 
   SynthesisOptions options;
   options.jobs = arguments.jobs;
   options.time_limit = arguments.time_limit;
   Design design;
   try {
-    design = synthesize(*find_design_method(arguments.method), problem, options);
+    design =
+        method == nullptr ? best_design(problem, options) : synthesize(*method, problem, options);
   } catch (const RequestError&) {
     throw;
   } catch (const DesignError& error) {
@@ -88,10 +164,10 @@ void synthesize_command(const SynthesizeArguments& arguments, const std::string&
   std::printf("%s\nwritten to %s after %zu attempt%s in %.1f s\n", text.c_str(),
               arguments.output.c_str(), design.attempts, design.attempts == 1 ? "" : "s",
               design.seconds);
-  print_figures(design);
+  print_run_time_figures(design, problem.assumptions);
   note_gains_near_their_bound(design);
   if (!arguments.cross_check.empty()) {
-    cross_check(*find_design_method(arguments.method), design, arguments.time_limit);
+    cross_check(*find_design_method(design.method), design, arguments.time_limit);
   }
 }
 
@@ -101,7 +177,7 @@ void add_synthesize(CLI::App& app, const std::string& command_line) {
   CLI::App* command = app.add_subcommand("synthesize", "Find gains for a plant, with their proof");
   auto arguments = std::make_shared<SynthesizeArguments>();
   std::vector<std::string> methods;
-  std::string help = "How to design:";
+  std::string help = "How to design (default: by all that apply, of which the best is taken):";
   for (const DesignMethod* method : design_methods()) {
     methods.push_back(method->name());
     help += "\n  " + method->name() + ": " + method->summary();
@@ -109,12 +185,14 @@ void add_synthesize(CLI::App& app, const std::string& command_line) {
   command->add_option("plant", arguments->files, "Files with plant, sensors and design")
       ->required()
       ->type_name("PLANT");
-  command->add_option("--method", arguments->method, help)
-      ->required()
-      ->check(CLI::IsMember(methods));
+  command->add_option("--method", arguments->method, help)->check(CLI::IsMember(methods));
   command->add_option("-o,--output", arguments->output, "Gain file to write")->required();
-  command->add_option("--objective", arguments->objective, "What to look for")
-      ->check(CLI::IsMember({"feasible", "min-gamma", "max-T2", "max-decay"}));
+  command
+      ->add_option(
+          "--objective", arguments->objective,
+          "What to look for (default: min-final-error, or feasible where that is not for the "
+          "method)")
+      ->check(CLI::IsMember({"min-final-error", "feasible", "min-gamma", "max-T2", "max-decay"}));
   command->add_option("--T1", arguments->T1, "Instead of design/sampling/T1 [s]")
       ->check(number_above(0));
   command->add_option("--T2", arguments->T2, "Instead of design/sampling/T2 [s]")

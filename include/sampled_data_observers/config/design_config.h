@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,11 +18,14 @@ struct DesignConfig {
   /// The section design/parameters.
   std::map<std::string, double> parameters;
   std::string plant_hash;
+  /// Of the observer's section error_assumptions, where it says so.
+  std::optional<double> noise;
+  std::optional<double> disturbance;
 };
 
 /// Reads plant, sensors and the section `design` (sampling, N, C_p, parameters, and A and A_d, see
-/// StatedErrorMaps) of YAML files, and the observer's `sampling` where `design` has none; leaves
-/// the other sections alone.
+/// StatedErrorMaps) of YAML files, and the observer's `sampling` where `design` has none, and noise
+/// and disturbance of `error_assumptions`; leaves the other sections alone.
 /// @throws ConfigError for the first fault found.
 DesignConfig read_design_config(const std::vector<std::string>& files,
                                 const PlantPluginLoader& load_plugin);

@@ -13,6 +13,8 @@ struct AnalysisProblem {
   /// Parameters of the theorem that are fixed; the others are searched for.
   Parameters given;
   Objective objective = Objective::kFeasible;
+  /// For min-final-error.
+  ErrorAssumptions assumptions;
 };
 
 /// The objectives that have a meaning for a theorem and a plant, of which the first is its main
@@ -26,6 +28,11 @@ std::vector<Objective> analysis_objectives(const Theorem& theorem,
 /// @throws DesignError when the theorem is not about the plant, a parameter without range is not
 /// given, or no proof is found.
 Design analyze(const AnalysisProblem& problem, const SynthesisOptions& options);
+
+/// The design with the proof that gives the least bound on the final error of its gains; the design
+/// itself where the search finds no better one.
+Design prove_final_error(const Design& design, const ErrorAssumptions& assumptions,
+                         const SynthesisOptions& options);
 
 /// The design, or one with the same gains that analysis finds to be better by the objective.
 Design prove_further(const Design& design, const SynthesisOptions& options);

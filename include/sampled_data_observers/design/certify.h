@@ -1,6 +1,7 @@
 #pragma once
 
 #include "sampled_data_observers/design/design_method.h"
+#include "sampled_data_observers/design/final_error.h"
 
 namespace sampled_data_observers {
 
@@ -25,5 +26,11 @@ DesignCandidate judged(const Theorem& theorem, const CertificateSubject& subject
 /// To be called in a worker process.
 DesignCandidate certify_here(const Theorem& theorem, const CertificateSubject& subject,
                              const NamedMatrices& fixed, Objective objective);
+
+/// Proves given gains for the least bound on the final error (final_error.h) with everything else
+/// fixed: first the least level, then a proof as far inside as possible for a slightly larger one.
+DesignCandidate certify_final_error(const Theorem& theorem, const CertificateSubject& subject,
+                                    const NamedMatrices& fixed, FinalErrorNorm norm,
+                                    const ErrorAssumptions& assumptions);
 
 }  // namespace sampled_data_observers

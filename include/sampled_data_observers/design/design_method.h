@@ -22,7 +22,7 @@ class DesignError : public std::runtime_error {
 /// Scalars by name, such as delta or lambda_t.
 using Parameters = std::map<std::string, double>;
 
-enum class Objective { kFeasible, kMinGamma, kMaxT2, kMaxDecay };
+enum class Objective { kFeasible, kMinGamma, kMaxT2, kMaxDecay, kMinFinalError };
 const char* to_string(Objective objective);
 
 /// A scalar of a method that is chosen before its inequalities are linear.
@@ -45,6 +45,8 @@ struct DesignProblem {
   /// Whether a largest T2 or rate less than the one given is an answer, which for new gains it is
   /// not.
   bool accepts_less = false;
+  /// What the final error of min-final-error is due to: noise and disturbance.
+  ErrorAssumptions assumptions;
 };
 
 /// Gains with the matrices that prove them; or why there are none.
@@ -97,7 +99,8 @@ class DesignMethod {
   /// The gains whose norms its parameter `gain_bound` limits.
   virtual std::vector<std::string> bounded_gains(const CertificateSubject&) const { return {}; }
 
-  /// Which objectives it can serve.
+  /// Which objectives it can serve. With min-final-error, attempt() finds the assumptions among the
+  /// parameters, by the names of kNoise and kDisturbance (final_error.h).
   virtual std::vector<Objective> objectives(const CertificateSubject& subject) const = 0;
 
   /// One attempt with all parameters chosen. Solves in the calling process, which is a worker.

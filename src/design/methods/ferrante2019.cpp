@@ -1,6 +1,7 @@
 #include "ferrante2019.h"
 
 #include "sampled_data_observers/certificate/matrix_functions.h"
+#include "sampled_data_observers/design/final_error.h"
 
 namespace sampled_data_observers {
 
@@ -19,7 +20,8 @@ std::vector<DesignParameter> ferrante2019_parameters(const CertificateSubject& s
 }
 
 std::vector<Objective> ferrante2019_objectives(const CertificateSubject& subject) {
-  std::vector<Objective> all = {Objective::kFeasible, Objective::kMaxT2, Objective::kMaxDecay};
+  std::vector<Objective> all = {Objective::kFeasible, Objective::kMaxT2, Objective::kMaxDecay,
+                                Objective::kMinFinalError};
   // Without C_p the gain is zero, however bad the design.
   if (subject.plant.N.cols() > 0 && subject.plant.C_p.rows() > 0) {
     all.push_back(Objective::kMinGamma);
@@ -34,7 +36,10 @@ bool keeps_gain_bound(const Eigen::MatrixXd& L, const Parameters& parameters) {
 PlantMatrices ferrante2019_plant(const CertificateSubject& subject, const Parameters& parameters,
                                  Objective objective) {
   PlantMatrices plant = subject.plant;
-  if (objective == Objective::kMinGamma || parameters.count("gamma") > 0) return plant;
+  if (objective == Objective::kMinGamma || objective == Objective::kMinFinalError ||
+      parameters.count("gamma") > 0) {
+    return plant;
+  }
   plant.N.resize(plant.states(), 0);
   plant.C_p.resize(0, plant.states());
   return plant;
@@ -48,6 +53,8 @@ void add_gamma(LmiProgram& program, const CertificateSubject& subject, const Par
     program.minimize(program.squared("gamma"));
   } else if (given != parameters.end()) {
     program.fix("gamma", scalar_matrix(given->second));
+  } else if (objective == Objective::kMinFinalError) {
+    program.squared("gamma");
   }
 }
 
@@ -60,7 +67,7 @@ LmiProgram ferrante2019_program(const CertificateSubject& subject, const Paramet
   program.require_positive("P1 > 0", P1);
   // Without gain, all multiples of a solution are one.
   const PlantMatrices plant = ferrante2019_plant(subject, parameters, objective);
-  if (plant.N.cols() == 0 && plant.C_p.rows() == 0) {
+  if (plant.N.cols() == 0 && plant.C_p.rows() == 0 && objective != Objective::kMinFinalError) {
     program.bound_above("P1 <= I", P1, identity(n));
   }
   program.require_positive("P2 > 0", program.symmetric("P2", m));
@@ -68,6 +75,9 @@ LmiProgram ferrante2019_program(const CertificateSubject& subject, const Paramet
   add_gamma(program, subject, parameters, objective);
   program.fix("delta", scalar_matrix(parameters.at("delta")));
   program.fix("lambda_t", scalar_matrix(parameters.at("lambda_t")));
+  if (objective == Objective::kMinFinalError) {
+    minimize_ferrante2019_level(program, subject, FinalErrorNorm::kWeighted, parameters);
+  }
   return program;
 }
 

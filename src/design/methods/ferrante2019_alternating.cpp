@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -37,7 +38,9 @@ class Alternating : public DesignMethod {
   }
   std::vector<std::string> bounded_gains(const CertificateSubject&) const override { return {"L"}; }
   std::vector<Objective> objectives(const CertificateSubject& subject) const override {
-    return ferrante2019_objectives(subject);
+    std::vector<Objective> all = ferrante2019_objectives(subject);
+    all.erase(std::remove(all.begin(), all.end(), Objective::kMinFinalError), all.end());
+    return all;
   }
 
   DesignCandidate attempt(const CertificateSubject& subject, const Parameters& parameters,

@@ -6,6 +6,7 @@
 #include "methods.h"
 #include "sampled_data_observers/certificate/matrix_functions.h"
 #include "sampled_data_observers/design/certify.h"
+#include "sampled_data_observers/design/final_error.h"
 #include "sampled_data_observers/design/sferlazza2019_verification.h"
 #include "sampled_plant.h"
 
@@ -34,7 +35,8 @@ class Algorithm1 : public DesignMethod {
   }
 
   std::vector<Objective> objectives(const CertificateSubject&) const override {
-    return {Objective::kFeasible, Objective::kMaxT2, Objective::kMaxDecay};
+    return {Objective::kFeasible, Objective::kMaxT2, Objective::kMaxDecay,
+            Objective::kMinFinalError};
   }
 
   DesignCandidate attempt(const CertificateSubject& subject, const Parameters& parameters,
@@ -85,6 +87,10 @@ class Algorithm1 : public DesignMethod {
         DesignCandidate found = certify_here(theorem(), subject, values, objective);
         found.solver = solution.solver + ", in " + std::to_string(iteration) +
                        (iteration == 1 ? " iteration" : " iterations");
+        if (objective == Objective::kMinFinalError && found.is_verified()) {
+          found.cost =
+              final_error(theorem(), subject, found.values, final_error_assumptions(parameters));
+        }
         return found;
       }
       times.push_back(*proof.stopped_at);

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sampled_data_observers/design/synthesis.h"
+
+namespace sampled_data_observers {
+
+/// What came of one of several methods.
+struct MethodOutcome {
+  std::string method;
+  std::optional<Design> design;
+  /// Of its bound at run time, under the problem's assumptions; infinite where it has none.
+  double final_error = 0.0;
+  /// Why there is no design.
+  std::string message;
+};
+
+/// The methods that are about the problem's plant and times, serve its objective, and give a bound
+/// under its assumptions. Of ferrante2019 only Proposition 2: the others find much the same, in
+/// several times its time.
+std::vector<const DesignMethod*> methods_that_apply(const DesignProblem& problem);
+
+/// Designs by each of these methods. Parameters that a method does not have are not given to it.
+std::vector<MethodOutcome> synthesize_by_all(const std::vector<const DesignMethod*>& methods,
+                                             const DesignProblem& problem,
+                                             const SynthesisOptions& options);
+
+/// The outcome with a design of least final error; null where there is no design.
+const MethodOutcome* best_of(const std::vector<MethodOutcome>& outcomes);
+
+}  // namespace sampled_data_observers

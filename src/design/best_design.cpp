@@ -1,0 +1,88 @@
+#include "sampled_data_observers/design/best_design.h"
+
+#include <algorithm>
+#include <iterator>
+#include <limits>
+#include <stdexcept>
+
+#include "sampled_data_observers/design/final_error.h"
+
+namespace sampled_data_observers {
+namespace {
+
+/// Of a method that is tried: they find much the same gains, in several times its time.
+constexpr const char* kVariants[] = {"ferrante2019_proposition3", "ferrante2019_proposition4",
+                                     "ferrante2019_proposition5", "ferrante2019_alternating"};
+
+bool applies(const DesignMethod& method, const DesignProblem& problem) {
+  try {
+    method.require_applicable(problem.subject);
+  } catch (const std::invalid_argument&) {
+    return false;
+  }
+  const auto objectives = method.objectives(problem.subject);
+  if (std::find(objectives.begin(), objectives.end(), problem.objective) == objectives.end()) {
+    return false;
+  }
+  return problem.objective != Objective::kMinFinalError || problem.assumptions.disturbance == 0.0 ||
+         bounds_disturbances(method.theorem());
+}
+
+/// Without the parameters that other methods have.
+DesignProblem problem_for(const DesignMethod& method, const DesignProblem& problem) {
+  DesignProblem own = problem;
+  own.given.clear();
+  own.searched.clear();
+  for (const DesignParameter& parameter : method.parameters(problem.subject)) {
+    const auto given = problem.given.find(parameter.name);
+    if (given != problem.given.end()) own.given.insert(*given);
+    if (problem.searched.count(parameter.name) > 0) own.searched.insert(parameter.name);
+  }
+  return own;
+}
+
+}  // namespace
+
+std::vector<const DesignMethod*> methods_that_apply(const DesignProblem& problem) {
+  std::vector<const DesignMethod*> all;
+  for (const DesignMethod* method : design_methods()) {
+    const bool is_variant = std::find(std::begin(kVariants), std::end(kVariants), method->name()) !=
+                            std::end(kVariants);
+    if (!is_variant && applies(*method, problem)) all.push_back(method);
+  }
+  return all;
+}
+
+std::vector<MethodOutcome> synthesize_by_all(const std::vector<const DesignMethod*>& methods,
+                                             const DesignProblem& problem,
+                                             const SynthesisOptions& options) {
+  std::vector<MethodOutcome> outcomes;
+  for (const DesignMethod* method : methods) {
+    MethodOutcome outcome;
+    outcome.method = method->name();
+    outcome.final_error = std::numeric_limits<double>::infinity();
+    try {
+      outcome.design = synthesize(*method, problem_for(*method, problem), options);
+      const Certificate& certificate = outcome.design->certificate;
+      if (has_bound_for(certificate, problem.assumptions)) {
+        outcome.final_error = final_error(*certificate.theorem, certificate.subject,
+                                          certificate.values, problem.assumptions);
+      }
+    } catch (const DesignError& error) {
+      outcome.message = error.what();
+    }
+    outcomes.push_back(std::move(outcome));
+  }
+  return outcomes;
+}
+
+const MethodOutcome* best_of(const std::vector<MethodOutcome>& outcomes) {
+  const MethodOutcome* best = nullptr;
+  for (const MethodOutcome& outcome : outcomes) {
+    if (!outcome.design) continue;
+    if (best == nullptr || outcome.final_error < best->final_error) best = &outcome;
+  }
+  return best;
+}
+
+}  // namespace sampled_data_observers

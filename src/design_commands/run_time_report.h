@@ -1,0 +1,15 @@
+#pragma once
+
+#include "sampled_data_observers/design/final_error.h"
+#include "sampled_data_observers/design/synthesis.h"
+
+namespace sampled_data_observers {
+
+/// Prints what a configuration without error_assumptions is designed for.
+void print_assumptions(const DeclaredAssumptions& declared, const DesignProblem& problem);
+
+/// Prints what the bound at run time does: in the end, from the start on, and how fast; with notes
+/// where that is of little use.
+void print_run_time_figures(const Design& design, const ErrorAssumptions& assumptions);
+
+}  // namespace sampled_data_observers
