@@ -15,7 +15,7 @@ namespace {
 
 using Kind = Condition::Kind;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 constexpr int kRefinementBits = 20;
 
@@ -65,7 +65,7 @@ double argmin(const Function& function, const std::vector<double>& grid) {
 }
 
 ConditionCheck not_finite(const Condition& condition, std::optional<double> tau) {
-  return {condition.name, condition.kind, -kInfinity, 0.0, tau};
+  return {condition.name, condition.kind, -kUnbounded, 0.0, tau};
 }
 
 /// A matrix scaled so that the absolute values on its diagonal are 1.
@@ -73,7 +73,7 @@ struct Scaled {
   Eigen::MatrixXd matrix;
   Eigen::VectorXd factors;
   /// By how much an eigenvalue may be wrong; not finite where nothing can be said.
-  double rounding = kInfinity;
+  double rounding = kUnbounded;
 
   Eigen::MatrixXd of(const Eigen::MatrixXd& a) const {
     return factors.asDiagonal() * ((a + a.transpose()) / 2.0) * factors.asDiagonal();
@@ -181,7 +181,7 @@ Condition not_negative(const std::string& name) {
 
 std::vector<Condition> domain_of_times(double T1, double T2) {
   std::vector<Condition> all = {domain("T1", " >= 0", T1, Kind::kNonNegative)};
-  if (T2 == kInfinity) return all;
+  if (T2 == kUnbounded) return all;
   all.push_back(domain("T2", " > 0", T2, Kind::kPositive));
   // The sign of a difference is never rounded.
   all.push_back(domain("T1", " <= T2", T2 - T1, Kind::kNonNegative));
@@ -202,7 +202,7 @@ double least_eigenvalue(const MatrixExpression& matrix, const NamedMatrices& val
                         Condition::Range range, std::size_t points) {
   const auto at = [&](double tau) {
     const double least = min_eigenvalue(evaluate(matrix, values, tau));
-    return std::isfinite(least) ? least : -kInfinity;
+    return std::isfinite(least) ? least : -kUnbounded;
   };
   return at(argmin(at, tau_grid(range.low, range.high, points)));
 }
@@ -232,7 +232,7 @@ std::string describe_violations(const std::vector<ConditionCheck>& checks) {
 }
 
 double least_margin(const std::vector<ConditionCheck>& checks) {
-  double least = kInfinity;
+  double least = kUnbounded;
   for (const ConditionCheck& check : checks) {
     if (check.kind != Kind::kDefinite && check.holds()) continue;
     least = std::min(least, check.margin());

@@ -15,7 +15,7 @@ constexpr double kMaxSteps = 1024.0;
 /// then.
 constexpr double kFineStep = 0.05;
 /// Of rounding.
-constexpr double kRounding = 1e-9;
+constexpr double kFlowRounding = 1e-9;
 /// Times ‖A‖ T and n: of the digits that the matrix exponential of a stiff A loses.
 constexpr double kStiffRounding = 1e-15;
 
@@ -37,7 +37,7 @@ ExponentialNorm::ExponentialNorm(const Eigen::MatrixXd& Y, const Eigen::MatrixXd
   const double norm_Y_squared = (from_weighed * squared).norm();
   const double norm_flow = norm2(flow);
   const double stiff = kStiffRounding * static_cast<double>(A.rows());
-  const double rounding = kRounding + stiff * norm_flow * T;
+  const double rounding = kFlowRounding + stiff * norm_flow * T;
   const double steps = std::clamp(std::ceil(norm_flow * T / kFineStep), kMinSteps, kMaxSteps);
   step_ = T / steps;
   const auto count = static_cast<std::size_t>(steps);

@@ -24,7 +24,7 @@ constexpr Eigen::Index kState = 1;
 constexpr double kLargest = 1e100;
 
 /// Of |x̂| and each state: rounding of the estimate.
-constexpr double kRounding = 64.0 * std::numeric_limits<double>::epsilon();
+constexpr double kFloor = 64.0 * std::numeric_limits<double>::epsilon();
 
 }  // namespace
 
@@ -167,7 +167,7 @@ double GuaranteedBound::error_bound(const double* state) const {
   double sum = 0.0;
   for (Eigen::Index i = 0; i < law().estimate_size(); ++i) sum += state[i] * state[i];
   return bound_of(now(state)) +
-         kRounding * static_cast<double>(law().estimate_size()) * std::sqrt(sum);
+         kFloor * static_cast<double>(law().estimate_size()) * std::sqrt(sum);
 }
 
 BoundLoss GuaranteedBound::bound_loss(const double* state) const {

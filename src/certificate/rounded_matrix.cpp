@@ -15,7 +15,7 @@ namespace {
 
 using Eigen::MatrixXd;
 
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+constexpr double kUnitRounding = std::numeric_limits<double>::epsilon();
 
 MatrixXd unknown(const MatrixXd& a) {
   return MatrixXd::Constant(a.rows(), a.cols(), std::numeric_limits<double>::infinity());
@@ -33,8 +33,8 @@ RoundedMatrix product_at_centre(const RoundedMatrix& a, const RoundedMatrix& b) 
   const MatrixXd size_a = a.value.cwiseAbs();
   const MatrixXd size_b = b.value.cwiseAbs();
   const auto terms = static_cast<double>(a.value.cols());
-  return {a.value * b.value, size_a * b.error + a.error * size_b + kEpsilon * (a.error * b.error) +
-                                 terms * (size_a * size_b)};
+  return {a.value * b.value, size_a * b.error + a.error * size_b +
+                                 kUnitRounding * (a.error * b.error) + terms * (size_a * size_b)};
 }
 
 /// From the residual R of A X = I + R: A⁻¹ = X (I + R)⁻¹.
@@ -42,12 +42,12 @@ RoundedMatrix inverse_at_centre(const RoundedMatrix& a) {
   const Eigen::Index n = a.value.rows();
   const MatrixXd X = inverse_of(a.value);
   const MatrixXd size = X.cwiseAbs();
-  const MatrixXd R = (a.value * X - MatrixXd::Identity(n, n)).cwiseAbs() / kEpsilon +
+  const MatrixXd R = (a.value * X - MatrixXd::Identity(n, n)).cwiseAbs() / kUnitRounding +
                      (static_cast<double>(n) * a.value.cwiseAbs() + a.error) * size;
   const double norm_of_R = R.colwise().sum().maxCoeff();
-  if (!(kEpsilon * norm_of_R < 0.5)) return {X, unknown(X)};
+  if (!(kUnitRounding * norm_of_R < 0.5)) return {X, unknown(X)};
   // |R|² + |R|³ + …, of which no entry is larger than the norm.
-  const double further = kEpsilon * norm_of_R * norm_of_R / (1.0 - kEpsilon * norm_of_R);
+  const double further = kUnitRounding * norm_of_R * norm_of_R / (1.0 - kUnitRounding * norm_of_R);
   return {X, size * (R + MatrixXd::Constant(n, n, further))};
 }
 
@@ -229,7 +229,7 @@ class RoundedAlgebra {
     RoundedMatrix result{s * a.value,
                          std::abs(s) * a.error +
                              (of_s + (is_exact ? 0.0 : std::abs(s))) * a.value.cwiseAbs() +
-                             (kEpsilon * of_s) * a.error};
+                             (kUnitRounding * of_s) * a.error};
     go_on(
         scalar, a, [](const auto& x, const auto& y) -> MatrixXd { return x(0, 0) * y; }, result);
     return result;

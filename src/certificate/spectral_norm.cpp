@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kSquarings = 10;
 /// Each squaring errs by some n² ε of the power's norm, of which the root takes 1/2, 1/4, …
-constexpr double kRounding = 1e-12;
+constexpr double kNormRounding = 1e-12;
 
 /// Divides by the Frobenius norm and returns it.
 double normalize(double* G, Eigen::Index size) {
@@ -55,7 +55,7 @@ double spectral_norm_bound(const double* M, Eigen::Index rows, Eigen::Index cols
     logarithm += share * std::log(normalize(square, cols * cols));
     std::swap(power, square);
   }
-  return largest * std::exp(logarithm / 2.0) * (1.0 + kRounding);
+  return largest * std::exp(logarithm / 2.0) * (1.0 + kNormRounding);
 }
 
 }  // namespace sampled_data_observers

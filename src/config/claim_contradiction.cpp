@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <locale>
 #include <random>
-#include <sstream>
 
+#include "number_text.h"
 #include "sampled_data_observers/plant/lipschitz_map.h"
 
 namespace sampled_data_observers {
@@ -30,23 +29,15 @@ const char kEverywhere[] =
     " (it is stated for all of them; where the states stay in a region, write the formula so that "
     "it holds everywhere, such as with min and max)";
 
-std::string shown(double value) {
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text.precision(9);
-  text << value;
-  return text.str();
-}
-
-std::string shown(const Vector& values) {
+std::string in_digits(const Vector& values) {
   std::string text = "[";
   for (Eigen::Index i = 0; i < values.size(); ++i) {
-    text += (i == 0 ? "" : ", ") + shown(values(i));
+    text += (i == 0 ? "" : ", ") + number_text(values(i), 9);
   }
   return text + "]";
 }
 
-std::string with_input(const Vector& u) { return u.size() == 0 ? "" : ", u = " + shown(u); }
+std::string with_input(const Vector& u) { return u.size() == 0 ? "" : ", u = " + in_digits(u); }
 
 /// Two points and an input.
 struct Pair {
@@ -101,10 +92,10 @@ std::optional<Contradiction> refute_constant(const LipschitzDescription& map, co
     if (!std::isfinite(change) || !refutes || change / distance <= largest) return false;
     largest = change / distance;
     found = Contradiction{"lipschitz_constant",
-                          "at least |psi(a) - psi(b)| / |a - b|, which is " + shown(largest) +
-                              " at a = " + shown(pair.a) + ", b = " + shown(pair.b) +
-                              with_input(pair.u) + kEverywhere,
-                          shown(constant)};
+                          "at least |psi(a) - psi(b)| / |a - b|, which is " +
+                              number_text(largest, 9) + " at a = " + in_digits(pair.a) +
+                              ", b = " + in_digits(pair.b) + with_input(pair.u) + kEverywhere,
+                          number_text(constant, 9)};
     return false;
   });
   return found;
@@ -148,11 +139,12 @@ std::optional<Contradiction> refute_vertices(const LipschitzDescription& map, co
                            kRounding * (map.G.norm() * (psi_a.norm() + psi_b.norm()) +
                                         slope * (pair.a.norm() + pair.b.norm()));
     if (!separating_direction(corners, d, blurred)) return false;
-    found = Contradiction{"vertices",
-                          "matrices Psi_i with G (psi(S x) - psi(S x^)) = " + shown(d) +
-                              " in the convex hull of all Psi_i (x - x^), at x = " + shown(pair.a) +
-                              ", x^ = " + shown(pair.b) + with_input(pair.u) + kEverywhere,
-                          std::to_string(map.vertices.size()) + " whose hull lacks it"};
+    found =
+        Contradiction{"vertices",
+                      "matrices Psi_i with G (psi(S x) - psi(S x^)) = " + in_digits(d) +
+                          " in the convex hull of all Psi_i (x - x^), at x = " + in_digits(pair.a) +
+                          ", x^ = " + in_digits(pair.b) + with_input(pair.u) + kEverywhere,
+                      std::to_string(map.vertices.size()) + " whose hull lacks it"};
     return true;
   });
   return found;
@@ -189,12 +181,12 @@ std::optional<Contradiction> refute_map(const Plant& plant, const VectorMap* map
     if (!off.allFinite() || !refutes) return false;
     found = Contradiction{key,
                           "the map of the error: " + letter + "(x) - " + letter + "(x^) = " +
-                              shown(Vector(at_x - at_other)) + " at x = " + shown(pair.a) +
-                              ", x^ = " + shown(pair.b) + with_input(pair.u) +
+                              in_digits(Vector(at_x - at_other)) + " at x = " + in_digits(pair.a) +
+                              ", x^ = " + in_digits(pair.b) + with_input(pair.u) +
                               (injections.empty() || key == "A_d"
                                    ? ""
                                    : ", with output_injection: " + in_words(plant, injections)),
-                          key + " (x - x^) = " + shown(Vector(stated * error))};
+                          key + " (x - x^) = " + in_digits(Vector(stated * error))};
     return true;
   });
   return found;

@@ -6,6 +6,8 @@
 #include <sstream>
 #include <utility>
 
+#include "number_text.h"
+
 namespace sampled_data_observers {
 namespace {
 
@@ -13,13 +15,6 @@ std::string joined(const std::vector<std::string>& words) {
   std::string text;
   for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
   return text;
-}
-
-std::string shown(double value) {
-  std::ostringstream out;
-  out.imbue(std::locale::classic());
-  out << value;
-  return out.str();
 }
 
 /// Whether the text is a decimal number, such as -1, 2.5, .5 or 1e-3. Leading zeros are refused:
@@ -118,7 +113,8 @@ double ConfigSection::number_in(const std::string& key, double low, double high,
   if (fallback && !has(key)) return *fallback;
   const double value = number(key);
   if (value < low || value > high) {
-    throw error(key, "a number from " + shown(low) + " to " + shown(high), shown(value));
+    throw error(key, "a number from " + number_text(low) + " to " + number_text(high),
+                number_text(value));
   }
   return value;
 }
@@ -127,7 +123,7 @@ std::size_t ConfigSection::count(const std::string& key, std::size_t low, std::s
                                  std::size_t fallback) {
   const double value = number_in(key, static_cast<double>(low), static_cast<double>(high),
                                  static_cast<double>(fallback));
-  if (value != std::floor(value)) throw error(key, "a whole number", shown(value));
+  if (value != std::floor(value)) throw error(key, "a whole number", number_text(value));
   return static_cast<std::size_t>(value);
 }
 

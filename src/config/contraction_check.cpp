@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <locale>
-#include <sstream>
 #include <vector>
 
+#include "number_text.h"
 #include "sampled_data_observers/certificate/matrix_functions.h"
 #include "sampled_data_observers/observer/plant_observer.h"
 
@@ -103,21 +102,13 @@ std::vector<Duration> grid(const SamplingBounds& sampling, int points) {
   return times;
 }
 
-std::string shown(double value) {
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text.precision(4);
-  text << value;
-  return text.str();
-}
-
 std::string describe(const std::vector<Duration>& times, double growth) {
-  std::string text = "with samples every " + shown(to_seconds(times.front())) + " s";
+  std::string text = "with samples every " + number_text(to_seconds(times.front()), 4) + " s";
   if (times.size() > 1) {
-    text = "with samples " + shown(to_seconds(times[0])) + " s and " + shown(to_seconds(times[1])) +
-           " s apart by turns";
+    text = "with samples " + number_text(to_seconds(times[0]), 4) + " s and " +
+           number_text(to_seconds(times[1]), 4) + " s apart by turns";
   }
-  return text + ", inside of [T1, T2], the error grows by the factor " + shown(growth) +
+  return text + ", inside of [T1, T2], the error grows by the factor " + number_text(growth, 4) +
          " from sample to sample: the estimate diverges; compare the signs and sizes of the gains "
          "with the observer's equations, and make gains with 'design synthesize'";
 }

@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <locale>
-#include <sstream>
 #include <vector>
 
+#include "number_text.h"
 #include "sampled_data_observers/certificate/matrix_functions.h"
 #include "sampled_data_observers/observer/plant_observer.h"
 #include "sampled_data_observers/plant/lipschitz_map.h"
@@ -139,14 +138,6 @@ double rounded_down(double value) {
   return std::floor(value / unit) * unit;
 }
 
-std::string shown(double value, int digits) {
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text.precision(digits);
-  text << value;
-  return text.str();
-}
-
 }  // namespace
 
 std::optional<ConfigError> objection_to_step(ConfigSection& root, const Plant& plant,
@@ -172,15 +163,16 @@ std::optional<ConfigError> objection_to_step(ConfigSection& root, const Plant& p
   const double longest = (is_certified ? kLongestCertifiedStep : kStableEverywhere) / rate;
   if (!(step > longest)) return std::nullopt;
   const std::string why =
-      is_certified ? ": the certificate is about the flow itself, and Runge-Kutta steps follow it "
-                     "where the step times its largest rate, " +
-                         shown(rate, 3) + " 1/s, is at most " + shown(kLongestCertifiedStep, 3) +
-                         "; or set allow_uncertified: true to run without guarantee"
-                   : ": Runge-Kutta steps let a mode of the rate " + shown(rate, 3) +
-                         " 1/s grow, which decays";
-  return root.section("plant").error("integration/step",
-                                     "at most " + shown(rounded_down(longest), 2) + " s" + why,
-                                     shown(step, 6) + " s");
+      is_certified
+          ? ": the certificate is about the flow itself, and Runge-Kutta steps follow it "
+            "where the step times its largest rate, " +
+                number_text(rate, 3) + " 1/s, is at most " + number_text(kLongestCertifiedStep, 3) +
+                "; or set allow_uncertified: true to run without guarantee"
+          : ": Runge-Kutta steps let a mode of the rate " + number_text(rate, 3) +
+                " 1/s grow, which decays";
+  return root.section("plant").error(
+      "integration/step", "at most " + number_text(rounded_down(longest), 2) + " s" + why,
+      number_text(step, 6) + " s");
 }
 
 }  // namespace sampled_data_observers

@@ -8,7 +8,7 @@ namespace sampled_data_observers {
 namespace {
 
 /// Times between events, of T1 to T2, at which pairs are looked at.
-constexpr int kTimes = 101;
+constexpr int kJumpTimes = 101;
 
 double spectral_abscissa(const Eigen::MatrixXd& A) { return modes_of(A).front().eigenvalue.real(); }
 
@@ -33,8 +33,8 @@ void say_output_at_jumps(ExplanationContext& c, const ModeMatrices& mode) {
   std::vector<double> undetectable;
   double least = std::numeric_limits<double>::infinity();
   double where = c.subject.T1;
-  for (int i = 0; i < kTimes; ++i) {
-    const double tau = c.subject.T1 + (c.subject.T2 - c.subject.T1) * i / (kTimes - 1);
+  for (int i = 0; i < kJumpTimes; ++i) {
+    const double tau = c.subject.T1 + (c.subject.T2 - c.subject.T1) * i / (kJumpTimes - 1);
     const DiscretePair pair = pair_at_jumps(mode.A, *mode.A_d, mode.C_d, tau);
     if (!is_detectable(pair.F, pair.H, TimeDomain::kDiscrete)) undetectable.push_back(tau);
     const double margin = detectability_margin(pair.F, pair.H, TimeDomain::kDiscrete);
@@ -45,14 +45,14 @@ void say_output_at_jumps(ExplanationContext& c, const ModeMatrices& mode) {
   }
   if (undetectable.empty()) {
     c.out.paragraph("Flow and jumps together, (A_d e^(A tau), C_d e^(A tau)): detectable at all " +
-                    std::to_string(kTimes) + " values of tau looked at in " + c.times() +
+                    std::to_string(kJumpTimes) + " values of tau looked at in " + c.times() +
                     (std::isfinite(least)
                          ? "; least margin " + brief(least) + ", at tau = " + seconds(where) + "."
                          : ", where everything decays by itself."));
     return;
   }
   c.out.paragraph("Flow and jumps together, (A_d e^(A tau), C_d e^(A tau)): NOT detectable at " +
-                  std::to_string(undetectable.size()) + " of " + std::to_string(kTimes) +
+                  std::to_string(undetectable.size()) + " of " + std::to_string(kJumpTimes) +
                   " values of tau looked at in " + c.times() +
                   ", such as tau = " + seconds(undetectable.front()) + ":");
   const DiscretePair pair = pair_at_jumps(mode.A, *mode.A_d, mode.C_d, undetectable.front());

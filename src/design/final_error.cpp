@@ -16,7 +16,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kDefaultHorizon = 10.0;
 /// Of the weight of the state that shows most: the least of any other.
 constexpr double kLeastWeight = 1e-3;
-constexpr std::size_t kTauPoints = 9;
+constexpr std::size_t kNoisePoints = 9;
 
 /// T1, or T2 where the times between samples have no lower bound.
 double least_interval(const CertificateSubject& subject) {
@@ -179,9 +179,9 @@ void minimize_ferrante2016_level(LmiProgram& program, const CertificateSubject& 
   const MatrixExpression P = symbol("P", n, n);
   program.bound_above("least P", least_P(subject, norm), P);
   const MatrixExpression level = program.scalar("noise_level");
-  for (std::size_t i = 0; i < kTauPoints; ++i) {
+  for (std::size_t i = 0; i < kNoisePoints; ++i) {
     const double tau = subject.T1 + (subject.T2 - subject.T1) * static_cast<double>(i) /
-                                        static_cast<double>(kTauPoints - 1);
+                                        static_cast<double>(kNoisePoints - 1);
     const MatrixExpression flown = Eigen::MatrixXd(exponential_of(subject.plant.A() * tau) * L);
     program.bound_above("noise", transpose(flown) * P * flown, level * identity(L.cols()));
   }

@@ -10,7 +10,8 @@
 
 namespace sampled_data_observers::test {
 
-/// A gain file of this repository with the plant that it names, as one configuration.
+/// A gain file of this repository with the plant that it names, as one configuration; where its
+/// claim is about stated maps, with the observer that injects the outputs on which these rest, too.
 class CertifiedGains {
  public:
   /// @param file  relative to the repository
@@ -20,7 +21,12 @@ class CertifiedGains {
     const std::string plant =
         ConfigSection(gains, "").section("certificate").section("plant").text("file");
     const auto folder = std::filesystem::path(path).parent_path();
-    tree_ = merge({gains, read_yaml_file((folder / plant).lexically_normal().string())});
+    std::vector<ConfigNode> trees = {gains,
+                                     read_yaml_file((folder / plant).lexically_normal().string())};
+    if (ConfigSection(gains, "").section("certificate").has("A")) {
+      trees.push_back(read_yaml_file((folder / "observer.yaml").string()));
+    }
+    tree_ = merge(trees);
   }
 
   /// Keys that replace or join those of the files.

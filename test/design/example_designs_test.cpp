@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "sampled_data_observers/config/certificate_config.h"
 #include "sampled_data_observers/config/design_config.h"
@@ -19,6 +21,12 @@ std::shared_ptr<const PlantPlugin> no_plugins(const std::string&) { return nullp
 struct Example {
   const char* plant;
   const char* method;
+
+  /// With the injection of outputs on which stated maps rest.
+  std::string observer_file() const {
+    const std::string path = std::string(SDO_SOURCE_DIR) + "/config/examples/" + plant;
+    return path.substr(0, path.rfind('/')) + "/observer.yaml";
+  }
 };
 void PrintTo(const Example& example, std::ostream* out) { *out << example.method; }
 
@@ -46,7 +54,9 @@ TEST_P(ExampleDesigns, GiveGainFilesWhoseClaimsHoldWhenRead) {
   for (const auto& [name, value] : design.certificate.values) {
     EXPECT_EQ(value, claim->certificate.values.at(name)) << name;
   }
-  EXPECT_NO_THROW(read_observer_config(merge({read_yaml_file(file), gains}), no_plugins));
+  std::vector<ConfigNode> trees = {read_yaml_file(file), gains};
+  if (config.subject.plant.stated.A) trees.push_back(read_yaml_file(GetParam().observer_file()));
+  EXPECT_NO_THROW(read_observer_config(merge(trees), no_plugins));
 }
 
 INSTANTIATE_TEST_SUITE_P(
