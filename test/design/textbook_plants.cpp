@@ -20,8 +20,9 @@ Eigen::MatrixXd matrix_of(const Rows& rows) {
 }
 
 TextbookPlant plant(std::string name, const Rows& A, const Rows& C, double T1, double T2,
-                    double noise, bool moves_little = false) {
-  return {std::move(name), linear_subject(matrix_of(A), matrix_of(C), T1, T2), noise, moves_little};
+                    double noise, bool is_held_better = false) {
+  return {std::move(name), linear_subject(matrix_of(A), matrix_of(C), T1, T2), noise,
+          is_held_better};
 }
 
 }  // namespace

@@ -14,9 +14,9 @@ struct TextbookPlant {
   std::string name;
   CertificateSubject subject;
   double noise = 0.0;
-  /// Whether its outputs move so little between samples, with the input of the test, that holding
-  /// the last one is better than what is best against the worst disturbance.
-  bool moves_little = false;
+  /// Where the outputs of the designed observer are further off than the last sample held, in the
+  /// runs of the test: known, and not yet understood.
+  bool is_held_better = false;
 };
 
 const std::vector<TextbookPlant>& textbook_plants();

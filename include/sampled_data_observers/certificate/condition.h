@@ -63,8 +63,8 @@ struct ConditionCheck {
 
 /// Checks conditions in floating point, with a bound on its own rounding; over τ on `points`
 /// equidistant values of the interval (where its ends are far apart, also on as many of equal
-/// ratio), refined between them, and enclosed between them by slope and curvature, on halves of
-/// halves where need be: nothing hides there.
+/// ratio), refined between them, and enclosed between them by slope and curvature, on up to 512
+/// cells; where these are used up, the points decide. Only prove() looks at all τ.
 /// @throws as evaluate()
 std::vector<ConditionCheck> check(const std::vector<Condition>& conditions,
                                   const NamedMatrices& values, std::size_t points = 65);
