@@ -158,7 +158,7 @@ ConditionCheck check_over_tau(const Condition& condition, const NamedMatrices& v
   const std::vector<double> grid = tau_grid(low, high, points);
   const double tau =
       argmin([&](double at) { return check_at(condition, values, at).margin(); }, grid);
-  const ConditionCheck least = check_at(condition, values, tau);
+  ConditionCheck least = check_at(condition, values, tau);
   if (!least.holds()) return least;
   const std::optional<double> between = violation_between(condition, values, grid);
   return between ? check_at(condition, values, *between) : least;

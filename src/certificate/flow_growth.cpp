@@ -43,7 +43,7 @@ Eigen::MatrixXd gramian(const Eigen::MatrixXd& B, double h) {
 FlowGrowth flow_growth(const Eigen::MatrixXd& A, double horizon) {
   const Eigen::Index n = A.rows();
   const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(n, n);
-  const FlowGrowth plain = in_norm(A, identity);
+  FlowGrowth plain = in_norm(A, identity);
   const double c = eigenvalues_of(A).real().maxCoeff() + kSlack / horizon;
   const Eigen::MatrixXd B = A - c * identity;
   const double size = B.norm();

@@ -6,12 +6,12 @@
 
 #include "sampled_data_observers/config/certificate_config.h"
 #include "sampled_data_observers/config/observer_config.h"
+#include "sampled_data_observers/config/plant_config.h"
 #include "sampled_data_observers/config/yaml_file.h"
 
 namespace sampled_data_observers::test {
 
-/// A gain file of this repository with the plant that it names, as one configuration; where its
-/// claim is about stated maps, with the observer that injects the outputs on which these rest, too.
+/// A gain file of this repository with the plant that it names, as one configuration.
 class CertifiedGains {
  public:
   /// @param file  relative to the repository
@@ -21,12 +21,7 @@ class CertifiedGains {
     const std::string plant =
         ConfigSection(gains, "").section("certificate").section("plant").text("file");
     const auto folder = std::filesystem::path(path).parent_path();
-    std::vector<ConfigNode> trees = {gains,
-                                     read_yaml_file((folder / plant).lexically_normal().string())};
-    if (ConfigSection(gains, "").section("certificate").has("A")) {
-      trees.push_back(read_yaml_file((folder / "observer.yaml").string()));
-    }
-    tree_ = merge(trees);
+    tree_ = merge({gains, read_yaml_file((folder / plant).lexically_normal().string())});
   }
 
   /// Keys that replace or join those of the files.
@@ -42,7 +37,7 @@ class CertifiedGains {
   ObserverConfig config() const { return read_observer_config(tree_, no_plant_plugins); }
   Certificate certificate() const {
     ConfigSection root(tree_, "");
-    return read_certificate(root, *config().plant)->certificate;
+    return read_certificate(root, *read_plant(root, no_plant_plugins).plant)->certificate;
   }
 
  private:
