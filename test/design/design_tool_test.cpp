@@ -79,14 +79,14 @@ class DesignTool : public testing::Test {
     return text;
   }
 
-  /// A gain file for a plant at rest, x' = 0 and y = x, of which M(0) is singular where δ = 2.25.
+  /// A gain file for x' = −x/8 and y = x, of which M(0) is singular where δ = 2.25.
   std::string write_scalar_claim(const std::string& delta) const {
     const std::string plant = write("scalar.yaml",
-                                    "plant: {states: [x], A: [[0]]}\n"
+                                    "plant: {states: [x], A: [[-0.125]]}\n"
                                     "sensors: {s: {C: [[1]], source: {topic: s}}}\n");
     const std::string claim =
         "observer: IntersampleInjectionObserver\n"
-        "gains: {L: [[1]], H: [[0]]}\n"
+        "gains: {L: [[1]], H: [[-0.125]]}\n"
         "certificate:\n"
         "  theorem: ferrante2019_theorem2\n"
         "  plant: {file: scalar.yaml, hash: HASH}\n"
@@ -95,7 +95,7 @@ class DesignTool : public testing::Test {
         "  delta: " +
         delta +
         "\n"
-        "  lambda_t: 0\n"
+        "  lambda_t: 0.125\n"
         "  P1: [[1]]\n"
         "  P2: [[0.5]]\n";
     // The tool tells the hash that it expects.

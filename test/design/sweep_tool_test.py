@@ -180,7 +180,8 @@ class ExplainTest(ToolTest):
 
     def test_says_which_methods_apply(self):
         text = self.explain()
-        self.assertIn("ferrante2019_proposition2 applies: feasible, max-T2, max-decay, min-gamma",
+        self.assertIn("ferrante2019_proposition2 applies: feasible, max-T2, max-decay, "
+                      "min-final-error, min-gamma",
                       text)
 
 

@@ -197,8 +197,9 @@ class CrazyflieTest(ReplayTestCase):
             heights = [(message.header.stamp.to_sec(), message.pose.position.z)
                        for _, message, _ in
                        recorded.read_messages("/vrpn_client_node/Drone1/pose")]
+        fell_below = next(stamp for stamp, height in heights if stamp - start > 20 and height < 0.15)
         impact = next(stamp for (stamp, height), (_, next_height) in zip(heights, heights[1:])
-                      if stamp - start > 23.7 and next_height > height)
+                      if stamp > fell_below and next_height > height)
         print("impact at %.4f s, detected at %.4f s" % (impact - start, jumps[0] - start))
         self.assertLess(abs(jumps[0] - impact), 0.02)
 

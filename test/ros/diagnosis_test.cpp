@@ -221,9 +221,10 @@ TEST_F(DiagnosisTest, IntervalsOutsideSuspendTheCertificateUntilTheyAreWithin) {
   window.channels[0].violations = {1, 0, 100'700'000'000, 100'700'000'000};
   update(window);
   expect(HealthLevel::kWarn, {"1 times", "[0.01 s, 0.5 s]"}, diagnosis_.channel(0));
-  expect(HealthLevel::kWarn,
-         {"suspended since 100.700 s", "samples of position of 2 s, above T2 = 0.5 s"},
-         diagnosis_.certificate());
+  expect(
+      HealthLevel::kWarn,
+      {"suspended since 100.700 s", "a time between events of position of 2 s, above T2 = 0.5 s"},
+      diagnosis_.certificate());
   update(good());
   expect(HealthLevel::kOk, {"restored at 102.000 s", "suspended since 100.700 s"},
          diagnosis_.certificate());
