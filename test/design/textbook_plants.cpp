@@ -52,7 +52,7 @@ const std::vector<TextbookPlant>& textbook_plants() {
       // Motor angle and speed, load angle and speed.
       plant("flexible_shaft",
             {{0, 1, 0, 0}, {-100, -0.5, 100, 0.5}, {0, 0, 0, 1}, {100, 0.5, -100, -0.5}},
-            {{1, 0, 0, 0}}, 0.01, 0.03, 0.001),
+            {{1, 0, 0, 0}}, 0.01, 0.03, 0.001, true),
       plant("mass_spring", {{0, 1}, {-1, 0}}, {{1, 0}}, 0.1, 0.5, 0.01),
       plant("ball_and_beam", {{0, 1, 0, 0}, {0, 0, -7, 0}, {0, 0, 0, 1}, {0, 0, 0, -1}},
             {{1, 0, 0, 0}, {0, 0, 1, 0}}, 0.02, 0.06, 0.002),

@@ -1,5 +1,5 @@
 // The bare command on plants of textbooks: its observer is better than an open-loop copy and, but
-// for six plants where it is known not to be, than holding the last sample; its bound holds and is
+// for seven plants where it is known not to be, than holding the last sample; its bound holds and is
 // of use.
 #include "textbook_plants.h"
 

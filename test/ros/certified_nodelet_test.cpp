@@ -82,17 +82,21 @@ TEST_F(CertifiedNodeletTest, PublishesTheBoundWhileTheAssumptionsHold) {
   ASSERT_TRUE(test::spin_until([&] {
     return !estimates.empty() && estimates.back().header.stamp > last + ros::Duration(0.5);
   }));
-  std::size_t finite = 0;
+  std::size_t in_time = 0;
+  double at_T2 = 0.0;
   for (const StateEstimate& estimate : estimates) {
     if (estimate.header.stamp < last + ros::Duration(0.19)) {
       EXPECT_GE(estimate.error_bound, 1.0) << estimate.header.stamp;
       EXPECT_LT(estimate.error_bound, 30.0) << estimate.header.stamp;
-      ++finite;
-    } else if (estimate.header.stamp > last + ros::Duration(0.21)) {
-      EXPECT_TRUE(std::isinf(estimate.error_bound)) << estimate.header.stamp;
+      at_T2 = estimate.error_bound;
+      ++in_time;
+    } else if (estimate.header.stamp > last + ros::Duration(0.3)) {
+      // Then the error may grow as the plant does, and the bound with it.
+      EXPECT_TRUE(std::isfinite(estimate.error_bound)) << estimate.header.stamp;
+      EXPECT_GT(estimate.error_bound, at_T2) << estimate.header.stamp;
     }
   }
-  EXPECT_GT(finite, 100u);
+  EXPECT_GT(in_time, 100u);
 }
 
 }  // namespace

@@ -25,8 +25,8 @@ class ObserverClient {
     position_ = handle_.advertise<Measurement>("position", 100);
     input_ = handle_.advertise<Input>("input", 100);
     jumps_ = handle_.advertise<JumpEvent>("jumps", 100);
-    estimate_subscriber_ = handle_.subscribe("estimate", 1000, &ObserverClient::on_estimate, this);
-    status_subscriber_ = handle_.subscribe("events", 1000, &ObserverClient::on_status, this);
+    estimate_subscriber_ = handle_.subscribe("estimate", 5000, &ObserverClient::on_estimate, this);
+    status_subscriber_ = handle_.subscribe("events", 5000, &ObserverClient::on_status, this);
     reset_ = handle_.serviceClient<Reset>("reset");
     get_estimate_ = handle_.serviceClient<GetEstimate>("get_estimate");
   }
