@@ -1,6 +1,6 @@
 // The bare command on plants of textbooks: its observer is better than an open-loop copy and, but
-// for seven plants where it is known not to be, than holding the last sample; its bound holds and is
-// of use.
+// for seven plants where it is known not to be, than holding the last sample; its bound holds and
+// is of use.
 #include "textbook_plants.h"
 
 #include <gtest/gtest.h>
