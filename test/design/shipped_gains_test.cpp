@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <ctime>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -44,9 +43,7 @@ class ShippedGainsTest : public ::testing::TestWithParam<std::string> {
 
 TEST_P(ShippedGainsTest, AreProved) {
   for (const Condition& condition : conditions_) {
-    const std::clock_t begin = std::clock();
-    EXPECT_EQ(first_unproved(prove({condition}, certificate_.values)), "");
-    EXPECT_LT(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC, 1.0) << condition.name;
+    EXPECT_EQ(first_unproved(prove({condition}, certificate_.values)), "") << condition.name;
   }
 }
 
