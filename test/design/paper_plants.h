@@ -65,6 +65,7 @@ inline Design design_by(const char* method, const CertificateSubject& subject,
   problem.given = given;
   problem.objective = objective;
   SynthesisOptions options;
+  options.time_limit = 300.0;  // under sanitizers an attempt takes long
   options.jobs = 2;
   return synthesize(*find_design_method(method), problem, options);
 }
