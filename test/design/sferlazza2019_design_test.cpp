@@ -10,6 +10,7 @@
 
 #include "paper_plants.h"
 #include "sampled_data_observers/certificate/matrix_functions.h"
+#include "sampled_data_observers/design/final_error.h"
 #include "sampled_data_observers/design/sferlazza2019_verification.h"
 #include "sampled_data_observers/observer/time_varying_gain.h"
 #include "support/allocation_counter.h"
@@ -329,6 +330,14 @@ TEST(Sferlazza2019Bound, CoversTheErrorAndFalls) {
   expect_bound_covers_error(0.0, 0.0);
   expect_bound_covers_error(0.3, 0.0);
   expect_bound_covers_error(0.0, 0.01);
+}
+
+TEST(Sferlazza2019, SaysNothingOfDisturbances) {
+  for (const DesignMethod* method : design_methods()) {
+    if (method->name().rfind("sferlazza2019", 0) != 0) continue;
+    EXPECT_FALSE(bounds_disturbances(method->theorem())) << method->name();
+  }
+  EXPECT_TRUE(bounds_disturbances(*find_theorem("ferrante2019_theorem2")));
 }
 
 }  // namespace
