@@ -29,19 +29,7 @@ class NumericAlgebra {
   Matrix inverse(const Matrix& a) { return inverse_of(a); }
   Matrix exponential(const Matrix& a) { return exponential_of(a); }
   Matrix blocks(const MatrixExpression::Node& node, const std::vector<const Matrix*>& operands) {
-    Matrix whole(node.rows, node.cols);
-    const std::size_t columns = operands.size() / node.block_rows;
-    Eigen::Index row = 0;
-    for (std::size_t i = 0; i < node.block_rows; ++i) {
-      Eigen::Index col = 0;
-      for (std::size_t j = 0; j < columns; ++j) {
-        const Matrix& block = *operands[i * columns + j];
-        whole.block(row, col, block.rows(), block.cols()) = block;
-        col += block.cols();
-      }
-      row += operands[i * columns]->rows();
-    }
-    return whole;
+    return joined_blocks(node, operands);
   }
 
  private:
@@ -68,6 +56,24 @@ const Eigen::MatrixXd& value_of(const MatrixExpression::Node& symbol, const Name
                                 " x " + std::to_string(symbol.cols));
   }
   return value;
+}
+
+Eigen::MatrixXd joined_blocks(const MatrixExpression::Node& node,
+                              const std::vector<const Eigen::MatrixXd*>& blocks) {
+  Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(node.rows, node.cols);
+  const std::size_t columns = blocks.size() / node.block_rows;
+  Eigen::Index row = 0;
+  for (std::size_t i = 0; i < node.block_rows; ++i) {
+    Eigen::Index col = 0;
+    for (std::size_t j = 0; j < columns; ++j) {
+      const MatrixExpression& operand = node.operands[i * columns + j];
+      const Eigen::MatrixXd& block = *blocks[i * columns + j];
+      if (block.size() > 0) whole.block(row, col, operand.rows(), operand.cols()) = block;
+      col += operand.cols();
+    }
+    row += node.operands[i * columns].rows();
+  }
+  return whole;
 }
 
 Eigen::MatrixXd evaluate(const MatrixExpression& expression, const NamedMatrices& values,

@@ -161,30 +161,17 @@ class RoundedAlgebra {
   }
 
   Matrix blocks(const MatrixExpression::Node& node, const std::vector<const Matrix*>& operands) {
-    RoundedMatrix whole{MatrixXd(node.rows, node.cols), MatrixXd(node.rows, node.cols)};
+    const auto join = [&](MatrixXd RoundedMatrix::*part) {
+      std::vector<const MatrixXd*> parts;
+      for (const Matrix* operand : operands) parts.push_back(&(operand->*part));
+      return joined_blocks(node, parts);
+    };
+    RoundedMatrix whole{join(&RoundedMatrix::value), join(&RoundedMatrix::error)};
     const bool changes = std::any_of(operands.begin(), operands.end(),
                                      [](const Matrix* a) { return !a->is_constant(); });
     if (changes) {
-      whole.slope = MatrixXd::Zero(node.rows, node.cols);
-      whole.curvature = MatrixXd::Zero(node.rows, node.cols);
-    }
-    const std::size_t columns = operands.size() / node.block_rows;
-    Eigen::Index row = 0;
-    for (std::size_t i = 0; i < node.block_rows; ++i) {
-      Eigen::Index col = 0;
-      for (std::size_t j = 0; j < columns; ++j) {
-        const Matrix& block = *operands[i * columns + j];
-        const Eigen::Index rows = block.value.rows();
-        const Eigen::Index cols = block.value.cols();
-        whole.value.block(row, col, rows, cols) = block.value;
-        whole.error.block(row, col, rows, cols) = block.error;
-        if (!block.is_constant()) {
-          whole.slope.block(row, col, rows, cols) = block.slope;
-          whole.curvature.block(row, col, rows, cols) = block.curvature;
-        }
-        col += cols;
-      }
-      row += operands[i * columns]->value.rows();
+      whole.slope = join(&RoundedMatrix::slope);
+      whole.curvature = join(&RoundedMatrix::curvature);
     }
     return {std::move(whole), std::nullopt};
   }

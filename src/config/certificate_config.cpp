@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "sampled_data_observers/certificate/proof_fingerprint.h"
 #include "sampled_data_observers/config/named_values.h"
 
 namespace sampled_data_observers {
@@ -67,6 +68,9 @@ std::optional<CertificateConfig> read_certificate(ConfigSection& root, const Pla
     if (!gains.has(key)) continue;
     throw gains.error(
         key, "no " + key + ", with which the gains are not those of " + theorem.name(), "a value");
+  }
+  if (section.has("proof_hash")) {
+    config.is_proved = section.text("proof_hash") == proof_fingerprint(certificate);
   }
   for (const char* remark : kRemarks) section.has(remark);
   section.finish();

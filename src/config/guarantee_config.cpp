@@ -217,7 +217,15 @@ Guarantee read_guarantee(ConfigSection& root, const ConfigNode& tree, const Obse
         "they become known: " +
         theorem.name() + " is about those that take effect when they happen (jumps/late: rewind)";
   } else if (!error) {
-    guarantee.text = statement(certificate);
+    guarantee.text =
+        statement(certificate) + (claim->is_proved ? "; proved in ball arithmetic"
+                                                   : "; checked in floating point, not proved");
+    if (!claim->is_proved) {
+      guarantee.remark =
+          claim->origin +
+          ": certificate: its conditions hold in floating point, but the file records no proof of "
+          "just these numbers: prove them with 'design verify GAINS --rigorous --record'";
+    }
   }
   if (error) guarantee.warning = std::string("no guarantee and no error bound: ") + error->what();
   if (!root.has("error_assumptions")) return guarantee;

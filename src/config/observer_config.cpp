@@ -120,6 +120,7 @@ ObserverConfig read_observer_config(const ConfigNode& tree, const PlantPluginLoa
   Guarantee guarantee = read_guarantee(root, tree, config, *bare_law);
   config.guarantee = std::move(guarantee.text);
   config.warning = std::move(guarantee.warning);
+  if (!guarantee.remark.empty()) config.warnings.push_back(std::move(guarantee.remark));
   if (config.guarantee.empty()) {
     const std::string found = find_divergence(*bare_law, plant, config.options.sampling);
     if (!found.empty()) config.warnings.push_back("gains: " + found);

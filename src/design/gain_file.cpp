@@ -2,7 +2,10 @@
 
 #include <ostream>
 #include <set>
+#include <sstream>
+#include <stdexcept>
 
+#include "sampled_data_observers/certificate/proof_fingerprint.h"
 #include "sampled_data_observers/design/csv.h"
 
 namespace sampled_data_observers {
@@ -43,6 +46,38 @@ void write_values(const std::vector<NamedShape>& shapes, const NamedMatrices& va
 
 }  // namespace
 
+std::string proof_record(const Certificate& certificate, std::size_t conditions) {
+  return "  proof: ball arithmetic, " + std::to_string(conditions) +
+         " conditions\n  proof_hash: " + proof_fingerprint(certificate) + "\n";
+}
+
+std::string with_proof_record(const std::string& text, const std::string& record) {
+  std::istringstream lines(text);
+  std::ostringstream out;
+  bool is_inside = false;
+  bool is_recorded = false;
+  for (std::string line; std::getline(lines, line);) {
+    const bool is_of_section = line.empty() || line.front() == ' ' || line.front() == '#';
+    if (is_inside && !is_of_section) is_inside = false;
+    const std::string key = line.substr(0, line.find(':'));
+    if (is_inside && (key == "  proof" || key == "  proof_hash")) continue;
+    out << line << '\n';
+    const std::size_t value = line.find_first_not_of(' ', key.size() + 1);
+    const bool has_value = value != std::string::npos && line[value] != '#';
+    if (key != "certificate" || key.size() == line.size() || has_value) continue;
+    is_inside = true;
+    is_recorded = true;
+    out << record;
+  }
+  if (!is_recorded) {
+    throw std::invalid_argument(
+        "expected a line 'certificate:' with the keys of the section below it, indented by two "
+        "spaces, found none; add these lines to that section by hand:\n" +
+        record);
+  }
+  return out.str();
+}
+
 void write_gain_file(const Design& design, const GainFileOrigin& origin, std::ostream& out) {
   const Certificate& certificate = design.certificate;
   const CertificateSubject& subject = certificate.subject;
@@ -71,8 +106,8 @@ void write_gain_file(const Design& design, const GainFileOrigin& origin, std::os
   write_values(theorem.multipliers(subject), certificate.values, out);
   out << "  margin: " << shortest_decimal(design.margin)
       << "  # least eigenvalue of the conditions, scaled, beyond its rounding\n"
-      << "  proof: ball arithmetic, " << design.proved_conditions << " conditions\n"
-      << "  method: " << design.method << '\n'
+      << proof_record(certificate, design.proved_conditions) << "  method: " << design.method
+      << '\n'
       << "  objective: " << to_string(design.objective)
       << (design.has_no_maximum ? "  # the search ended here: no largest value was found" : "")
       << '\n'

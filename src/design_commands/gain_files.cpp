@@ -69,15 +69,19 @@ GainFileOrigin origin_of(const std::string& output, const std::string& plant_fil
           today()};
 }
 
+void replace_file(const std::string& path, const std::string& text) {
+  std::ofstream file(path);
+  file << text;
+  file.close();
+  if (!file) throw std::runtime_error("cannot write " + path);
+}
+
 std::string save_gain_file(const Design& design, const std::string& plant_file,
                            const std::string& plant_hash, const std::string& command_line,
                            const std::string& output) {
   std::ostringstream text;
   write_gain_file(design, origin_of(output, plant_file, plant_hash, command_line), text);
-  std::ofstream file(output);
-  file << text.str();
-  file.close();
-  if (!file) throw std::runtime_error("cannot write " + output);
+  replace_file(output, text.str());
   return text.str();
 }
 

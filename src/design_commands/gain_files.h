@@ -22,6 +22,9 @@ Objective objective_of(const std::string& name);
 GainFileOrigin origin_of(const std::string& output, const std::string& plant_file,
                          const std::string& plant_hash, const std::string& command_line);
 
+/// @throws std::runtime_error where it can't be written
+void replace_file(const std::string& path, const std::string& text);
+
 /// Writes a gain file that names the plant's file as seen from its own folder.
 /// @throws std::runtime_error where it can't be written
 /// @return its text

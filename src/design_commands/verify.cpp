@@ -3,7 +3,11 @@
 #include <CLI/Formatter.hpp>
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 #include <memory>
+#include <sstream>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "commands.h"
@@ -13,6 +17,7 @@
 #include "sampled_data_observers/config/plant_config.h"
 #include "sampled_data_observers/config/plant_fingerprint.h"
 #include "sampled_data_observers/config/yaml_file.h"
+#include "sampled_data_observers/design/gain_file.h"
 #include "sampled_data_observers/design/rigorous_check.h"
 #include "sampled_data_observers/replay/progress_bar.h"
 #include "sampled_data_observers/ros/plant_plugins.h"
@@ -24,6 +29,7 @@ struct VerifyArguments {
   std::string gains;
   std::vector<std::string> plant;
   bool is_rigorous = false;
+  bool records = false;
   double time_limit = ProofOptions().time_limit;  // [s]
 };
 
@@ -67,7 +73,8 @@ void verify_in_floating_point(const Certificate& certificate) {
   if (!all_hold(checks)) throw ExitStatus{kNotVerified};
 }
 
-void verify_rigorously(const Certificate& certificate, double time_limit) {
+/// Returns the number of conditions, all of which are proved.
+std::size_t verify_rigorously(const Certificate& certificate, double time_limit) {
   const auto conditions = certificate.theorem->conditions(certificate.subject);
   std::vector<ConditionProof> proofs;
   {
@@ -104,6 +111,20 @@ void verify_rigorously(const Certificate& certificate, double time_limit) {
   }
   if (is_disproved) throw ExitStatus{kNotVerified};
   if (is_undecided) throw ExitStatus{kUndecided};
+  return proofs.size();
+}
+
+void record_proof(const std::string& file, const Certificate& certificate, std::size_t conditions) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  std::string recorded;
+  try {
+    recorded = with_proof_record(text.str(), proof_record(certificate, conditions));
+  } catch (const std::invalid_argument& fault) {
+    throw std::runtime_error(file + ": certificate: " + fault.what());
+  }
+  replace_file(file, recorded);
+  std::printf("recorded in %s\n", file.c_str());
 }
 
 void verify_command(const VerifyArguments& arguments) {
@@ -111,7 +132,8 @@ void verify_command(const VerifyArguments& arguments) {
   const Certificate& certificate = config.certificate;
   std::printf("%s\n", statement(certificate).c_str());
   if (arguments.is_rigorous) {
-    verify_rigorously(certificate, arguments.time_limit);
+    const std::size_t proved = verify_rigorously(certificate, arguments.time_limit);
+    if (arguments.records) record_proof(arguments.gains, certificate, proved);
   } else {
     verify_in_floating_point(certificate);
   }
@@ -128,9 +150,14 @@ void add_verify(CLI::App& app) {
       ->add_option("--plant", arguments->plant,
                    "Files with the plant, instead of the one that the gain file names")
       ->type_name("PLANT");
-  command->add_flag("--rigorous", arguments->is_rigorous,
-                    "Prove or disprove them in ball arithmetic, for all tau and for the decimals "
-                    "in the files, instead of a check in floating point");
+  CLI::Option* rigorous =
+      command->add_flag("--rigorous", arguments->is_rigorous,
+                        "Prove or disprove them in ball arithmetic, for all tau and for the "
+                        "decimals in the files, instead of a check in floating point");
+  command
+      ->add_flag("--record", arguments->records,
+                 "Write into the gain file that all is proved, as 'synthesize' does")
+      ->needs(rigorous);
   command
       ->add_option("--time-limit", arguments->time_limit,
                    "With --rigorous: what is not decided after this time [s] is undecided")

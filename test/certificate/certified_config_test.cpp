@@ -47,12 +47,28 @@ void expect_parts(const std::string& message, const std::vector<std::string>& pa
 TEST(CertifiedConfigTest, AcceptsWhatIsProvedAndBoundsTheErrorWhereAsked) {
   const ObserverConfig plain = CertifiedGains(kGains).config();
   expect_parts(plain.guarantee,
-               {"ferrante2019_theorem2: ", "(lambda_t = 0.3, gamma = 2.75, T2 = 0.2 s)"});
+               {"ferrante2019_theorem2: ", "(lambda_t = 0.3, gamma = 2.75, T2 = 0.2 s)",
+                "; proved in ball arithmetic"});
   EXPECT_EQ("", plain.warning);
+  EXPECT_TRUE(plain.warnings.empty());
   EXPECT_TRUE(std::isnan(initial_bound(plain)));
   const ObserverConfig bounded = CertifiedGains(kGains).assuming(kAssumptions).config();
   EXPECT_GT(initial_bound(bounded), 1.0);
   EXPECT_LT(initial_bound(bounded), 10.0);
+}
+
+TEST(CertifiedConfigTest, SaysProvedOnlyOfTheNumbersThatWere) {
+  // Each is inside of what holds, and another claim than the one that was proved.
+  for (const char* change :
+       {"gains: {H: [[-0.95264]]}", "certificate: {T1: 0.0101}", "certificate: {gamma: 2.76}",
+        "certificate: {P2: [[2.8203]]}", "certificate: {proof_hash: 0}"}) {
+    const ObserverConfig config = CertifiedGains(kGains).with(change).config();
+    expect_parts(config.guarantee, {"; checked in floating point, not proved"});
+    EXPECT_EQ("", config.warning) << change;
+    ASSERT_EQ(1u, config.warnings.size()) << change;
+    expect_parts(config.warnings.front(),
+                 {"ferrante2019_oscillator_0.2.yaml", "design verify GAINS --rigorous --record"});
+  }
 }
 
 TEST(CertifiedConfigTest, WithoutCertificateNothingIsGuaranteed) {

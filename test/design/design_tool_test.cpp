@@ -124,6 +124,32 @@ TEST_F(DesignTool, MakesAGainFileThatVerifiesAndProves) {
   EXPECT_TRUE(proved.says("proved    M(T2) <= 0"));
 }
 
+TEST_F(DesignTool, RecordsAProofInTheGainFile) {
+  ASSERT_EQ(synthesize(write("plant.yaml", oscillator())).status, 0);
+  const std::string made = read("gains.yaml");
+  const std::string key = "proof_hash: ";
+  const auto hash = [&](const std::string& text) {
+    const std::size_t at = text.find(key);
+    return at == std::string::npos ? "" : text.substr(at, key.size() + 36);
+  };
+  ASSERT_NE(hash(made), "");
+  std::string without = made;
+  without.erase(without.find(key), key.size() + 36);
+  write("gains.yaml", without);
+  EXPECT_EQ(run("verify --rigorous " + path("gains.yaml")).status, 0);
+  EXPECT_EQ(read("gains.yaml"), without);
+  const ToolRun recorded = run("verify --rigorous --record " + path("gains.yaml"));
+  EXPECT_EQ(recorded.status, 0) << recorded.output;
+  EXPECT_EQ(hash(read("gains.yaml")), hash(made));
+  // What is not proved is not recorded.
+  std::string wrong = without;
+  wrong.insert(wrong.find("L: [[") + 5, "-1");
+  write("gains.yaml", wrong);
+  EXPECT_EQ(run("verify --rigorous --record " + path("gains.yaml")).status, 2);
+  EXPECT_EQ(read("gains.yaml"), wrong);
+  EXPECT_NE(run("verify --record " + path("gains.yaml")).status, 0);
+}
+
 TEST_F(DesignTool, DisprovesAGainFileWithAnotherGain) {
   ASSERT_EQ(synthesize(write("plant.yaml", oscillator())).status, 0);
   std::string gains = read("gains.yaml");

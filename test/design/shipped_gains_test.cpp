@@ -47,6 +47,12 @@ TEST_P(ShippedGainsTest, AreProved) {
   }
 }
 
+TEST_P(ShippedGainsTest, RecordTheirProof) {
+  const ConfigNode tree = CertifiedGains(GetParam()).tree();
+  ConfigSection root(tree, "");
+  EXPECT_TRUE(read_certificate(root, *read_plant(root, no_plant_plugins).plant)->is_proved);
+}
+
 TEST_P(ShippedGainsTest, AreDisprovedWithANegativeNumber) {
   const Theorem& theorem = *certificate_.theorem;
   const CertificateSubject& subject = certificate_.subject;

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "sampled_data_observers/certificate/matrix_expression.h"
 
@@ -29,5 +30,10 @@ Eigen::MatrixXd evaluate(const MatrixExpression& expression, const NamedMatrices
 /// The value of a symbol, which must have the size that the expression gives it.
 /// @throws as evaluate()
 const Eigen::MatrixXd& value_of(const MatrixExpression::Node& symbol, const NamedMatrices& values);
+
+/// The matrix that a node of kind kBlocks is made of these, row by row; one without entries stands
+/// for zeros.
+Eigen::MatrixXd joined_blocks(const MatrixExpression::Node& node,
+                              const std::vector<const Eigen::MatrixXd*>& blocks);
 
 }  // namespace sampled_data_observers

@@ -16,6 +16,8 @@ struct CertificateConfig {
   std::string plant_file;
   std::string plant_hash;
   std::string origin;
+  /// Whether the file records a proof in ball arithmetic of just these numbers.
+  bool is_proved = false;
 };
 
 /// Reads the claim that `root` makes of its gains; nothing where it has no certificate. Does not

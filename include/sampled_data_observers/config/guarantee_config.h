@@ -16,6 +16,8 @@ struct Guarantee {
   std::string text;
   /// Why a certificate that does not hold was accepted; else empty.
   std::string warning;
+  /// That a certificate that holds is not known to be proved; else empty.
+  std::string remark;
   /// Null where the configuration asks for none.
   std::unique_ptr<const ErrorBound> bound;
   /// How long after their stamps inputs and jumps may come [ns].
