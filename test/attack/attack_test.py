@@ -17,6 +17,7 @@ import yaml  # noqa: E402
 from mpmath import mp, mpf  # noqa: E402
 
 from conditions import OverTimes  # noqa: E402
+from formulas import lipschitz_constant_is_refuted, vertices_are_refuted  # noqa: E402
 from high_precision import exponential, matrix, minus, norm_1  # noqa: E402
 from independent_check import judge  # noqa: E402
 
@@ -76,6 +77,24 @@ class MatrixTest(unittest.TestCase):
             condition = OverTimes("turning", -1, row, flow, state, [[mpf(limit)]], mpf("0.03"),
                                   mpf("0.12"))
             self.assertEqual(answer, condition.judge(SECONDS).answer, limit)
+
+
+class FormulaTest(unittest.TestCase):
+    def test_constants_that_formulas_refute(self):
+        for formula, constant, is_refuted in (
+                ("sin(v1)", 1, False), ("sin(v1)", 0.99, True), ("20 * sin(4 * v1)", 0.1, True),
+                ("20 * sin(4 * v1)", 80, False), ("v1^2", 100, True),
+                ("max(-1, min(1, 3 * v1))", 3, False), ("max(-1, min(1, 3 * v1))", 2.9, True)):
+            self.assertEqual(is_refuted, lipschitz_constant_is_refuted([formula], 1, constant),
+                             (formula, constant))
+
+    def test_vertices_that_formulas_refute(self):
+        G, S = [[0], [2]], [[1, 0]]
+        for most, is_refuted in ((2, False), (1.9, True)):
+            vertices = [[[0, 0], [sign * most, 0]] for sign in (1, -1)]
+            self.assertEqual(is_refuted, vertices_are_refuted(["sin(v1)"], G, S, vertices), most)
+        self.assertTrue(vertices_are_refuted(["sin(v1)"], [[0.1], [2]], S,
+                                             [[[0, 0], [2, 0]], [[0, 0], [-2, 0]]]))
 
 
 class ClaimTest(unittest.TestCase):

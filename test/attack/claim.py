@@ -47,6 +47,7 @@ class Claim:
     C_d: list = field(default_factory=list)
     G: list = None
     S: list = None
+    psi: list = None
     lipschitz: object = None
     vertices: list = field(default_factory=list)
     N: list = None
@@ -172,6 +173,7 @@ def read_claim(path, plant_path=None):
     if plant.get("G") is not None:
         claim.G = numbers(plant["G"]) + zeros(total - own, len(plant["G"][0]))
         claim.S = [row + [mpf(0)] * (total - own) for row in numbers(plant["S"])]
+        claim.psi = plant["psi"]
         claim.lipschitz = plant.get("lipschitz_constant")
         claim.vertices = [extended(numbers(rows), total)
                           for _, rows in sorted(plant.get("vertices", {}).items())]

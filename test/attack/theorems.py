@@ -5,6 +5,7 @@ from mpmath import mpf
 
 from claim import Unreadable
 from conditions import Contracts, Fixed, Number, OverTimes, Statement
+from formulas import lipschitz_constant_is_refuted, vertices_are_refuted
 from high_precision import (exponential, identity, inverse, minus, null_space, pivots_and_factor, plus,
                             product, products, solved, stacked, symmetrized, times, transposed, zeros)
 
@@ -401,10 +402,23 @@ OBSERVERS = {
 }
 
 
+def statements_of_formulas(claim):
+    """That no pair of points refutes what the file states of psi proves nothing of it."""
+    if claim.psi is None:
+        return
+    if claim.theorem.startswith("ferrante2019"):
+        yield Statement("no points refute lipschitz_constant", not lipschitz_constant_is_refuted(
+            claim.psi, len(claim.S), claim.lipschitz))
+    elif claim.vertices:
+        yield Statement("no point refutes vertices", not vertices_are_refuted(
+            claim.psi, claim.G, claim.S, claim.vertices))
+
+
 def conditions_of(claim):
     for theorem, observer in OBSERVERS.items():
         if theorem.__name__ == claim.theorem:
             yield Statement(f"gains of a {observer}", claim.observer == observer)
+            yield from statements_of_formulas(claim)
             yield from theorem(claim)
             return
     raise Unreadable(f"no theorem {claim.theorem} is known here")
