@@ -83,7 +83,47 @@ gains: {L: [[0.5], [0]]}
 )yaml"));
 }
 
-TEST(ContractionCheckTest, PlantsThatAreNotLinearOrJumpAreNotLookedAt) {
+const char kImpulsive[] = R"yaml(
+observer: SynchronizedObserver
+plant:
+  states: [x1, x2, x3]
+  A: [[0, 1, 0], [0, 0, 0], [0, 0, 0]]
+  jump_map: {A_d: [[1, 0, 0], [0, 1, 0], [1, 0, 0]]}
+sensors: {position: {C: [[1, 0, 0]], measured: at_jumps}}
+jumps: {topic: jumps}
+sampling: {T1: 2, T2: 5}
+gains: {L_d: [[1], [0.2], [1]]}
+)yaml";
+
+TEST(ContractionCheckTest, WrongSignsAreToldOfForJumpsToo) {
+  EXPECT_EQ("", warning(kImpulsive));
+  const std::string message = warning(replaced(kImpulsive, "[0.2]", "[-0.2]"));
+  // x2 is measured as tau x2 alone, and is left as (1 + 0.2 tau) x2.
+  EXPECT_NE(std::string::npos, message.find("gains: with jumps every 5 s, ")) << message;
+  EXPECT_NE(std::string::npos, message.find("by the factor 2 from jump to jump")) << message;
+}
+
+const char kSwitched[] = R"yaml(
+observer: SwitchedObserver
+plant:
+  states: [x1, x2]
+  modes:
+    1: {A: [[0, 1], [-1, 0]]}
+    7: {A: [[0, 0], [0, 0]]}
+sensors: {first: {C: [[1, 0]], measured: at_jumps}}
+jumps: {topic: jumps}
+sampling: {T1: 0.6, T2: 1.4}
+gains: {L_d: {1: [[1], [0.5]], 7: [[1], [0]]}}
+)yaml";
+
+TEST(ContractionCheckTest, WrongSignsAreToldOfForSwitchesToo) {
+  EXPECT_EQ("", warning(kSwitched));
+  const std::string message = warning(replaced(kSwitched, "[0.5]", "[-3]"));
+  EXPECT_NE(std::string::npos, message.find("gains: with jumps ")) << message;
+  EXPECT_NE(std::string::npos, message.find("(then mode 7)")) << message;
+}
+
+TEST(ContractionCheckTest, PlantsThatAreNotLinearAreNotLookedAt) {
   EXPECT_EQ("", warning(R"yaml(
 observer: ConstantGainObserver
 plant: {states: [x], flow: {x: "-sin(x)"}}
