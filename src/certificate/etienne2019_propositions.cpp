@@ -30,12 +30,14 @@ class IssBound : public ErrorBound {
   /// @param level  bound on γ |Γ|; 0 for Proposition 1, which is about Γ = 0
   IssBound(const CertificateSubject& subject, const NamedMatrices& values, double level,
            const ErrorAssumptions& assumptions)
-      : T2_(subject.T2), rate_(scalar_value(values, "alpha")) {
+      : T2_(subject.T2),
+        rate_(scalar_value(values, "alpha")),
+        initial_error_(assumptions.initial_error) {
     const Eigen::MatrixXd& P = values.at("P");
     const Eigen::MatrixXd& N = subject.plant.N;
     const Eigen::MatrixXd& L = values.at("L");
     final_ = raised(level * level / rate_);
-    initial_ = std::sqrt(largest_eigenvalue_above(P)) * assumptions.initial_error;
+    per_error_ = std::sqrt(largest_eigenvalue_above(P));
     least_ = least_eigenvalue_below(P);
     growth_ = -std::numeric_limits<double>::infinity();
     for (const Eigen::MatrixXd& flow : flow_vertices_of(subject.plant)) {
@@ -51,8 +53,9 @@ class IssBound : public ErrorBound {
 
   // √V, the time since the last sample [s], whether there was one, and √V just after it.
   Eigen::Index state_size() const override { return 4; }
-  void initialize(double* state) const override {
-    state[0] = initial_;
+  void initialize(double* state) const override { begin(initial_error_, state); }
+  void begin(double error, double* state) const override {
+    state[0] = per_error_ * error;
     state[1] = 0.0;
     state[2] = 0.0;
     state[3] = 0.0;
@@ -74,14 +77,18 @@ class IssBound : public ErrorBound {
     state[2] = 1.0;
     state[3] = state[0];
   }
-  void jump(double* state) const override { state[0] = std::numeric_limits<double>::infinity(); }
+  bool injects_between_samples() const override { return true; }
+  void jump(double, double* state) const override {
+    state[0] = std::numeric_limits<double>::infinity();
+  }
   double bound(const double* state) const override { return state[0] / std::sqrt(least_); }
 
  private:
   double T2_;
   double rate_;
   double final_ = 0.0;
-  double initial_ = 0.0;
+  double initial_error_;
+  double per_error_ = 0.0;
   double least_ = 0.0;
   double growth_ = 0.0;
   double push_ = 0.0;

@@ -26,7 +26,7 @@ class Theorem1Bound : public SampledErrorBound {
   Theorem1Bound(const CertificateSubject& subject, const ErrorAssumptions& assumptions,
                 const Eigen::MatrixXd& R, const Eigen::MatrixXd& kept, const Eigen::MatrixXd& L,
                 const FlowGrowth& growth)
-      : SampledErrorBound(subject, assumptions.initial_error),
+      : SampledErrorBound(subject, 1.0, assumptions.initial_error),
         noise_(assumptions.noise),
         first_growth_(unit(subject), subject.plant.A(), unit(subject), subject.T2, growth),
         first_weight_(R, subject.plant.A(), unit(subject), subject.T2, growth),

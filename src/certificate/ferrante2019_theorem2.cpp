@@ -55,49 +55,57 @@ class LyapunovErrorBound : public ErrorBound {
     }
     per_sample_ = V.omega_2 * assumptions.noise * assumptions.noise;
     least_ = V.alpha_1;
-    of_estimate_ = V.alpha_2 * assumptions.initial_error * assumptions.initial_error;
+    initial_error_ = assumptions.initial_error;
+    of_estimate_ = V.alpha_2;
     // θ̃ = C ε − θ at first, and √V is a norm of (ε, θ̃).
-    const double root = std::sqrt(initial_V(subject, values)) * assumptions.initial_error +
-                        std::sqrt(V.omega_2) * assumptions.initial_injection;
-    initial_ = root * root;
+    root_per_error_ = std::sqrt(initial_V(subject, values));
+    root_of_injection_ = std::sqrt(V.omega_2) * assumptions.initial_injection;
   }
 
-  // W, the time since the last sample [s], and whether nothing has happened yet.
+  // W, the time since the last sample [s], and, while nothing has happened yet, what of W is ε's.
   Eigen::Index state_size() const override { return 3; }
-  void initialize(double* state) const override {
-    state[0] = initial_;
+  void initialize(double* state) const override { begin(initial_error_, state); }
+  void begin(double error, double* state) const override {
+    const double root = root_per_error_ * error + root_of_injection_;
+    state[0] = root * root;
     state[1] = 0.0;
-    state[2] = 1.0;
+    state[2] = of_estimate_ * error * error;
   }
   void flow(double duration, double* state) const override {
     if (duration == 0.0) return;
     const double foreseen = std::min(duration, std::max(0.0, T2_ - state[1]));
     state[0] = final_ + (state[0] - final_) * std::exp(-rate_ * foreseen);
     state[1] += duration;
-    state[2] = 0.0;
+    state[2] = kHasFlowed;
     if (state[1] <= T2_) return;
     state[0] = flowed_linearly(state[0], late_growth_, push_, duration - foreseen);
   }
   void sample(double* state, double*) const override {
     // A sample sets θ̃ to −η: of V, only ε's part stays. How large that is, is known at first only.
-    const bool is_first_of_all = state[2] != 0.0;
-    state[0] = (is_first_of_all ? of_estimate_ : state[0]) + per_sample_;
+    state[0] = (state[2] != kHasFlowed ? state[2] : state[0]) + per_sample_;
     state[1] = 0.0;
-    state[2] = 0.0;
+    state[2] = kHasFlowed;
   }
-  void jump(double* state) const override { state[0] = std::numeric_limits<double>::infinity(); }
+  bool injects_between_samples() const override { return true; }
+  void jump(double, double* state) const override {
+    state[0] = std::numeric_limits<double>::infinity();
+  }
   double bound(const double* state) const override { return std::sqrt(state[0] / least_); }
 
  private:
+  static constexpr double kHasFlowed = -1.0;
+
   double T2_;
   double rate_;               // 2 λ
   double late_growth_;        // δ − 2 λ
   double push_ = 0.0;         // γ² |w|²
   double final_ = 0.0;        // of W, without noise
   double per_sample_ = 0.0;   // ω2 |η|²
-  double of_estimate_ = 0.0;  // εᵀ P1 ε at first
-  double initial_ = 0.0;      // V at first
-  double least_ = 0.0;        // λ_min(P1)
+  double of_estimate_ = 0.0;  // εᵀ P1 ε of |ε| = 1
+  double initial_error_ = 0.0;
+  double root_per_error_ = 0.0;     // √V at first, of |ε| = 1
+  double root_of_injection_ = 0.0;  // and of θ
+  double least_ = 0.0;              // λ_min(P1)
 };
 
 /// Theorem 2, and its corollaries for a rate only and for a gain only.

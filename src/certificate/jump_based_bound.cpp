@@ -1,7 +1,7 @@
 #include "jump_based_bound.h"
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "bound_flow.h"
 #include "outward.h"
@@ -30,13 +30,15 @@ class JumpBasedBound : public ErrorBound {
     const Eigen::MatrixXd A_d = jump_of(subject.plant.mode());
     uncorrected_ = raised(std::sqrt(largest_generalized_eigenvalue(A_d.transpose() * P * A_d, P)));
     noise_ = weighted_norm(L_d, P) * assumptions.noise;
-    initial_ = std::sqrt(largest_eigenvalue_above(P)) * assumptions.initial_error;
+    initial_error_ = assumptions.initial_error;
+    per_error_ = std::sqrt(largest_eigenvalue_above(P));
     least_ = std::sqrt(least_eigenvalue_below(P));
   }
 
   Eigen::Index state_size() const override { return kEntries; }
-  void initialize(double* state) const override {
-    state[kAfterJump] = initial_;
+  void initialize(double* state) const override { begin(initial_error_, state); }
+  void begin(double error, double* state) const override {
+    state[kAfterJump] = per_error_ * error;
     state[kCausedSince] = 0.0;
     state[kTau] = 0.0;
     state[kJumped] = 0.0;
@@ -45,42 +47,43 @@ class JumpBasedBound : public ErrorBound {
     state[kTau] += duration;
     state[kCausedSince] = flowed_linearly(state[kCausedSince], growth_, push_, duration);
   }
-  void jump(double* state) const override {
+  void jump(double moved, double* state) const override {
     const double tau = state[kTau];
-    const bool is_first = state[kJumped] == 0.0;
-    // A jump so soon is more likely one that was told twice.
-    if (!is_first && tau < T1_) lose(state);
-    if (!std::isinf(state[kAfterJump])) {
-      const bool is_foreseen = !is_first && tau <= T2_;
-      const double carried =
-          is_foreseen ? state[kAfterJump] * std::exp(contraction_.offset + contraction_.slope * tau)
-                      : reset_ * flowed_linearly(state[kAfterJump], growth_, 0.0, tau);
-      state[kAfterJump] = carried + reset_ * state[kCausedSince] + noise_;
-    }
-    begin_interval(state);
+    const bool is_foreseen = state[kJumped] != 0.0 && T1_ <= tau && tau <= T2_;
+    const double carried =
+        is_foreseen ? state[kAfterJump] * std::exp(contraction_.offset + contraction_.slope * tau)
+                    : reset_ * flowed_linearly(state[kAfterJump], growth_, 0.0, tau);
+    begin_interval(unless_told_twice(carried + reset_ * state[kCausedSince] + noise_, moved, state),
+                   state);
   }
-  void uncorrected_jump(double* state) const override {
-    if (state[kJumped] != 0.0 && state[kTau] < T1_) lose(state);
-    state[kAfterJump] =
-        uncorrected_ *
-        (flowed_linearly(state[kAfterJump], growth_, 0.0, state[kTau]) + state[kCausedSince]);
-    begin_interval(state);
+  void uncorrected_jump(double moved, double* state) const override {
+    begin_interval(unless_told_twice(uncorrected_ * before_jump(state), moved, state), state);
+  }
+  void refused_jump(double moved, double* state) const override {
+    const double before = before_jump(state);
+    begin_interval(std::max(before, uncorrected_ * before + per_error_ * moved), state);
   }
   void sample(double*, double*) const override {}
-  double bound(const double* state) const override {
-    const double carried = flowed_linearly(state[kAfterJump], growth_, 0.0, state[kTau]);
-    return (carried + state[kCausedSince]) / least_;
-  }
+  double bound(const double* state) const override { return before_jump(state) / least_; }
 
  private:
   enum Entry { kAfterJump, kCausedSince, kTau, kJumped, kEntries };
 
-  static void begin_interval(double* state) {
+  double before_jump(const double* state) const {
+    return flowed_linearly(state[kAfterJump], growth_, 0.0, state[kTau]) + state[kCausedSince];
+  }
+  /// A jump sooner after another than T1 is more likely one that was told twice: then x stayed
+  /// where it was, and only x̂ jumped.
+  double unless_told_twice(double after, double moved, const double* state) const {
+    if (state[kJumped] == 0.0 || state[kTau] >= T1_) return after;
+    return std::max(after, before_jump(state) + per_error_ * moved);
+  }
+  static void begin_interval(double after, double* state) {
+    state[kAfterJump] = after;
     state[kCausedSince] = 0.0;
     state[kTau] = 0.0;
     state[kJumped] = 1.0;
   }
-  static void lose(double* state) { state[kAfterJump] = std::numeric_limits<double>::infinity(); }
 
   double T1_;
   double T2_;
@@ -90,7 +93,8 @@ class JumpBasedBound : public ErrorBound {
   double reset_ = 0.0;        // ‖A_d − L_d H_d‖ in the norm of P
   double uncorrected_ = 0.0;  // ‖A_d‖ in it
   double noise_ = 0.0;
-  double initial_ = 0.0;
+  double initial_error_ = 0.0;
+  double per_error_ = 0.0;  // |e|_P of |e| = 1
   double least_ = 0.0;
 };
 

@@ -14,8 +14,10 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-void SampledErrorBound::initialize(double* state) const {
-  state[kLevel] = initial_level_;
+void SampledErrorBound::initialize(double* state) const { begin(initial_error_, state); }
+
+void SampledErrorBound::begin(double error, double* state) const {
+  state[kLevel] = level_per_error_ * error;
   state[kTau] = 0.0;
   state[kHasSampled] = 0.0;
 }
@@ -33,7 +35,7 @@ void SampledErrorBound::sample(double* state, double* workspace) const {
   state[kHasSampled] = 1.0;
 }
 
-void SampledErrorBound::jump(double* state) const { state[kLevel] = kInfinity; }
+void SampledErrorBound::jump(double, double* state) const { state[kLevel] = kInfinity; }
 
 double SampledErrorBound::bound(const double* state) const {
   if (state[kLevel] == kInfinity) return kInfinity;

@@ -32,7 +32,7 @@ class Theorem2Bound : public SampledErrorBound {
  public:
   Theorem2Bound(const CertificateSubject& subject, const ErrorAssumptions& assumptions,
                 const Eigen::MatrixXd& R, std::unique_ptr<const TimeVaryingGain> gain)
-      : SampledErrorBound(subject, raised(norm2(R)) * assumptions.initial_error),
+      : SampledErrorBound(subject, raised(norm2(R)), assumptions.initial_error),
         n_(R.rows()),
         m_(subject.plant.C().rows()),
         noise_(assumptions.noise),

@@ -165,22 +165,6 @@ ErrorAssumptions read_assumptions(ConfigSection& root, const CertificateSubject&
   return assumptions;
 }
 
-/// See GuaranteedBound: |C_i ε| + |η| must stay below π for each angle.
-double error_limit(const Plant& plant, double noise) {
-  double limit = std::numeric_limits<double>::infinity();
-  for (const PlantMode& mode : plant.modes()) {
-    for (std::size_t i = 0; i < plant.sensors().size(); ++i) {
-      const Sensor& sensor = plant.sensors()[i];
-      for (Eigen::Index output = 0; output < sensor.outputs(); ++output) {
-        if (!sensor.angular[static_cast<std::size_t>(output)]) continue;
-        const double weight = mode.outputs[i]->affine()->M().row(output).norm();
-        limit = std::min(limit, (std::acos(-1.0) - noise) / weight);
-      }
-    }
-  }
-  return limit;
-}
-
 /// Theorems are about the law itself, and about outputs that are there all the time where they are
 /// continuous.
 void require_bounded(ConfigSection& root, const ObserverConfig& config) {
@@ -243,7 +227,7 @@ Guarantee read_guarantee(ConfigSection& root, const ConfigNode& tree, const Obse
     throw root.error("error_assumptions", "a certificate of a theorem that gives a bound",
                      theorem.name());
   }
-  guarantee.error_limit = error_limit(*config.plant, assumptions.noise);
+  guarantee.noise = assumptions.noise;
   return guarantee;
 }
 

@@ -128,7 +128,7 @@ ObserverConfig read_observer_config(const ConfigNode& tree, const PlantPluginLoa
   config.options.latency = guarantee.latency;
   if (guarantee.bound) {
     config.law = std::make_shared<const GuaranteedBound>(config.law, std::move(guarantee.bound),
-                                                         guarantee.error_limit);
+                                                         config.plant, guarantee.noise);
   }
   // Around the error bound, which must not see what a gate keeps out.
   config.law = read_gates(root, plant, config.law);

@@ -7,17 +7,12 @@ const char* describe(BoundLoss loss) {
     case BoundLoss::kNone:
       return "it is finite";
     case BoundLoss::kNotVouched:
-      return "the estimate went on from one that nobody vouches for, after an overflow, a pause, "
-             "new "
-             "gains or a recovery by reset";
+      return "the estimate went on from one that nobody vouches for, after an overflow, without a "
+             "bound before new gains, or after a recovery by reset";
     case BoundLoss::kAngle:
       return "the innovation of an angle may have been wrapped";
-    case BoundLoss::kJumpTimes:
-      return "a jump came sooner after another than T1";
     case BoundLoss::kTooLarge:
       return "it grew too large";
-    case BoundLoss::kRefusedJump:
-      return "a jump was refused: jumps/min_separation or max_per_second";
     case BoundLoss::kUnknownInput:
       return "an input was rejected, so that the estimate rests on another one";
     case BoundLoss::kUnknownJump:

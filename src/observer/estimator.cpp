@@ -141,7 +141,7 @@ void Estimator::note_rejected(const Event& event, Stamp now) {
   if (stamp <= 0) return;
   if (event.kind == EventKind::kInput) {
     input_unknown_since_ = std::max(stamp, input_unknown_since_.value_or(stamp));
-  } else if (stamp <= timeline_.restarted_at().value_or(0)) {
+  } else if (stamp <= began_at_.value_or(0)) {
     return;  // Somebody vouches for what came after this jump.
   }
   insert_rejected(event.kind, stamp);
@@ -209,6 +209,7 @@ void Estimator::restart(Stamp stamp, Timeline::ConstStateRef estimate) {
 }
 
 void Estimator::begin(Stamp stamp) {
+  began_at_ = stamp;
   timeline_.restart(stamp, restart_state_);
   if (input_unknown_since_) insert_rejected(EventKind::kInput, stamp + 1);
   awaits_sample_ = false;
@@ -225,6 +226,7 @@ void Estimator::begin_at(const Event& sample) {
   const Stamp start = sample.stamp - 1;
   prepare_restart(*this, start);
   law_->fit_to(sample, restart_state_.data(), workspace_.data());
+  began_at_ = start;
   timeline_.rebase(start, restart_state_);
   if (input_unknown_since_) insert_rejected(EventKind::kInput, sample.stamp);
   awaits_sample_ = false;
@@ -233,21 +235,25 @@ void Estimator::begin_at(const Event& sample) {
 void Estimator::resume(Stamp stamp) {
   const Timeline::Query query = timeline_.state_at(stamp, restart_state_, before_restart_.counts);
   if (query != Timeline::Query::kOk && query != Timeline::Query::kHeld) return;
-  law_->hold(restart_state_.data());
   timeline_.restart(stamp, restart_state_);
 }
 
 void Estimator::take_over(Estimator& other, Stamp stamp) {
   awaits_sample_ = other.awaits_sample_;
+  input_unknown_since_ = other.input_unknown_since_;
+  began_at_ = other.began_at_;
   if (!prepare_restart(other, stamp)) return;
   law_->start_from(other.before_restart_.state.data(), restart_state_.data());
-  law_->hold(restart_state_.data());
+  const double* before = other.before_restart_.state.data();
+  law_->keep_bound({other.law_->error_bound(before), other.law_->bound_loss(before)},
+                   restart_state_.data());
   timeline_.restart(stamp, restart_state_);
 }
 
 void Estimator::clear() {
   timeline_.clear();
   input_unknown_since_.reset();
+  began_at_.reset();
   awaits_sample_ = false;
 }
 

@@ -139,10 +139,19 @@ EventReport ObserverRuntime::receive(const EventChannel& channel, const Event& e
     watch_innovation(event, report);
   } else {
     report.outcome = EventOutcome::kDisabled;
+    estimator_.note_rejected(event, now);
   }
+  report.came_after_bound = comes_after_bound(event, report);
   if (config_.publish_on_event && report.used()) event_waits_ = true;
   write(channel, event, report, now, status);
   return report;
+}
+
+/// The plant had it, whatever became of it here.
+bool ObserverRuntime::comes_after_bound(const Event& event, const EventReport& report) const {
+  const bool is_of_plant = event.kind == EventKind::kInput || event.kind == EventKind::kJump;
+  return is_of_plant && report.outcome != EventOutcome::kDuplicate && event.stamp > 0 &&
+         event.stamp <= bounded_until_;
 }
 
 /// A sample that a gate keeps out says as much of the estimate as one that is used.
@@ -161,9 +170,10 @@ EventReport ObserverRuntime::reject(const EventChannel& channel, const Event& ev
                                     EventOutcome outcome, const std::string& detail, Stamp now,
                                     EventStatus& status) {
   now_ = now;
-  if (is_enabled(channel)) estimator_.note_rejected(event, now);
+  estimator_.note_rejected(event, now);
   EventReport report;
   report.outcome = outcome;
+  report.came_after_bound = comes_after_bound(event, report);
   write(channel, event, report, now, status);
   if (!detail.empty()) status.reason.append(": ").append(detail);
   return report;
@@ -196,6 +206,9 @@ const Estimate* ObserverRuntime::next_due(Stamp now) {
   switch (estimator_.estimate_at(*stamp, estimate_)) {
     case Timeline::Query::kOk:
     case Timeline::Query::kHeld:
+      if (std::isfinite(bound(estimate_).value)) {
+        bounded_until_ = std::max(bounded_until_, *stamp);
+      }
       return &estimate_;
     default:
       return nullptr;
@@ -255,6 +268,7 @@ std::string ObserverRuntime::restart_at_next_sample(Stamp now) {
 
 void ObserverRuntime::start_anew(Stamp now) {
   estimator_.clear();
+  bounded_until_ = 0;
   forget_innovations();
   grid_.restart(now);
 }
@@ -283,6 +297,7 @@ std::string ObserverRuntime::enable_sensor(const std::string& name, bool enabled
 void ObserverRuntime::take_over(ObserverRuntime& other, Stamp now) {
   estimator_.take_over(other.estimator_, now);
   grid_ = other.grid_;
+  bounded_until_ = other.bounded_until_;
   enabled_ = other.enabled_;
   sensors_enabled_ = other.sensors_enabled_;
   event_waits_ = other.event_waits_;

@@ -31,11 +31,12 @@ constexpr double kRounding = 1e-11;
 /// corrects; infinite after `longest` seconds.
 class ExampleBound : public ErrorBound {
  public:
-  explicit ExampleBound(double longest = kInfinity, double rate = 1.0)
-      : longest_(longest), rate_(rate) {}
+  explicit ExampleBound(double longest = kInfinity, double rate = 1.0, bool injects = false)
+      : longest_(longest), rate_(rate), injects_(injects) {}
   Eigen::Index state_size() const override { return 2; }
-  void initialize(double* state) const override {
-    state[0] = 8.0;
+  void initialize(double* state) const override { begin(8.0, state); }
+  void begin(double error, double* state) const override {
+    state[0] = error;
     state[1] = 0.0;
   }
   void flow(double duration, double* state) const override {
@@ -44,24 +45,29 @@ class ExampleBound : public ErrorBound {
     if (duration > longest_) state[0] = kInfinity;
   }
   void sample(double* state, double*) const override { state[0] /= 2.0; }
-  void jump(double* state) const override { state[0] *= 2.0; }
-  void uncorrected_jump(double* state) const override { state[0] *= 3.0; }
+  bool injects_between_samples() const override { return injects_; }
+  void jump(double, double* state) const override { state[0] *= 2.0; }
+  void uncorrected_jump(double, double* state) const override { state[0] *= 3.0; }
+  void refused_jump(double moved, double* state) const override { state[0] += moved; }
   double bound(const double* state) const override { return state[0]; }
 
  private:
   double longest_;
   double rate_;
+  bool injects_;
 };
 
+/// @param law  of example_plant()
 std::shared_ptr<const GuaranteedBound> bounded(const std::shared_ptr<const ObserverLaw>& law,
-                                               double longest = kInfinity,
-                                               double error_limit = kInfinity) {
+                                               double longest = kInfinity) {
   return std::make_shared<const GuaranteedBound>(law, std::make_unique<ExampleBound>(longest),
-                                                 error_limit);
+                                                 example_plant(), 0.0);
 }
 
-std::shared_ptr<const GuaranteedBound> bounded_example(const std::string& type) {
-  return bounded(read_example(type).law);
+std::shared_ptr<const GuaranteedBound> bounded(const ObserverConfig& config,
+                                               double longest = kInfinity) {
+  return std::make_shared<const GuaranteedBound>(
+      config.law, std::make_unique<ExampleBound>(longest), config.plant, 0.0);
 }
 
 TEST(GuaranteedBoundTest, AGatedSampleDoesNotShortenItAndARecoveryByResetLosesIt) {
@@ -163,7 +169,7 @@ TEST(GuaranteedBoundTest, OnceLostItIsLostUntilTheNextStart) {
 
 TEST(GuaranteedBoundTest, TooLargeABoundIsNoneButTheEstimateGoesOn) {
   const auto law = std::make_shared<const GuaranteedBound>(
-      example_law(), std::make_unique<ExampleBound>(kInfinity, 1e101), kInfinity);
+      example_law(), std::make_unique<ExampleBound>(kInfinity, 1e101), example_plant(), 0.0);
   LawRunner runner(law);
   runner.flow(kSecond);
   EXPECT_EQ(kInfinity, law->error_bound(runner.state().data()));
@@ -182,7 +188,7 @@ initial_estimate: {p: 1}
 )",
                                                           "unstable.yaml"),
                                            no_plant_plugins);
-  const auto law = bounded(config.law);
+  const auto law = bounded(config);
   Estimator::Options options;
   options.history = {2000 * kSecond, 100};
   options.sampling = {1, kSecond};
@@ -202,7 +208,7 @@ initial_estimate: {p: 1}
 }
 
 TEST(GuaranteedBoundTest, GrowsAtAJumpWhoseOutputsDoNotCome) {
-  const auto law = bounded_example("synchronized");
+  const auto law = bounded(read_example("synchronized"));
   ASSERT_GE(law->event_size(EventKind::kJump, kMeasuredJump), 0);
   int sensor = 0;
   while (law->event_size(EventKind::kJumpOutput, sensor) < 0) ++sensor;
@@ -263,6 +269,7 @@ class BoundedRun {
     return bound.loss;
   }
   Estimator& estimator() { return estimator_; }
+  const Eigen::VectorXd& estimate() const { return estimate_.state; }
 
  private:
   Estimator estimator_;
@@ -331,13 +338,16 @@ TEST(GuaranteedBoundTest, IsLostByInputsAndJumpsThatComeTooLateButNotByJumpsBefo
   }
 }
 
-TEST(GuaranteedBoundTest, IsLostAfterAJumpThatIsRefused) {
+TEST(GuaranteedBoundTest, IsToldHowFarTheEstimateWouldHaveMovedAtAJumpThatIsRefused) {
   BoundedRun run(
       bounded(std::make_shared<const LimitedJumps>(example_law(), JumpLimits{kSecond, 100.0})));
   EXPECT_TRUE(run.submit(EventKind::kJump, 1.0, {}).used());
+  EXPECT_NEAR(16.5, run.at(1.5).value, kRounding);
+  // x+ - x = (0, -1.8 v + 0.1, 0)
+  const double moved = std::abs(-1.8 * run.estimate()(1) + 0.1);
   EXPECT_EQ(EventOutcome::kTooFrequent, run.submit(EventKind::kJump, 1.5, {}).outcome);
-  EXPECT_EQ(BoundLoss::kNone, run.loss_at(1.4));
-  EXPECT_EQ(BoundLoss::kRefusedJump, run.loss_at(1.5));
+  EXPECT_NEAR(16.5 + moved, run.at(1.5).value, 1e-9);
+  EXPECT_NEAR(17.5 + moved, run.at(2.5).value, 1e-9);
 }
 
 TEST(GuaranteedBoundTest, WaitsForWhatMayStillComeButNotForSamples) {
@@ -386,16 +396,24 @@ TEST(GuaranteedBoundTest, IntervalsOfJumpsAreToldAndCheckedWhereThereAreNoSample
   EXPECT_EQ(IntervalCheck::kShort, run.submit(EventKind::kJump, 10.0, {}).interval_check);
 }
 
-TEST(GuaranteedBoundTest, IsLostWhereAnAngleMayHaveBeenWrapped) {
-  const auto law = bounded(example_law(), kInfinity, 9.0);
-  LawRunner runner(law);
-  runner.flow(kSecond);
-  runner.sample(0, {0.0});
-  EXPECT_NEAR(4.5, law->error_bound(runner.state().data()), kRounding);
-  runner.flow(5 * kSecond);
-  EXPECT_NEAR(9.5, law->error_bound(runner.state().data()), kRounding);
-  runner.sample(0, {0.0});
-  EXPECT_EQ(kInfinity, law->error_bound(runner.state().data()));
+TEST(GuaranteedBoundTest, IsLostWhereAnAngleThatMayHaveTurnedOverIsInjectedUntilTheNextSample) {
+  for (const bool injects : {false, true}) {
+    const auto law = std::make_shared<const GuaranteedBound>(
+        example_law(), std::make_unique<ExampleBound>(kInfinity, 1.0, injects), example_plant(),
+        0.0);
+    LawRunner runner(law);
+    const Eigen::VectorXd before = runner.estimate();
+    runner.sample(1, {0.0, 0.0});
+    const double moved = (runner.estimate() - before).norm();
+    const double bound = law->error_bound(runner.state().data());
+    EXPECT_EQ(injects ? BoundLoss::kAngle : BoundLoss::kNone,
+              law->bound_loss(runner.state().data()));
+    if (injects) {
+      EXPECT_EQ(kInfinity, bound);
+    } else {
+      EXPECT_NEAR(8.0 + moved, bound, kRounding);
+    }
+  }
 }
 
 /// The bounds at many stamps.
@@ -420,8 +438,8 @@ bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
 std::vector<std::shared_ptr<const ObserverLaw>> bounded_laws() {
   std::vector<std::shared_ptr<const ObserverLaw>> laws;
   for (const std::string& type : type_examples()) {
-    const auto law = read_example(type).law;
-    if (!law->delays_jumps()) laws.push_back(bounded(law, 0.4));
+    const ObserverConfig config = read_example(type);
+    if (!config.law->delays_jumps()) laws.push_back(bounded(config, 0.4));
   }
   laws.push_back(CertifiedGains("test/certificate/ferrante2019_oscillator_0.2.yaml")
                      .assuming("{initial_error: 1, noise: 0.1, disturbance: 0.5}")

@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "certificate/certified_gains.h"
+#include "sampled_data_observers/config/plant_fingerprint.h"
 #include "sampled_data_observers/config/yaml_file.h"
 
 namespace sampled_data_observers {
@@ -142,6 +146,73 @@ TEST_F(LiveRuntimeTest, OtherGainsGoOnWhereTheOldOnesWere) {
   EXPECT_EQ(EventOutcome::kDisabled, receive(1, 1'150'000'000, 2.0));
   EXPECT_EQ(EventOutcome::kUsed, receive(0, 1'200'000'000, later + 1.0));
   EXPECT_NEAR(later + 0.5, position(1'200'000'000), 1e-12);
+}
+
+/// With a bound on its error: the oscillator's gain file, for a plant with an input.
+class BoundedRuntimeTest : public ::testing::Test {
+ protected:
+  static ObserverConfig config_with(const std::string& assumptions) {
+    test::CertifiedGains gains("test/certificate/ferrante2019_oscillator_0.2.yaml");
+    gains.with("{plant: {inputs: [u], B: [[0], [1]]}, rate: 100}");
+    gains.with("certificate: {plant: {hash: " + plant_fingerprint(gains.tree()) + "}}");
+    return gains.assuming(assumptions).config();
+  }
+  void make(const std::string& more) {
+    const ObserverConfig config =
+        config_with("{initial_error: 1, noise: 0, disturbance: 0" + more + "}");
+    channels_ = event_channels(config);
+    runtime_ = std::make_unique<ObserverRuntime>(config);
+  }
+  /// Channel 0 is the sensor, 1 the input.
+  EventReport receive(std::size_t channel, Stamp stamp, double value, Stamp now) {
+    const EventChannel& from = channels_[channel];
+    return runtime_->receive(from, {stamp, from.kind, from.channel, &value, 1}, now, status_);
+  }
+  PublishedBound last_due(Stamp now) {
+    PublishedBound bound;
+    while (const Estimate* estimate = runtime_->next_due(now)) bound = runtime_->bound(*estimate);
+    return bound;
+  }
+
+  std::vector<EventChannel> channels_;
+  std::unique_ptr<ObserverRuntime> runtime_;
+  EventStatus status_;
+};
+
+TEST_F(BoundedRuntimeTest, CountsWhatComesAfterABoundThatRestedOnItsAbsence) {
+  make("");
+  receive(1, 1'000'000'000, 0.0, 1'000'000'000);
+  EXPECT_FALSE(receive(0, 1'000'000'000, 0.0, 1'000'000'000).came_after_bound);
+  EXPECT_TRUE(std::isfinite(last_due(1'100'000'000).value));
+  EXPECT_FALSE(receive(1, 1'100'000'001, 1.0, 1'105'000'000).came_after_bound);
+  EXPECT_TRUE(receive(1, 1'090'000'000, 2.0, 1'106'000'000).came_after_bound);
+  EXPECT_FALSE(receive(1, 1'090'000'000, 2.0, 1'107'000'000).came_after_bound);  // a duplicate
+  // A sample that is not there makes a bound no less true.
+  EXPECT_FALSE(receive(0, 1'090'000'000, 0.0, 1'106'000'000).came_after_bound);
+}
+
+TEST_F(BoundedRuntimeTest, CountsNothingThatComesWithinTheLatency) {
+  make(", latency: 0.05");
+  receive(1, 1'000'000'000, 0.0, 1'000'000'000);
+  receive(0, 1'000'000'000, 0.0, 1'000'000'000);
+  EXPECT_EQ(BoundLoss::kStillOnTheirWay, last_due(1'100'000'000).loss);
+  EXPECT_FALSE(receive(1, 1'060'000'000, 1.0, 1'105'000'000).came_after_bound);
+}
+
+TEST_F(BoundedRuntimeTest, KeepsItsBoundOverAPauseInWhichNoInputCame) {
+  for (const bool input_comes : {false, true}) {
+    make("");
+    receive(1, 1'000'000'000, 0.0, 1'000'000'000);
+    receive(0, 1'000'000'000, 0.0, 1'000'000'000);
+    last_due(1'000'000'000);
+    runtime_->set_enabled(false, 1'100'000'000);
+    receive(0, 1'150'000'000, 0.0, 1'150'000'000);
+    if (input_comes) receive(1, 1'150'000'000, 1.0, 1'150'000'000);
+    runtime_->set_enabled(true, 1'300'000'000);
+    const PublishedBound bound = last_due(1'310'000'000);
+    EXPECT_EQ(input_comes ? BoundLoss::kUnknownInput : BoundLoss::kNone, bound.loss);
+    EXPECT_EQ(input_comes, std::isinf(bound.value));
+  }
 }
 
 }  // namespace

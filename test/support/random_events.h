@@ -24,8 +24,8 @@ struct OwnedEvent {
   }
 };
 
-/// A law with everything that events can touch: inputs, two sensors (one with an angle), jumps.
-inline std::shared_ptr<const ConstantGainObserver> example_law() {
+/// A plant with everything that events can touch: inputs, two sensors (one with an angle), jumps.
+inline std::shared_ptr<const Plant> example_plant() {
   LinearPlantDescription plant;
   plant.state_names = {"p", "v", "yaw"};
   plant.input_names = {"u", "w"};
@@ -41,14 +41,17 @@ inline std::shared_ptr<const ConstantGainObserver> example_law() {
   Eigen::MatrixXd A_d = Eigen::MatrixXd::Identity(3, 3);
   A_d(1, 1) = -0.8;
   plant.jump_map = AffineJumpMap{A_d, Eigen::Vector3d(0.0, 0.1, 0.0)};
+  return make_linear_plant(plant);
+}
 
+/// A law of it.
+inline std::shared_ptr<const ConstantGainObserver> example_law() {
   Eigen::MatrixXd L_position(3, 1);
   L_position << 0.6, 0.4, 0.05;
   Eigen::MatrixXd L_pose(3, 2);
   L_pose << 0.3, 0.0, 0.2, 0.1, 0.0, 0.7;
   return std::make_shared<const ConstantGainObserver>(
-      ObserverContext{make_linear_plant(plant), Eigen::Vector3d(0.3, -0.2, 3.0),
-                      Eigen::Vector2d(0.1, 0.0)},
+      ObserverContext{example_plant(), Eigen::Vector3d(0.3, -0.2, 3.0), Eigen::Vector2d(0.1, 0.0)},
       std::vector<Eigen::MatrixXd>{L_position, L_pose});
 }
 

@@ -20,7 +20,7 @@ struct ErrorAssumptions {
 /// Its maps allocate nothing and throw nothing; what they need beside the state they find at
 /// `workspace`. Where the events leave the set for which the theorem holds, for example by a time
 /// between samples longer than T2, it goes on with what the flow makes of the error at most. A
-/// bound of infinity says that nothing is known any more. It stays until a reset.
+/// bound of infinity says that nothing is known any more. It stays until the estimate begins anew.
 class ErrorBound {
  public:
   ErrorBound() = default;
@@ -37,18 +37,33 @@ class ErrorBound {
   /// The state where the estimate begins (at any time before the first sample).
   virtual void initialize(double* state) const = 0;
 
+  /// The same where |x − x̂| <= error is known of it. @pre error >= 0, finite
+  virtual void begin(double error, double* state) const = 0;
+
   /// Carries the state over `duration` >= 0 [s], the time since the last sample or jump: the double
   /// nearest to a whole number of nanoseconds, so that it compares with T1 and T2 as they are
   /// written. It is not split: GuaranteedBound starts again from that sample or jump.
   virtual void flow(double duration, double* state) const = 0;
 
-  /// At a sample of the sensor, and at a jump of the plant.
+  /// At a sample of the sensor.
   virtual void sample(double* state, double* workspace) const = 0;
-  virtual void jump(double* state) const = 0;
+
+  /// Whether the law injects something of a sample until the next one, so that a sample does more
+  /// than move x̂.
+  virtual bool injects_between_samples() const { return false; }
+
+  /// At a jump of the plant.
+  /// @param moved  |x̂⁺ − x̂|, by which a jump that was told twice takes the estimate away at most
+  virtual void jump(double moved, double* state) const = 0;
 
   /// At a jump of the plant whose outputs, which the law corrects with, did not come: x̂ only takes
   /// the jump map.
-  virtual void uncorrected_jump(double* state) const { jump(state); }
+  virtual void uncorrected_jump(double moved, double* state) const { jump(moved, state); }
+
+  /// At a jump that was told and that the law did not take, so that the plant may have jumped or
+  /// not.
+  /// @param moved  |g(x̂) − x̂| of the plant's jump map g
+  virtual void refused_jump(double moved, double* state) const { jump(moved, state); }
 
   /// The bound on |x − x̂|, units of the state.
   virtual double bound(const double* state) const = 0;

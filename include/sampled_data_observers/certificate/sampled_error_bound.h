@@ -14,14 +14,19 @@ class SampledErrorBound : public ErrorBound {
  public:
   Eigen::Index state_size() const final { return 3; }
   void initialize(double* state) const final;
+  void begin(double error, double* state) const final;
   void flow(double duration, double* state) const final;
   void sample(double* state, double* workspace) const final;
-  void jump(double* state) const final;
+  void jump(double moved, double* state) const final;
   double bound(const double* state) const final;
 
  protected:
-  SampledErrorBound(const CertificateSubject& subject, double initial_level)
-      : T1_(subject.T1), T2_(subject.T2), initial_level_(initial_level) {}
+  /// @param level_per_error  the level where the estimate begins with an error of norm 1
+  SampledErrorBound(const CertificateSubject& subject, double level_per_error, double initial_error)
+      : T1_(subject.T1),
+        T2_(subject.T2),
+        level_per_error_(level_per_error),
+        initial_error_(initial_error) {}
 
   /// Whether a sample at τ [s] after the one before is among those that the theorem is about.
   bool is_foreseen(double tau) const { return T1_ <= tau && tau <= T2_; }
@@ -37,7 +42,8 @@ class SampledErrorBound : public ErrorBound {
  private:
   double T1_;
   double T2_;
-  double initial_level_;
+  double level_per_error_;
+  double initial_error_;
 };
 
 }  // namespace sampled_data_observers

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <limits>
 #include <memory>
 #include <string>
 
@@ -22,8 +21,8 @@ struct Guarantee {
   std::unique_ptr<const ErrorBound> bound;
   /// How long after their stamps inputs and jumps may come [ns].
   Duration latency = 0;
-  /// As GuaranteedBound takes it.
-  double error_limit = std::numeric_limits<double>::infinity();
+  /// |η| <= this at every measurement.
+  double noise = 0.0;
 };
 
 /// Reads the sections `certificate` and `error_assumptions` and the key `allow_uncertified`, and

@@ -105,11 +105,6 @@ class Timeline {
   /// The earliest stamp at which an event can be taken in now; nothing where any can.
   std::optional<Stamp> earliest_insertion() const;
 
-  /// The stamp of the last restart, where no event after it was forgotten yet.
-  std::optional<Stamp> restarted_at() const {
-    return base_is_restart_ ? base_stamp_ : std::nullopt;
-  }
-
   /// Number of events in the log now.
   std::size_t size() const { return size_; }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 namespace sampled_data_observers {
 
@@ -9,12 +10,16 @@ enum class BoundLoss : std::uint8_t {
   kNone = 0,        ///< it has one, or the law gives none at all
   kNotVouched,      ///< the estimate went on from one of which nothing is known
   kAngle,           ///< an angular innovation may have been wrapped
-  kJumpTimes,       ///< the theorem is not about jumps at such times
   kTooLarge,        ///< it grew beyond what it can be computed for
-  kRefusedJump,     ///< a jump came faster than the limits allow, and was refused
   kUnknownInput,    ///< an input was rejected: the estimate rests on another one
   kUnknownJump,     ///< a jump was rejected: the estimate did not take it
   kStillOnTheirWay  ///< events before its stamp may still come
+};
+
+/// A guaranteed bound on |x − x̂|, infinite where there is none, and why; NaN without certificate.
+struct PublishedBound {
+  double value = std::numeric_limits<double>::quiet_NaN();
+  BoundLoss loss = BoundLoss::kNone;
 };
 
 /// In a few words, for people.

@@ -60,6 +60,9 @@ struct EventReport {
   /// The norm of the innovation of a sample or a continuous output, before it took effect; NaN for
   /// other events, and where there was no estimate.
   double innovation = std::numeric_limits<double>::quiet_NaN();
+  /// Whether an estimate of its stamp or a later one was published with a finite bound before this
+  /// input or jump came: that bound was one of a run without it.
+  bool came_after_bound = false;
   /// What the innovations of its sensor do.
   InnovationTrend trend = InnovationTrend::kSteady;
 
@@ -73,12 +76,6 @@ struct EventReport {
 struct SamplingBounds {
   Duration T1 = 0;
   Duration T2 = 0;
-};
-
-/// A guaranteed bound on |x − x̂|, infinite where there is none, and why; NaN without certificate.
-struct PublishedBound {
-  double value = std::numeric_limits<double>::quiet_NaN();
-  BoundLoss loss = BoundLoss::kNone;
 };
 
 /// An estimate and what it rests on.
@@ -147,12 +144,13 @@ class Estimator {
   /// Whether there is no estimate yet since restart_at_next_sample().
   bool awaits_sample() const { return awaits_sample_; }
 
-  /// Goes on at `stamp` after a time whose events are not known: from the estimate as it flows
-  /// without them, and without guarantee (HybridSystem::hold()).
+  /// Goes on at `stamp` after a time whose samples were not taken: from the estimate as it flows
+  /// without them, with its bound. Inputs and jumps of that time are to be told as rejected.
   void resume(Stamp stamp);
 
   /// Goes on at `stamp` from the estimate of `other`, an estimator of the same plant with another
-  /// law: what is held and the mode stay, all else of the law's state begins, without guarantee.
+  /// law: what is held and the mode stay, and what is known of its error; all else of the law's
+  /// state begins.
   void take_over(Estimator& other, Stamp stamp);
 
   /// Forgets everything: as new.
@@ -184,6 +182,8 @@ class Estimator {
   bool has_other_events_;
   /// Stamp of the last rejected input, until a later one is there: no start knows it.
   std::optional<Stamp> input_unknown_since_;
+  /// Where the estimate began last: jumps of before play no part.
+  std::optional<Stamp> began_at_;
 };
 
 }  // namespace sampled_data_observers

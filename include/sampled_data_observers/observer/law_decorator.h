@@ -44,6 +44,9 @@ class LawDecorator : public ObserverLaw {
   }
   double error_bound(const double* state) const override { return law_->error_bound(state); }
   BoundLoss bound_loss(const double* state) const override { return law_->bound_loss(state); }
+  void keep_bound(const PublishedBound& bound, double* state) const override {
+    law_->keep_bound(bound, state);
+  }
   bool is_saturated(const double* state) const override { return law_->is_saturated(state); }
   void hold(double* state) const override { law_->hold(state); }
   bool delays_jumps() const override { return law_->delays_jumps(); }

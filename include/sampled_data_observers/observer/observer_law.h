@@ -82,6 +82,13 @@ class ObserverLaw : public HybridSystem {
     return BoundLoss::kNone;
   }
 
+  /// Takes over what is known of the error of the estimate of a state that begins, for laws that
+  /// give a bound on it.
+  virtual void keep_bound(const PublishedBound& bound, double* state) const {
+    static_cast<void>(bound);
+    static_cast<void>(state);
+  }
+
   /// Whether a state of the estimate stands at a bound that the law keeps it within.
   virtual bool is_saturated(const double* state) const {
     static_cast<void>(state);

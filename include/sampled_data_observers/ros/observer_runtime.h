@@ -74,7 +74,7 @@ class ObserverRuntime {
   void start_anew(Stamp now);
 
   /// Off: no estimates, and every event is rejected as disabled. Switched on again, estimates go on
-  /// at `now` (Estimator::resume()).
+  /// at `now` (Estimator::resume()), with their bound where no input or jump was rejected.
   void set_enabled(bool enabled, Stamp now);
 
   /// Off: every event of this sensor is rejected as disabled. Returns why nothing was changed, or
@@ -99,6 +99,7 @@ class ObserverRuntime {
   static void write(const EventChannel& channel, const Event& event, const EventReport& report,
                     Stamp now, EventStatus& status);
   bool is_enabled(const EventChannel& channel) const;
+  bool comes_after_bound(const Event& event, const EventReport& report) const;
   void watch_innovation(const Event& event, EventReport& report);
   void forget_innovations();
 
@@ -108,6 +109,8 @@ class ObserverRuntime {
   Estimate estimate_;
   /// The time of the last call that told it.
   Stamp now_ = 0;
+  /// The newest stamp of an estimate that was given out with a finite bound.
+  Stamp bounded_until_ = 0;
   bool enabled_ = true;
   /// One per sensor.
   std::vector<bool> sensors_enabled_;

@@ -1,0 +1,302 @@
+// Bounds beside true plants, where something goes otherwise than the theorem has it: what comes
+// late, jumps that are told twice or are refused, pauses, other gains, angles that turn over.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "certificate/certified_gains.h"
+#include "certificate/true_run.h"
+#include "sampled_data_observers/config/plant_fingerprint.h"
+
+namespace sampled_data_observers::test {
+namespace {
+
+const char kImpulsive[] = "config/examples/bernard2022_impulsive/gains.yaml";
+const char kScalar[] = "config/examples/ferrante2016_scalar/gains.yaml";
+const char kMassSpring[] = "config/examples/ferrante2016_mass_spring/gains.yaml";
+const char kOscillator[] = "test/certificate/ferrante2019_oscillator_0.2.yaml";
+const char kOscillatorSlow[] = "test/certificate/ferrante2019_oscillator_0.41.yaml";
+
+/// A gain file for a plant that is changed where its conditions don't look.
+CertifiedGains with_plant(const char* gains, const std::string& change) {
+  CertifiedGains result(gains);
+  result.with(change);
+  return result.with("certificate: {plant: {hash: " + plant_fingerprint(result.tree()) + "}}");
+}
+
+struct Tally {
+  int finite = 0;
+  int infinite = 0;
+  int exceeded = 0;
+
+  void add(const TrueRun::Comparison& comparison) {
+    if (!comparison.holds()) ++exceeded;
+    ++(std::isfinite(comparison.bound.value) ? finite : infinite);
+  }
+};
+
+constexpr double kLatency = 0.05;
+constexpr double kPeriod = 0.01;
+
+/// What is published at once, and what is asked for when all has come.
+struct LateRun {
+  Tally published;
+  Tally later;
+
+  /// @param happen  lets happen what is due until a time
+  template <class Happen>
+  void play(TrueRun& run, double duration, const Happen& happen) {
+    const int steps = static_cast<int>(duration / kPeriod);
+    const int behind = static_cast<int>(std::ceil(kLatency / kPeriod));
+    for (int i = 1; i <= steps; ++i) {
+      const double now = i * kPeriod;
+      happen(now);
+      run.tell(now);
+      published.add(run.compare(now));
+      if (i > behind) later.add(run.compare((i - behind) * kPeriod, now));
+    }
+  }
+};
+
+LateRun run_with_late_jumps(const std::string& assumptions) {
+  // So fast that x3, which becomes x1 at jumps, is far off until a jump is known.
+  const ObserverConfig config = CertifiedGains(kImpulsive)
+                                    .with("initial_estimate: {x1: 0, x2: 50, x3: 0}")
+                                    .assuming(assumptions)
+                                    .config();
+  TrueRun run(config, Eigen::Vector3d(0.6, -0.5, 0.6));
+  std::mt19937_64 generator(7);
+  const auto uniform = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(generator);
+  };
+  double next = uniform(2.0, 5.0);
+  LateRun result;
+  result.play(run, 60.0, [&](double now) {
+    if (next > now) return;
+    run.jump(next, uniform(0.02, kLatency));
+    next += uniform(2.0, 5.0);
+  });
+  return result;
+}
+
+TEST(LateEventsTest, WithALatencyEveryPublishedBoundHoldsDespiteLateJumps) {
+  const LateRun run = run_with_late_jumps(
+      "{initial_error: 1, noise: 0, latency: " + std::to_string(kLatency) + "}");
+  EXPECT_EQ(0, run.published.exceeded);
+  EXPECT_EQ(0, run.published.finite);
+  EXPECT_EQ(0, run.later.exceeded);
+  EXPECT_EQ(0, run.later.infinite);
+  EXPECT_GT(run.later.finite, 5000);
+}
+
+TEST(LateEventsTest, WithoutALatencyBoundsAreThoseOfARunWithoutTheLateJumps) {
+  const LateRun run = run_with_late_jumps("{initial_error: 1, noise: 0}");
+  EXPECT_GT(run.published.exceeded, 0);
+  RecordProperty("exceeded", run.published.exceeded);
+  RecordProperty("finite", run.published.finite);
+  EXPECT_EQ(0, run.later.exceeded);
+}
+
+LateRun run_with_late_inputs(const std::string& assumptions) {
+  const ObserverConfig config = with_plant(kOscillator, "plant: {inputs: [u], B: [[0], [20]]}")
+                                    .assuming(assumptions)
+                                    .config();
+  TrueRun run(config, Eigen::Vector2d(0.01, 0.0));
+  double next_input = 0.333;
+  double next_sample = 0.0;
+  LateRun result;
+  result.play(run, 20.0, [&](double now) {
+    while (std::min(next_input, next_sample) <= now) {
+      if (next_input < next_sample) {
+        run.input(next_input, std::sin(3.0 * next_input), kLatency);
+        next_input += 0.333;
+      } else {
+        run.sample(next_sample);
+        next_sample += 0.15;
+      }
+    }
+  });
+  return result;
+}
+
+TEST(LateEventsTest, WithALatencyEveryPublishedBoundHoldsDespiteLateInputs) {
+  const LateRun run = run_with_late_inputs(
+      "{initial_error: 0.01, noise: 0, disturbance: 0, latency: " + std::to_string(kLatency) + "}");
+  EXPECT_EQ(0, run.published.exceeded);
+  EXPECT_EQ(0, run.published.finite);
+  EXPECT_EQ(0, run.later.exceeded);
+  EXPECT_EQ(0, run.later.infinite);
+}
+
+TEST(LateEventsTest, WithoutALatencyBoundsAreThoseOfARunWithoutTheLateInputs) {
+  const LateRun run = run_with_late_inputs("{initial_error: 0.01, noise: 0, disturbance: 0}");
+  EXPECT_GT(run.published.exceeded, 0);
+  RecordProperty("exceeded", run.published.exceeded);
+  RecordProperty("finite", run.published.finite);
+  EXPECT_EQ(0, run.later.exceeded);
+}
+
+/// Compares every 10 ms from after `from` to `to`; the last comparison.
+TrueRun::Comparison hold_throughout(TrueRun& run, double from, double to) {
+  TrueRun::Comparison last;
+  for (int i = 1; from + i * kPeriod <= to + 1e-9; ++i) {
+    last = run.compare(from + i * kPeriod);
+    EXPECT_TRUE(last.holds()) << from + i * kPeriod << " s: " << last.error << " > "
+                              << last.bound.value;
+    EXPECT_TRUE(std::isfinite(last.bound.value)) << from + i * kPeriod << " s";
+  }
+  return last;
+}
+
+TEST(BoundRecoveryTest, AJumpSoonAfterAnotherCountsAsRealAndAsToldTwice) {
+  for (const bool is_real : {false, true}) {
+    const ObserverConfig config =
+        CertifiedGains(kImpulsive).assuming("{initial_error: 1, noise: 0}").config();
+    TrueRun run(config, Eigen::Vector3d(0.6, -0.5, 0.6));
+    run.jump(2.0, 0.0);
+    run.tell(2.0);
+    const double before = hold_throughout(run, 0.0, 2.3).bound.value;
+    if (is_real) {
+      run.jump(2.3, 0.0);
+    } else {
+      run.false_jump(2.3);
+    }
+    run.tell(2.3);
+    const double after = hold_throughout(run, 2.29, 5.0).bound.value;
+    EXPECT_GT(after, before) << is_real;
+    double last = after;
+    for (double at = 5.0; at < 60.0; at += 3.0) {
+      run.jump(at, 0.0);
+      run.tell(at);
+      last = hold_throughout(run, at - kPeriod, at + 2.9).bound.value;
+    }
+    EXPECT_LT(last, after) << is_real;
+  }
+}
+
+TEST(BoundRecoveryTest, AJumpThatIsRefusedMayHaveBeenOneOrNot) {
+  for (const bool is_real : {false, true}) {
+    const ObserverConfig config = CertifiedGains(kImpulsive)
+                                      .with("jumps: {min_separation: 0.5}")
+                                      .assuming("{initial_error: 1, noise: 0}")
+                                      .config();
+    TrueRun run(config, Eigen::Vector3d(0.6, -0.5, 0.6));
+    run.jump(2.0, 0.0);
+    if (is_real) {
+      run.jump(2.3, 0.0);
+    } else {
+      run.false_jump(2.3);
+    }
+    run.tell(2.3);
+    ASSERT_EQ(EventOutcome::kTooFrequent, run.reports().back().outcome);
+    const double after = hold_throughout(run, 2.29, 5.0).bound.value;
+    double last = after;
+    for (double at = 5.0; at < 60.0; at += 3.0) {
+      run.jump(at, 0.0);
+      run.tell(at);
+      last = hold_throughout(run, at - kPeriod, at + 2.9).bound.value;
+    }
+    EXPECT_LT(last, after) << is_real;
+  }
+}
+
+TEST(BoundRecoveryTest, APauseIsATimeWithoutSamples) {
+  const ObserverConfig config =
+      CertifiedGains(kMassSpring).assuming("{initial_error: 1, noise: 0.01}").config();
+  Eigen::VectorXd error = Eigen::VectorXd::Zero(config.plant->states());
+  error(0) = 0.9;
+  TrueRun run(config, error);
+  const auto sample = [&](double from, double to) {
+    for (double at = from; at < to; at += 1.0) {
+      run.sample(at, at < 10.0 ? 0.01 : -0.01);
+      run.tell(at);
+      hold_throughout(run, at, at + 0.95);
+    }
+  };
+  sample(1.0, 10.0);
+  const double before = run.compare(10.0).bound.value;
+  run.estimator().resume(TrueRun::stamp_of(20.0));
+  const double after = run.compare(20.01).bound.value;
+  EXPECT_TRUE(run.compare(20.01).holds());
+  EXPECT_GT(after, before);
+  sample(20.5, 90.0);
+  EXPECT_LT(run.compare(90.4).bound.value, 2.0 * before);
+}
+
+TEST(BoundRecoveryTest, OtherGainsGoOnFromWhatIsKnownOfTheError) {
+  const char kAssumed[] = "{initial_error: 10, noise: 0.01, disturbance: 0}";
+  const ObserverConfig first = CertifiedGains(kOscillator).assuming(kAssumed).config();
+  const ObserverConfig second = CertifiedGains(kOscillatorSlow).assuming(kAssumed).config();
+  TrueRun run(first, Eigen::Vector2d(6.0, -8.0));
+  for (int i = 1; i <= 200; ++i) {
+    run.sample(0.15 * i, i % 2 == 0 ? 0.01 : -0.01);
+    run.tell(0.15 * i);
+  }
+  const double before = run.compare(30.1).bound.value;
+  TrueRun next(second, Eigen::Vector2d::Zero());
+  next.estimator().take_over(run.estimator(), TrueRun::stamp_of(30.1));
+  Estimate estimate = next.estimator().make_estimate();
+  const auto bound_at = [&](double seconds) {
+    EXPECT_EQ(Timeline::Query::kOk,
+              next.estimator().estimate_at(TrueRun::stamp_of(seconds), estimate));
+    return second.law->error_bound(estimate.state.data());
+  };
+  EXPECT_GE(bound_at(30.1), before);
+  EXPECT_LT(bound_at(30.1), 10.0 * before);
+  EXPECT_LT(bound_at(30.1), 5.0);
+  // From gains without a bound nothing is known.
+  const ObserverConfig unbounded = CertifiedGains(kOscillator).config();
+  TrueRun without(unbounded, Eigen::Vector2d::Zero());
+  next.estimator().take_over(without.estimator(), TrueRun::stamp_of(31.0));
+  EXPECT_EQ(std::numeric_limits<double>::infinity(), bound_at(31.0));
+  EXPECT_EQ(BoundLoss::kNotVouched, second.law->bound_loss(estimate.state.data()));
+}
+
+TEST(BoundRecoveryTest, AnInputThatIsUnknownStaysSoWithOtherGains) {
+  const auto config = with_plant(kOscillator, "plant: {inputs: [u], B: [[0], [1]]}")
+                          .assuming("{initial_error: 1, noise: 0, disturbance: 0}")
+                          .config();
+  TrueRun run(config, Eigen::Vector2d(0.5, 0.0));
+  run.sample(0.1);
+  run.tell(0.1);
+  run.estimator().note_rejected({TrueRun::stamp_of(0.2), EventKind::kInput, 0, nullptr, 0, 0},
+                                TrueRun::stamp_of(0.2));
+  TrueRun next(config, Eigen::Vector2d::Zero());
+  next.estimator().take_over(run.estimator(), TrueRun::stamp_of(0.3));
+  EXPECT_EQ(BoundLoss::kUnknownInput, next.compare(0.4).bound.loss);
+  next.estimator().restart(TrueRun::stamp_of(0.5));
+  EXPECT_EQ(BoundLoss::kUnknownInput, next.compare(0.6).bound.loss);
+}
+
+TEST(BoundRecoveryTest, AnAngleWhoseTurnIsKnownCostsNothing) {
+  const auto config = with_plant(kScalar, "sensors: {y: {angular: [true]}}")
+                          .assuming("{initial_error: 3.5, noise: 0.01}")
+                          .config();
+  TrueRun run(config, Eigen::VectorXd::Constant(1, 1.0));
+  // The bound is above pi, but the innovation of 1.1 fits no other number of turns.
+  EXPECT_GT(run.compare(0.1).bound.value, 3.8);
+  run.sample(0.1, 0.01);
+  run.tell(0.1);
+  EXPECT_LT(hold_throughout(run, 0.09, 0.2).bound.value, 0.02);
+}
+
+TEST(BoundRecoveryTest, AnAngleThatMayHaveTurnedMovesTheBoundByWhatTheEstimateMoved) {
+  const auto config = with_plant(kScalar, "sensors: {y: {angular: [true]}}")
+                          .assuming("{initial_error: 20, noise: 0.01}")
+                          .config();
+  // One turn and some more: the sample takes the estimate to a turn away from the state.
+  TrueRun run(config, Eigen::VectorXd::Constant(1, 7.0));
+  const double before = run.compare(0.1).bound.value;
+  run.sample(0.1, 0.01);
+  run.tell(0.1);
+  const TrueRun::Comparison after = run.compare(0.1);
+  EXPECT_TRUE(after.holds());
+  EXPECT_NEAR(after.error, 2.0 * std::acos(-1.0), 0.1);
+  EXPECT_GT(after.bound.value, before);
+  EXPECT_LT(after.bound.value, before + 3.2);
+  hold_throughout(run, 0.1, 1.0);
+}
+
+}  // namespace
+}  // namespace sampled_data_observers::test
