@@ -31,6 +31,7 @@ void ChannelStatistics::add(const ChannelStatistics& other) {
   long_intervals += other.long_intervals;
   violations.add(other.violations);
   rewound.add(other.rewound);
+  after_bound += other.after_bound;
   missing_transform = other.missing_transform;
   innovation = other.innovation;
   trend = other.trend;
@@ -65,6 +66,7 @@ void StatisticsRecorder::record_event(std::size_t index, const Event& event,
   increment(channel.outcomes[static_cast<std::size_t>(report.outcome)]);
   if (report.outcome != EventOutcome::kNoStamp) channel.latency.record(latency);
   if (report.rewound > 0) channel.rewound.record(static_cast<std::int64_t>(report.rewound));
+  if (report.came_after_bound) increment(channel.after_bound);
   if (!std::isnan(report.innovation)) {
     channel.innovation.store(report.innovation, kRelaxed);
     channel.trend.store(report.trend, kRelaxed);
@@ -104,6 +106,7 @@ void StatisticsRecorder::take(RunStatistics& statistics) noexcept {
     to.long_intervals = from.long_intervals.exchange(0, kRelaxed);
     to.violations = from.violations.take();
     to.rewound = from.rewound.take();
+    to.after_bound = from.after_bound.exchange(0, kRelaxed);
     to.innovation = from.innovation.load(kRelaxed);
     to.trend = from.trend.load(kRelaxed);
     const std::lock_guard<std::mutex> lock(from.missing_transform_mutex);

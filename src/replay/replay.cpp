@@ -189,6 +189,7 @@ class Replay {
 
   void count(const Event& event, const EventReport& report) {
     const bool is_sample = event.kind == EventKind::kSample;
+    if (report.came_after_bound) ++summary_.after_bound;
     if (!report.used()) {
       ++summary_.rejected[status_.reason];
       if (is_sample) ++summary_.samples_rejected;

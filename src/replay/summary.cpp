@@ -56,6 +56,11 @@ void print_comparison(const ReplaySummary& summary, std::ostream& out) {
 
 /// Also where there is no truth.
 void print_bound_loss(const ReplaySummary& summary, std::ostream& out) {
+  if (summary.after_bound > 0) {
+    out << summary.after_bound
+        << " inputs or jumps came after error bounds of later stamps were published, which rested "
+           "on their absence: set error_assumptions/latency to what is never exceeded\n";
+  }
   if (!summary.bound_lost_at) return;
   std::ostringstream stamp;
   stamp << std::fixed << std::setprecision(3) << *summary.bound_lost_at;
@@ -133,6 +138,7 @@ void write_json(const ReplaySummary& summary, const std::string& path) {
   json["hold_rmse"] = by_name(summary.compared, summary.hold_rmse);
   json["hold_rmse_norm"] = number(summary.hold_rmse_norm);
   json["guarantee"] = summary.guarantee;
+  json["inputs_or_jumps_after_bound"] = summary.after_bound;
   if (summary.bound_lost_at) {
     json["error_bound_lost"] = {{"stamp", *summary.bound_lost_at}, {"why", summary.bound_loss}};
   }

@@ -178,6 +178,14 @@ std::optional<Diagnosis::Suspension> Diagnosis::find_suspension() const {
               (is_long ? ", above T2 = " + seconds(subject_.sampling.T2)
                        : ", below T1 = " + seconds(subject_.sampling.T1))};
     }
+    if (statistics.after_bound > 0) {
+      return Suspension{now_, std::to_string(statistics.after_bound) + " events of " +
+                                  subject_.channels[i].name + ", up to " +
+                                  seconds(statistics.latency.largest) +
+                                  " late, came after error bounds of later stamps were published, "
+                                  "which rested on their absence: set error_assumptions/latency "
+                                  "to what is never exceeded, and publish_delay to as much"};
+    }
     const bool is_silent = subject_.channels[i].kind == EventKind::kSample && memory_[i].used > 0 &&
                            now_ - memory_[i].used > std::max(subject_.sampling.T2, kSilence);
     if (is_silent) {
@@ -376,6 +384,10 @@ Finding Diagnosis::channel(std::size_t index) const {
                      std::to_string(statistics.rewound.count > 0 ? statistics.rewound.largest : 0)},
                     {"received in all", std::to_string(total.received())},
                     {"used in all", std::to_string(total.used())}};
+  if (total.after_bound > 0) {
+    finding.values.emplace_back("after a published bound, in all",
+                                std::to_string(total.after_bound));
+  }
   if (is_measured) {
     finding.values.emplace_back("innovation, last", shown(statistics.innovation));
   }

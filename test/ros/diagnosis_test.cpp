@@ -230,6 +230,24 @@ TEST_F(DiagnosisTest, IntervalsOutsideSuspendTheCertificateUntilTheyAreWithin) {
          diagnosis_.certificate());
 }
 
+TEST_F(DiagnosisTest, WhatComesAfterABoundThatRestedOnItsAbsenceSuspendsTheCertificate) {
+  RunStatistics window = good();
+  window.channels[0].after_bound = 2;
+  window.channels[0].latency = {3, 160'000'000, 50'000'000, 60'000'000};
+  update(window);
+  EXPECT_TRUE(diagnosis_.is_suspended());
+  const std::string message = diagnosis_.certificate().message;
+  EXPECT_NE(std::string::npos, message.find("2 events of ")) << message;
+  EXPECT_NE(std::string::npos, message.find("set error_assumptions/latency")) << message;
+  update(good());
+  EXPECT_FALSE(diagnosis_.is_suspended());
+  bool is_told = false;
+  for (const auto& [key, value] : diagnosis_.channel(0).values) {
+    is_told = is_told || (key == "after a published bound, in all" && value == "2");
+  }
+  EXPECT_TRUE(is_told);
+}
+
 TEST_F(DiagnosisTest, ALostBoundSuspendsTheCertificateUntilAReset) {
   RunStatistics lost = good();
   lost.error_bound = std::numeric_limits<double>::infinity();

@@ -31,6 +31,8 @@ struct ChannelStatistics {
   Range violations;
   /// Numbers of later events that were applied again, for each late event.
   Range rewound;
+  /// How many came after a bound that rested on their absence (EventReport::came_after_bound).
+  std::uint64_t after_bound = 0;
   /// The transform for which an event was rejected last, ever; empty: none was.
   std::string missing_transform;
   /// Of the last sample: the norm of its innovation, and what these do; NaN without.
@@ -104,6 +106,7 @@ class StatisticsRecorder {
     std::atomic<std::uint64_t> long_intervals{0};
     RangeRecorder violations;
     RangeRecorder rewound;
+    std::atomic<std::uint64_t> after_bound{0};
     std::atomic<double> innovation{std::numeric_limits<double>::quiet_NaN()};
     std::atomic<InnovationTrend> trend{InnovationTrend::kSteady};
     std::mutex missing_transform_mutex;

@@ -74,6 +74,8 @@ struct ReplaySummary {
   std::size_t bound_stamps = 0;
   std::size_t bound_exceeded = 0;
   std::optional<double> bound_share;
+  /// Inputs and jumps that came after a bound that rested on their absence.
+  std::size_t after_bound = 0;
   /// Whether the truth came on a topic of its own, and not from samples with their noise.
   bool truth_is_given = false;
 
