@@ -27,7 +27,6 @@ constexpr double kLargest = 1e100;
 /// Of |x̂| and each state: rounding of the estimate.
 constexpr double kFloor = 64.0 * std::numeric_limits<double>::epsilon();
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kPi = 3.14159265358979323846;
 /// For the rounding of an innovation [rad].
 constexpr double kAngleMargin = 1e-9;
@@ -42,7 +41,8 @@ std::vector<Eigen::VectorXd> weights_of_angles(const Plant& plant) {
       if (!sensor.angular[static_cast<std::size_t>(output)]) continue;
       for (const PlantMode& mode : plant.modes()) {
         const AffineMap* map = mode.outputs[i]->affine();
-        const double weight = map != nullptr ? map->M().row(output).norm() : kInfinity;
+        const double weight =
+            map != nullptr ? map->M().row(output).norm() : std::numeric_limits<double>::infinity();
         of_sensor(output) = std::max(of_sensor(output), weight);
       }
     }

@@ -8,6 +8,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "number_text.h"
 #include "sampled_data_observers/config/certificate_config.h"
 #include "sampled_data_observers/config/claim_contradiction.h"
 #include "sampled_data_observers/config/gains_config.h"
@@ -178,6 +179,22 @@ void require_bounded(ConfigSection& root, const ObserverConfig& config) {
   }
 }
 
+/// What the error bound does not cover, for who reads the log.
+std::string conditions_of_bound(const Plant& plant, const ObserverLaw& law, Duration latency) {
+  std::string text;
+  if (latency == 0 && (plant.inputs() > 0 || plant.jumps())) {
+    text +=
+        "; an error bound holds if no input or jump of before its stamp is still on its way "
+        "(error_assumptions/latency is 0)";
+  }
+  if (law.flow_step() > 0) {
+    text += "; the error of integration, in steps of " +
+            number_text(to_seconds(law.flow_step()), 4) +
+            " s that are short enough for the flow, is taken as small and is no part of the bound";
+  }
+  return text;
+}
+
 }  // namespace
 
 Guarantee read_guarantee(ConfigSection& root, const ConfigNode& tree, const ObserverConfig& config,
@@ -228,6 +245,7 @@ Guarantee read_guarantee(ConfigSection& root, const ConfigNode& tree, const Obse
                      theorem.name());
   }
   guarantee.noise = assumptions.noise;
+  guarantee.text += conditions_of_bound(*config.plant, law, guarantee.latency);
   return guarantee;
 }
 

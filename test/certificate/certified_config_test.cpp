@@ -71,6 +71,28 @@ TEST(CertifiedConfigTest, SaysProvedOnlyOfTheNumbersThatWere) {
   }
 }
 
+TEST(CertifiedConfigTest, SaysWhatItsErrorBoundsDoNotCover) {
+  const std::string exact = CertifiedGains(kGains).assuming(kAssumptions).config().guarantee;
+  EXPECT_EQ(std::string::npos, exact.find("; an error bound holds if"));
+  EXPECT_EQ(std::string::npos, exact.find("integration"));
+  expect_parts(
+      CertifiedGains("config/examples/bernard2022_impulsive/gains.yaml")
+          .assuming("{initial_error: 1, noise: 0}")
+          .config()
+          .guarantee,
+      {"; an error bound holds if no input or jump of before its stamp is still on its way"});
+  const std::string latent = CertifiedGains("config/examples/bernard2022_impulsive/gains.yaml")
+                                 .assuming("{initial_error: 1, noise: 0, latency: 0.1}")
+                                 .config()
+                                 .guarantee;
+  EXPECT_EQ(std::string::npos, latent.find("; an error bound holds if"));
+  expect_parts(CertifiedGains("config/examples/etienne2019_dc_drive/gains.yaml")
+                   .assuming("{initial_error: 1, noise: 0.1}")
+                   .config()
+                   .guarantee,
+               {"the error of integration, in steps of 0.001 s", "no part of the bound"});
+}
+
 TEST(CertifiedConfigTest, WithoutCertificateNothingIsGuaranteed) {
   const char kUncertified[] = R"(
 observer: ConstantGainObserver
