@@ -46,13 +46,14 @@ inline std::shared_ptr<const Plant> example_plant() {
 
 /// A law of it.
 inline std::shared_ptr<const ConstantGainObserver> example_law() {
-  Eigen::MatrixXd L_position(3, 1);
-  L_position << 0.6, 0.4, 0.05;
-  Eigen::MatrixXd L_pose(3, 2);
-  L_pose << 0.3, 0.0, 0.2, 0.1, 0.0, 0.7;
+  std::vector<Eigen::MatrixXd> L(2);
+  L[0].resize(3, 1);
+  L[0] << 0.6, 0.4, 0.05;
+  L[1].resize(3, 2);
+  L[1] << 0.3, 0.0, 0.2, 0.1, 0.0, 0.7;
   return std::make_shared<const ConstantGainObserver>(
       ObserverContext{example_plant(), Eigen::Vector3d(0.3, -0.2, 3.0), Eigen::Vector2d(0.1, 0.0)},
-      std::vector<Eigen::MatrixXd>{L_position, L_pose});
+      L);
 }
 
 /// `size` events for example_law() in [start, start + span], some with equal stamps, no two equal.
