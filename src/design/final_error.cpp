@@ -82,7 +82,7 @@ class Run {
       largest = std::max(largest, bound_.bound(now_.data()));
     }
     if (jumps_) {
-      bound_.jump(now_.data());
+      bound_.jump(0.0, now_.data());  // none is told twice
     } else {
       bound_.sample(now_.data(), workspace_.data());
     }

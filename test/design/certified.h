@@ -57,12 +57,13 @@ class DrivenBound {
     bound_->sample(now_.data(), workspace_.data());
     then_ = now_;
   }
-  void jump() {
-    bound_->jump(now_.data());
+  /// @param moved  as ErrorBound takes it
+  void jump(double moved = 0.0) {
+    bound_->jump(moved, now_.data());
     then_ = now_;
   }
-  void uncorrected_jump() {
-    bound_->uncorrected_jump(now_.data());
+  void uncorrected_jump(double moved = 0.0) {
+    bound_->uncorrected_jump(moved, now_.data());
     then_ = now_;
   }
   double value() const { return bound_->bound(now_.data()); }
