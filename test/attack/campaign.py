@@ -9,8 +9,10 @@ gains above their bound. Exit status: 0 no false claim, 2 some.
 import argparse
 import collections
 import csv
+import itertools
 import multiprocessing
 import os
+import random
 import re
 import shutil
 import signal
@@ -31,7 +33,8 @@ from random_plants import RandomPlant  # noqa: E402
 DESIGNED, REFUSED, VIOLATED, NONE, UNDECIDED = 0, 1, 2, 3, 4
 OUTCOMES = {DESIGNED: "designed", REFUSED: "refused", VIOLATED: "does not hold", NONE: "none found",
             UNDECIDED: "undecided"}
-Task = collections.namedtuple("Task", "seed tool methods objectives folder limit check_seconds end")
+Task = collections.namedtuple("Task", "seed tool methods objectives draw folder limit check_seconds "
+                                      "end")
 Result = collections.namedtuple("Result", "seed kind states method objective outcome seconds "
                                           "verdict file")
 
@@ -83,8 +86,17 @@ def verdict_on(path, document, objective, seconds):
     return "sampled" if any(verdict.answer == "sampled" for verdict in verdicts) else "holds"
 
 
+def designs_of(task, plant):
+    """Pairs of method and objective for a plant: all, or as many as are drawn for its seed."""
+    methods = plant.methods([method for method in task.methods if method])
+    pairs = list(itertools.product(methods + [None] * (None in task.methods), task.objectives))
+    if task.draw is None or task.draw >= len(pairs):
+        return pairs
+    return random.Random(task.seed).sample(pairs, task.draw)
+
+
 def attack(task):
-    """All designs for one plant."""
+    """The designs for one plant."""
     plant = RandomPlant(task.seed)
     document = plant.document()
     folder = os.path.join(task.folder, str(task.seed))
@@ -93,34 +105,32 @@ def attack(task):
     with open(plant_file, "w", encoding="utf-8") as stream:
         yaml.safe_dump(document, stream, default_flow_style=None, width=10000)
     results = []
-    methods = plant.methods([method for method in task.methods if method])
-    for method in methods + [None] * (None in task.methods):
-        for objective in task.objectives:
-            if time.time() > task.end:
-                break
-            name = f"{method or 'any'}-{objective or 'default'}.yaml"
-            path = os.path.join(folder, name)
-            command = [task.tool, "synthesize", plant_file, "-o", path, "--jobs", "1",
-                       "--time-limit", "5"]
-            if method:
-                command += ["--method", method] + plant.settings(method)
-            if objective:
-                command += ["--objective", objective]
-            begin = time.time()
-            outcome = design(command, task.limit)
-            seconds = time.time() - begin
-            verdict = ""
-            if os.path.exists(path):
-                try:
-                    verdict = verdict_on(path, document, objective, task.check_seconds)
-                except Exception as error:  # pylint: disable=broad-except
-                    verdict = f"not checked: {type(error).__name__}: {error}"
-                if outcome != OUTCOMES[DESIGNED]:
-                    verdict += f" (written, exit status: {outcome})"
-                if verdict in ("holds", "sampled"):
-                    os.remove(path)
-            results.append(Result(task.seed, plant.kind, plant.n, method, objective, outcome,
-                                  seconds, verdict, path))
+    for method, objective in designs_of(task, plant):
+        if time.time() > task.end:
+            break
+        name = f"{method or 'any'}-{objective or 'default'}.yaml"
+        path = os.path.join(folder, name)
+        command = [task.tool, "synthesize", plant_file, "-o", path, "--jobs", "1",
+                   "--time-limit", "5"]
+        if method:
+            command += ["--method", method] + plant.settings(method)
+        if objective:
+            command += ["--objective", objective]
+        begin = time.time()
+        outcome = design(command, task.limit)
+        seconds = time.time() - begin
+        verdict = ""
+        if os.path.exists(path):
+            try:
+                verdict = verdict_on(path, document, objective, task.check_seconds)
+            except Exception as error:  # pylint: disable=broad-except
+                verdict = f"not checked: {type(error).__name__}: {error}"
+            if outcome != OUTCOMES[DESIGNED]:
+                verdict += f" (written, exit status: {outcome})"
+            if verdict in ("holds", "sampled"):
+                os.remove(path)
+        results.append(Result(task.seed, plant.kind, plant.n, method, objective, outcome, seconds,
+                              verdict, path))
     if all(result.verdict in ("", "holds", "sampled") for result in results):
         shutil.rmtree(folder)
     return results
@@ -167,6 +177,8 @@ def main():
                         help="for false claims with their plants, and claims.csv")
     parser.add_argument("--plants", type=int, default=2000)
     parser.add_argument("--seed", type=int, default=1, help="of the first plant")
+    parser.add_argument("--draw", type=int, metavar="N",
+                        help="designs for a plant, drawn from all its methods and objectives")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--seconds", type=float, default=float("inf"),
                         help="after which no further design begins")
@@ -178,7 +190,7 @@ def main():
     methods, objectives = choices_of(arguments.tool)
     os.makedirs(arguments.output, exist_ok=True)
     end = time.time() + arguments.seconds
-    tasks = (Task(seed, arguments.tool, methods, objectives, arguments.output,
+    tasks = (Task(seed, arguments.tool, methods, objectives, arguments.draw, arguments.output,
                   arguments.design_seconds, arguments.check_seconds, end)
              for seed in range(arguments.seed, arguments.seed + arguments.plants))
     results = []
