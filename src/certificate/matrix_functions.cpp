@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/SVD>
+#include <cmath>
 #include <limits>
 #include <unsupported/Eigen/MatrixFunctions>
 
@@ -50,7 +51,43 @@ Eigen::VectorXd singular_values(const Eigen::MatrixXd& a) {
 
 double norm2(const Eigen::MatrixXd& a) { return a.size() == 0 ? 0.0 : singular_values(a)(0); }
 
-Eigen::MatrixXd exponential_of(const Eigen::MatrixXd& a) { return a.exp(); }
+Eigen::VectorXd balancing_of(const Eigen::MatrixXd& a) {
+  constexpr int kMaxSweeps = 100;
+  const Eigen::Index n = a.rows();
+  Eigen::VectorXd D = Eigen::VectorXd::Ones(n);
+  if (!a.allFinite()) return D;
+  Eigen::MatrixXd sizes = a.cwiseAbs();
+  sizes.diagonal().setZero();
+  bool has_changed = true;
+  for (int sweep = 0; has_changed && sweep < kMaxSweeps; ++sweep) {
+    has_changed = false;
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const double row = sizes.row(i).sum();
+      const double col = sizes.col(i).sum();
+      double exponent = 0.0;
+      if (row > 0.0 && col > 0.0) exponent = std::round(std::log2(row / col) / 2.0);
+      // Of a triangular matrix, what may be made as small as one likes.
+      if (row > 1.0 && col == 0.0) exponent = std::ceil(std::log2(row));
+      if (col > 1.0 && row == 0.0) exponent = -std::ceil(std::log2(col));
+      if (exponent == 0.0) continue;
+      const double factor = std::exp2(exponent);
+      D(i) *= factor;
+      sizes.col(i) *= factor;
+      sizes.row(i) /= factor;
+      has_changed = true;
+    }
+  }
+  return D;
+}
+
+Eigen::MatrixXd balanced_by(const Eigen::VectorXd& D, const Eigen::MatrixXd& a) {
+  return D.cwiseInverse().asDiagonal() * a * D.asDiagonal();
+}
+
+Eigen::MatrixXd exponential_of(const Eigen::MatrixXd& a) {
+  const Eigen::VectorXd D = balancing_of(a);
+  return balanced_by(D.cwiseInverse(), balanced_by(D, a).exp());
+}
 
 Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& a) { return a.partialPivLu().inverse(); }
 

@@ -53,20 +53,25 @@ RoundedMatrix inverse_at_centre(const RoundedMatrix& a) {
 
 /// By scaling and squaring, with the error of each step: of a part whose exponential is small it
 /// shrinks with it. Where the scaled matrix is X, the error of its exponential by Padé's formula is
-/// a small multiple of n ε e^{|X|}, entry by entry.
+/// a small multiple of n ε e^{|X|}, entry by entry. Balanced, which is exact, it does not depend on
+/// units.
 RoundedMatrix exponential_at_centre(const RoundedMatrix& a) {
   if (!a.value.allFinite() || !a.error.allFinite()) return {unknown(a.value), unknown(a.value)};
   constexpr double kPadeSteps = 8.0;
-  const double norm = a.value.cwiseAbs().colwise().sum().maxCoeff();
+  const Eigen::VectorXd D = balancing_of(a.value);
+  const MatrixXd value = balanced_by(D, a.value);
+  const double norm = value.cwiseAbs().colwise().sum().maxCoeff();
   const int squarings = norm > 0.5 ? std::ilogb(norm) + 2 : 0;
   const double scale = std::ldexp(1.0, -squarings);
-  const MatrixXd X = a.value * scale;
+  const MatrixXd X = value * scale;
+  const MatrixXd error = balanced_by(D, a.error) * scale;
   const MatrixXd majorant = exponential_of(X.cwiseAbs());
   const auto n = static_cast<double>(X.rows());
   RoundedMatrix result{exponential_of(X),
-                       kPadeSteps * (n + 1.0) * majorant + majorant * (a.error * scale) * majorant};
+                       kPadeSteps * (n + 1.0) * majorant + majorant * error * majorant};
   for (int i = 0; i < squarings; ++i) result = product_at_centre(result, result);
-  return result;
+  const Eigen::VectorXd back = D.cwiseInverse();
+  return {balanced_by(back, result.value), balanced_by(back, result.error)};
 }
 
 /// A RoundedMatrix that may be known to be f(τ) M with a constant M: what its exponential needs.

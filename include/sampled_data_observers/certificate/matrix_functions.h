@@ -27,7 +27,14 @@ std::optional<Eigen::MatrixXd> diagonalizing_congruence(const Eigen::MatrixXd& a
 Eigen::VectorXd singular_values(const Eigen::MatrixXd& a);
 double norm2(const Eigen::MatrixXd& a);
 
-/// e^a
+/// The diagonal of a D, powers of two, for which D⁻¹ a D has rows and columns of similar size: a
+/// change of units that is exact in floating point, and after which rounding does not depend on the
+/// units of a. Ones where a is not finite.
+Eigen::VectorXd balancing_of(const Eigen::MatrixXd& a);
+/// D⁻¹ a D
+Eigen::MatrixXd balanced_by(const Eigen::VectorXd& D, const Eigen::MatrixXd& a);
+
+/// e^a, computed in balanced units
 Eigen::MatrixXd exponential_of(const Eigen::MatrixXd& a);
 
 /// a⁻¹; not finite where a is singular.
