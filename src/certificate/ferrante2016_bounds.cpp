@@ -27,7 +27,10 @@ Ferrante2016Bounds ferrante2016_bounds(const CertificateSubject& subject,
   const MatrixExpression weight = transpose(E) * P * E;
 
   Ferrante2016Bounds bounds;
-  bounds.alpha_1 = least_eigenvalue(weight, values, 0.0, subject.T2);
+  // By the inverse, whose largest eigenvalue has no rounding error that could hide it.
+  const MatrixExpression back = exponential(-(time_tau() * MatrixExpression(subject.plant.A())));
+  bounds.alpha_1 =
+      -1.0 / least_eigenvalue(-(back * inverse(P) * transpose(back)), values, 0.0, subject.T2);
   bounds.alpha_2 = -least_eigenvalue(-weight, values, 0.0, subject.T2);
   bounds.beta =
       least_eigenvalue(P - transpose(I_LC) * weight * I_LC, values, subject.T1, subject.T2);
