@@ -188,19 +188,12 @@ class Proposition : public Theorem {
   }
 };
 
-class Proposition1 : public Proposition {
+/// What Theorem 1 says of Γ = 0, for Proposition 1 and for slack matrices of any kind.
+class WithoutInputs : public Proposition {
  public:
-  std::string name() const override { return "etienne2019_proposition1"; }
-
   std::string guarantee() const override {
     return "without noise and disturbance the error converges at the rate alpha / 2, for all times "
            "between samples up to T2";
-  }
-
-  std::vector<NamedShape> multipliers(const CertificateSubject& subject) const override {
-    const Eigen::Index n = subject.plant.states();
-    return {symmetric_shape("P", n), symmetric_shape("X", n), symmetric_shape("Y", n),
-            matrix_shape("G", n, n)};
   }
 
   std::vector<NamedShape> parameters(const CertificateSubject&) const override {
@@ -208,12 +201,6 @@ class Proposition1 : public Proposition {
   }
 
   bool is_homogeneous(const CertificateSubject&) const override { return true; }
-
-  std::vector<Condition> conditions(const CertificateSubject& subject) const override {
-    const Eigen::Index n = subject.plant.states();
-    const MatrixExpression G = symbol("G", n, n);
-    return finsler_conditions(subject, {G, G, zeros(n, n)}, {}, "etienne2019 (14)");
-  }
 
   std::unique_ptr<const ErrorBound> error_bound(
       const CertificateSubject& subject, const NamedMatrices& values,
@@ -224,6 +211,43 @@ class Proposition1 : public Proposition {
           "etienne2019_proposition2 bounds what they do");
     }
     return std::make_unique<const IssBound>(subject, values, 0.0, assumptions);
+  }
+};
+
+/// Theorem 1 with (13) as it is.
+class Theorem1 : public WithoutInputs {
+ public:
+  std::string name() const override { return "etienne2019_theorem1"; }
+
+  std::vector<NamedShape> multipliers(const CertificateSubject& subject) const override {
+    const Eigen::Index n = subject.plant.states();
+    return {symmetric_shape("P", n),   symmetric_shape("X", n),   symmetric_shape("Y", n),
+            matrix_shape("G_1", n, n), matrix_shape("G_2", n, n), matrix_shape("G_3", n, n)};
+  }
+
+  std::vector<Condition> conditions(const CertificateSubject& subject) const override {
+    const Eigen::Index n = subject.plant.states();
+    return finsler_conditions(subject,
+                              {symbol("G_1", n, n), symbol("G_2", n, n), symbol("G_3", n, n)}, {},
+                              "etienne2019 (13)");
+  }
+};
+
+/// With G_1 = G_2 = G and G_3 = 0, though G_1 and G_2 differ by a unit of time.
+class Proposition1 : public WithoutInputs {
+ public:
+  std::string name() const override { return "etienne2019_proposition1"; }
+
+  std::vector<NamedShape> multipliers(const CertificateSubject& subject) const override {
+    const Eigen::Index n = subject.plant.states();
+    return {symmetric_shape("P", n), symmetric_shape("X", n), symmetric_shape("Y", n),
+            matrix_shape("G", n, n)};
+  }
+
+  std::vector<Condition> conditions(const CertificateSubject& subject) const override {
+    const Eigen::Index n = subject.plant.states();
+    const MatrixExpression G = symbol("G", n, n);
+    return finsler_conditions(subject, {G, G, zeros(n, n)}, {}, "etienne2019 (14)");
   }
 };
 
@@ -371,6 +395,11 @@ class Proposition2Channels : public Proposition {
 };
 
 }  // namespace
+
+const Theorem& etienne2019_theorem1() {
+  static const Theorem1 theorem;
+  return theorem;
+}
 
 const Theorem& etienne2019_proposition1() {
   static const Proposition1 theorem;

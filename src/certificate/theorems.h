@@ -15,6 +15,7 @@ const Theorem& bernard2022_section7_3_2();
 const Theorem& etienne2019_proposition1();
 const Theorem& etienne2019_proposition2();
 const Theorem& etienne2019_proposition2_channels();
+const Theorem& etienne2019_theorem1();
 const Theorem& ferrante2016_theorem1();
 const Theorem& ferrante2019_theorem2();
 const Theorem& ferrante2019_corollary1();

@@ -241,6 +241,11 @@ def etienne2019_proposition1(claim):
     yield from etienne2019(claim, stacked([[G, G, zeros(n, n)]]), [])
 
 
+def etienne2019_theorem1(claim):
+    G = stacked([[claim.value(f"G_{k}") for k in (1, 2, 3)]])
+    yield from etienne2019(claim, G, [])
+
+
 def etienne2019_proposition2(claim):
     n = claim.states
     G = stacked([[claim.value(f"G_{k}") for k in (1, 2, 3, 4)]])
@@ -390,6 +395,7 @@ OBSERVERS = {
     sferlazza2019_theorem2_rate: "TimeVaryingGainObserver",
     sferlazza2019_equation17: "TimeVaryingGainObserver",
     etienne2019_proposition1: "SampleAndHoldObserver",
+    etienne2019_theorem1: "SampleAndHoldObserver",
     etienne2019_proposition2_channels: "SampleAndHoldObserver",
     etienne2019_proposition2: "SampleAndHoldObserver",
     bernard2022_equation14: "SynchronizedObserver",

@@ -67,6 +67,8 @@ class GainDesign : public LmiDesignMethod {
   }
 };
 
+/// The gain by (14), its proof by (13): G_1 = G_2, though of different units of time, is a choice
+/// for the design alone.
 class Proposition1Design : public GainDesign {
  public:
   std::string name() const override { return "etienne2019_proposition1"; }
@@ -77,7 +79,7 @@ class Proposition1Design : public GainDesign {
     return {{"alpha", "twice the rate of convergence [1/s]", 0.1 / subject.T2, std::nullopt}};
   }
 
-  const Theorem& theorem() const override { return *find_theorem("etienne2019_proposition1"); }
+  const Theorem& theorem() const override { return *find_theorem("etienne2019_theorem1"); }
 
   std::vector<Objective> objectives(const CertificateSubject&) const override {
     return {Objective::kFeasible, Objective::kMaxT2, Objective::kMaxDecay};
