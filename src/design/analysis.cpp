@@ -5,6 +5,7 @@
 
 #include "sampled_data_observers/design/certify.h"
 #include "sampled_data_observers/design/final_error.h"
+#include "sampled_data_observers/design/plant_scaling.h"
 #include "sampled_data_observers/design/request_error.h"
 
 namespace sampled_data_observers {
@@ -64,16 +65,35 @@ class GivenGains : public DesignMethod {
 
   DesignCandidate attempt(const CertificateSubject& subject, const Parameters& parameters,
                           Objective objective) const override {
-    NamedMatrices fixed = gains_;
+    return attempt_scaled(subject, parameters, objective, units_of_file(subject));
+  }
+
+  DesignCandidate attempt_scaled(const CertificateSubject& subject, const Parameters& parameters,
+                                 Objective objective, const PlantScaling& scaling) const override {
+    NamedMatrices fixed = scaled(theorem_, gains_, scaling);
     for (const NamedShape& shape : theorem_.parameters(subject)) {
       const auto given = parameters.find(shape.name);
       if (given != parameters.end()) fixed[shape.name] = scalar_matrix(given->second);
     }
-    if (objective == Objective::kMinFinalError) {
-      return certify_final_error(theorem_, subject, fixed, FinalErrorNorm::kState,
-                                 final_error_assumptions(parameters));
+    if (objective != Objective::kMinFinalError) {
+      return certify_here(theorem_, subject, fixed, objective);
     }
-    return certify_here(theorem_, subject, fixed, objective);
+    // The bound at run time is one of the norm in the units of the plant file.
+    const ErrorAssumptions assumptions = final_error_assumptions(parameters);
+    DesignCandidate found =
+        certify_final_error(theorem_, subject, fixed, scaling.state, assumptions);
+    if (!found.is_verified()) return found;
+    const PlantScaling file = inverse_of(scaling);
+    ErrorAssumptions in_file = assumptions;
+    in_file.noise /= file.output(0);
+    in_file.disturbance /= file.disturbance;
+    found.cost = final_error(theorem_, scaled(subject, file),
+                             unscaled(theorem_, found.values, scaling), in_file);
+    return found;
+  }
+
+  void restore(const CertificateSubject&, NamedMatrices& values) const override {
+    for (const auto& [name, value] : gains_) values[name] = value;
   }
 
  private:

@@ -1,5 +1,6 @@
 #include "sampled_data_observers/design/attempts.h"
 
+#include <algorithm>
 #include <locale>
 #include <sstream>
 #include <string>
@@ -8,6 +9,7 @@
 #include "sampled_data_observers/certificate/matrix_functions.h"
 #include "sampled_data_observers/design/certify.h"
 #include "sampled_data_observers/design/packing.h"
+#include "sampled_data_observers/design/plant_scaling.h"
 #include "sampled_data_observers/design/rigorous_check.h"
 
 namespace sampled_data_observers {
@@ -32,22 +34,22 @@ void refuse(DesignCandidate& candidate, const std::string& message) {
   candidate.message = message;
 }
 
-void require_gain_bound(const DesignMethod& method, const CertificateSubject& subject,
-                        const Parameters& parameters, DesignCandidate& candidate) {
-  for (const std::string& name : method.bounded_gains(subject)) {
-    const double norm = norm2(candidate.values.at(name));
-    const double bound = parameters.at("gain_bound");
-    if (norm <= bound * (1.0 + kBoundTolerance)) continue;
-    std::ostringstream text = number_text();
-    text.precision(4);
-    text << "the solver left the bound on a gain: the norm of " << name << " is larger than "
-         << "gain_bound = " << bound;
-    refuse(candidate, text.str());
-    return;
-  }
+/// Of the largest of the gains that are bounded; 0 where there are none.
+double bounded_norm(const std::vector<std::string>& names, const NamedMatrices& values) {
+  double largest = 0.0;
+  for (const std::string& name : names) largest = std::max(largest, norm2(values.at(name)));
+  return largest;
 }
 
-void require_proof(const Theorem& theorem, const CertificateSubject& subject,
+void require_gain_bound(double norm, double bound, DesignCandidate& candidate) {
+  if (norm <= bound * (1.0 + kBoundTolerance)) return;
+  std::ostringstream text = number_text();
+  text.precision(4);
+  text << "the solver left the bound on a gain: its norm is larger than gain_bound = " << bound;
+  refuse(candidate, text.str());
+}
+
+void require_proof(const Theorem& theorem, const CertificateSubject& subject, double unit_of_time,
                    DesignCandidate& candidate) {
   ProofOptions options;
   options.time_limit = kProofTime;
@@ -58,28 +60,88 @@ void require_proof(const Theorem& theorem, const CertificateSubject& subject,
     text << "not proved in ball arithmetic: " << proof.name;
     if (proof.status == ProofStatus::kDisproved) {
       text << " does not hold";
-      if (proof.tau) text << " at tau = " << *proof.tau << " s";
     } else {
-      text << ": " << proof.reason;
+      text << " is undecided";
     }
+    if (proof.tau) text << " at tau = " << unit_of_time * *proof.tau << " s";
     refuse(candidate, text.str());
     return;
   }
   candidate.proved_conditions = proofs.size();
 }
 
-/// With the same gains and parameters, a gamma that is not quite the least.
-DesignCandidate with_larger_gamma(const Theorem& theorem, const CertificateSubject& subject,
-                                  const DesignCandidate& candidate, double factor) {
-  NamedMatrices fixed = candidate.values;
-  for (const NamedShape& shape : theorem.multipliers(subject)) fixed.erase(shape.name);
-  const double gamma = factor * scalar_value(candidate.values, "gamma");
-  fixed["gamma"] = scalar_matrix(gamma);
-  DesignCandidate next = certify_here(theorem, subject, fixed, Objective::kFeasible);
-  next.solver = candidate.solver;
-  next.cost = gamma;
-  return next;
+/// Whether conditions in other units are other ones: by P > I, or by a basis of the state that is
+/// computed in floating point.
+bool depends_on_units(const Theorem& theorem) {
+  return has_norm_of_state(theorem) || theorem.name() == "bernard2022_example4_2";
 }
+
+/// The units in which a method is best served, without changing what is asked of it.
+PlantScaling units_for(const DesignMethod& method, const CertificateSubject& subject,
+                       const Parameters& parameters, Objective objective, bool keeps_gains) {
+  const Theorem& theorem = method.theorem();
+  KeptNorms kept;
+  kept.of_state =
+      keeps_gains || (has_norm_of_state(theorem) &&
+                      (objective == Objective::kMinGamma || parameters.count("gamma") > 0));
+  // Noise is as large as the norm of what it adds to all outputs.
+  kept.of_outputs =
+      keeps_gains || has_norm_of_state(theorem) || objective == Objective::kMinFinalError;
+  return scaling_of(theorem, subject, kept);
+}
+
+/// What is found for a plant in other units.
+struct ScaledAttempt {
+  const DesignMethod& method;
+  const CertificateSubject& subject;
+  const Parameters& parameters;
+  Objective objective;
+  PlantScaling scaling;
+
+  const Theorem& theorem() const { return method.theorem(); }
+
+  /// The candidate in the units of the plant file. It is checked and proved in such as differ from
+  /// them by powers of two: what holds in those holds for the same numbers in these.
+  DesignCandidate proved(const DesignCandidate& found) const {
+    const NamedMatrices values = in_units_of_file(found.values);
+    const PlantScaling exact =
+        depends_on_units(theorem()) ? units_of_file(subject) : rounded_to_powers_of_two(scaling);
+    const CertificateSubject exactly = scaled(subject, exact);
+    DesignCandidate candidate =
+        judged(theorem(), exactly, scaled(theorem(), values, exact), objective, found);
+    if (candidate.is_verified()) require_proof(theorem(), exactly, exact.time, candidate);
+    if (candidate.is_verified()) candidate.values = values;
+    // The units of the attempt are the same whatever those of the file.
+    candidate.cost =
+        objective == Objective::kMinGamma ? theorem().gain_figure(values).value : found.cost;
+    return candidate;
+  }
+
+  /// With the same gains and parameters, a gamma that is not quite the least.
+  DesignCandidate with_larger_gamma(const DesignCandidate& found, double factor) const {
+    NamedMatrices fixed = found.values;
+    for (const NamedShape& shape : theorem().multipliers(subject)) fixed.erase(shape.name);
+    fixed["gamma"] = scalar_matrix(factor * scalar_value(found.values, "gamma"));
+    DesignCandidate next =
+        certify_here(theorem(), scaled(subject, scaling), fixed, Objective::kFeasible);
+    next.solver = found.solver;
+    return next;
+  }
+
+ private:
+  /// What was given, and what gains are by definition, is so to the bit.
+  NamedMatrices in_units_of_file(const NamedMatrices& found) const {
+    NamedMatrices values = unscaled(theorem(), found, scaling);
+    for (const NamedShape& shape : theorem().parameters(subject)) {
+      const auto given = parameters.find(shape.name);
+      const bool is_minimized = shape.name == "gamma" && objective == Objective::kMinGamma;
+      if (given == parameters.end() || is_minimized) continue;
+      values[shape.name] = scalar_matrix(given->second);
+    }
+    method.restore(subject, values);
+    return values;
+  }
+};
 
 std::string packed(const DesignCandidate& candidate) {
   Packer packer;
@@ -89,6 +151,7 @@ std::string packed(const DesignCandidate& candidate) {
   packer.add(candidate.solver);
   packer.add(candidate.message);
   packer.add(static_cast<std::int64_t>(candidate.proved_conditions));
+  packer.add(candidate.gain_bound);
   return packer.bytes();
 }
 
@@ -103,6 +166,7 @@ DesignCandidate unpacked(const WorkerOutcome& outcome) {
       candidate.solver = unpacker.text();
       candidate.message = unpacker.text();
       candidate.proved_conditions = static_cast<std::size_t>(unpacker.integer());
+      candidate.gain_bound = unpacker.number();
       break;
     }
     case WorkerOutcome::Status::kThrew:
@@ -121,20 +185,33 @@ DesignCandidate unpacked(const WorkerOutcome& outcome) {
 }  // namespace
 
 DesignCandidate proved_attempt(const DesignMethod& method, const CertificateSubject& subject,
-                               const Parameters& parameters, Objective objective) {
-  DesignCandidate first = method.attempt(subject, parameters, objective);
+                               const Parameters& parameters, Objective objective,
+                               GainBound gain_bound) {
+  const std::vector<std::string> bounded = method.bounded_gains(subject);
+  const bool keeps_norms = gain_bound == GainBound::kGiven && !bounded.empty();
+  const ScaledAttempt attempt{method, subject, parameters, objective,
+                              units_for(method, subject, parameters, objective, keeps_norms)};
+  Parameters in_units = scaled(method.theorem(), parameters, attempt.scaling);
+  if (keeps_norms) in_units["gain_bound"] /= gain_unit(bounded.front(), attempt.scaling);
+  DesignCandidate first =
+      method.attempt_scaled(scaled(subject, attempt.scaling), in_units, objective, attempt.scaling);
   if (!first.is_verified()) return first;
-  require_gain_bound(method, subject, parameters, first);
+  const double norm = bounded_norm(bounded, first.values);
+  if (!bounded.empty()) require_gain_bound(norm, in_units.at("gain_bound"), first);
   if (!first.is_verified()) return first;
-  const Theorem& theorem = method.theorem();
-  DesignCandidate candidate = first;
-  require_proof(theorem, subject, candidate);
-  if (candidate.is_verified() || objective != Objective::kMinGamma) return candidate;
+  DesignCandidate candidate = attempt.proved(first);
   for (const double factor : kFurtherInflations) {
-    DesignCandidate next = with_larger_gamma(theorem, subject, first, factor);
-    if (!next.is_verified()) continue;
-    require_proof(theorem, subject, next);
-    if (next.is_verified()) return next;
+    if (candidate.is_verified() || objective != Objective::kMinGamma) break;
+    const DesignCandidate next = attempt.with_larger_gamma(first, factor);
+    if (next.is_verified()) candidate = attempt.proved(next);
+  }
+  if (candidate.is_verified() && !bounded.empty()) {
+    const double factor = bounded_norm(bounded, candidate.values) / norm;
+    candidate.gain_bound =
+        keeps_norms ? parameters.at("gain_bound") : in_units.at("gain_bound") * factor;
+    if (keeps_norms) {
+      require_gain_bound(bounded_norm(bounded, candidate.values), candidate.gain_bound, candidate);
+    }
   }
   return candidate;
 }
@@ -142,10 +219,13 @@ DesignCandidate proved_attempt(const DesignMethod& method, const CertificateSubj
 std::vector<DesignCandidate> proved_attempts(const DesignMethod& method,
                                              const CertificateSubject& subject,
                                              const std::vector<Parameters>& choices,
-                                             Objective objective, const WorkerOptions& workers) {
+                                             Objective objective, GainBound gain_bound,
+                                             const WorkerOptions& workers) {
   const auto outcomes = run_in_workers(
       choices.size(),
-      [&](std::size_t i) { return packed(proved_attempt(method, subject, choices[i], objective)); },
+      [&](std::size_t i) {
+        return packed(proved_attempt(method, subject, choices[i], objective, gain_bound));
+      },
       workers);
   std::vector<DesignCandidate> candidates;
   candidates.reserve(outcomes.size());

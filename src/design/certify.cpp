@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <limits>
 #include <utility>
 
 #include "sampled_data_observers/design/final_error.h"
@@ -133,7 +132,7 @@ DesignCandidate certify_here(const Theorem& theorem, const CertificateSubject& s
 }
 
 DesignCandidate certify_final_error(const Theorem& theorem, const CertificateSubject& subject,
-                                    const NamedMatrices& fixed, FinalErrorNorm norm,
+                                    const NamedMatrices& fixed, const Eigen::VectorXd& weights,
                                     const ErrorAssumptions& assumptions) {
   Parameters parameters = {{kNoise, assumptions.noise}, {kDisturbance, assumptions.disturbance}};
   const auto program_for = [&](const std::vector<FurtherTime>& further) {
@@ -141,7 +140,7 @@ DesignCandidate certify_final_error(const Theorem& theorem, const CertificateSub
     if (names(theorem.parameters(subject), "gamma") && fixed.count("gamma") == 0) {
       program.squared("gamma");
     }
-    minimize_final_error(program, theorem, subject, fixed, norm, parameters);
+    minimize_final_error(program, theorem, subject, fixed, weights, parameters);
     return program;
   };
   DesignCandidate candidate;
@@ -165,10 +164,7 @@ DesignCandidate certify_final_error(const Theorem& theorem, const CertificateSub
     candidate.values.erase(name);
   }
   if (!candidate.is_verified()) return candidate;
-  candidate.cost =
-      norm == FinalErrorNorm::kState
-          ? final_error(theorem, subject, candidate.values, assumptions)
-          : final_error_of_level(theorem, subject, fixed, parameters.at(kFinalErrorLevel));
+  candidate.cost = final_error_of_level(theorem, subject, fixed, parameters.at(kFinalErrorLevel));
   return candidate;
 }
 

@@ -76,7 +76,7 @@ DesignCandidate LmiDesignMethod::attempt(const CertificateSubject& subject,
   }
   if (objective == Objective::kMinFinalError) {
     DesignCandidate least = certify_final_error(
-        theorem(), subject, fixed, FinalErrorNorm::kWeighted, final_error_assumptions(parameters));
+        theorem(), subject, fixed, weights_of_design(subject), final_error_assumptions(parameters));
     least.solver = solved.solver;
     return least;
   }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "sampled_data_observers/certificate/matrix_functions.h"
+#include "sampled_data_observers/design/plant_scaling.h"
 
 namespace sampled_data_observers {
 namespace {
@@ -139,26 +140,6 @@ std::vector<std::vector<double>> worst_intervals(const CertificateSubject& subje
   return {{T1}, {subject.T2}, {T1, subject.T2}};
 }
 
-/// What P must be at least, for bounds of ε or of its weighted entries.
-Eigen::MatrixXd least_P(const CertificateSubject& subject, FinalErrorNorm norm) {
-  const Eigen::Index n = subject.plant.states();
-  Eigen::MatrixXd least = Eigen::MatrixXd::Identity(n, n);
-  if (norm == FinalErrorNorm::kState) return least;
-  // What an error of each state makes of the outputs within the horizon, and at once.
-  constexpr int kSteps = 100;
-  const Eigen::MatrixXd flow =
-      exponential_of(subject.plant.A() * (kDefaultHorizon * subject.T2 / kSteps));
-  Eigen::MatrixXd outputs = subject.plant.C();
-  Eigen::VectorXd weights = outputs.colwise().norm().transpose();
-  for (int i = 0; i < kSteps; ++i) {
-    outputs = (outputs * flow).eval();
-    weights = weights.cwiseMax(outputs.colwise().norm().transpose()).eval();
-  }
-  weights = weights.cwiseMax(kLeastWeight * weights.maxCoeff()).eval();
-  least.diagonal() = weights.cwiseAbs2();
-  return least;
-}
-
 /// objective <= level, which is minimized or given.
 void add_level(LmiProgram& program, const MatrixExpression& objective,
                const Parameters& parameters) {
@@ -172,13 +153,14 @@ void add_level(LmiProgram& program, const MatrixExpression& objective,
   program.minimize(level);
 }
 
-/// P >= I and Lᵀ e^{Aᵀτ} P e^{Aτ} L <= level: what a sample's noise adds to V until the next one.
+/// P >= W² with the weights W, and Lᵀ e^{Aᵀτ} P e^{Aτ} L <= level: what a sample's noise adds to V
+/// until the next one.
 void minimize_ferrante2016_level(LmiProgram& program, const CertificateSubject& subject,
-                                 const Eigen::MatrixXd& L, FinalErrorNorm norm,
+                                 const Eigen::MatrixXd& L, const Eigen::VectorXd& weights,
                                  const Parameters& parameters) {
   const Eigen::Index n = subject.plant.states();
   const MatrixExpression P = symbol("P", n, n);
-  program.bound_above("least P", least_P(subject, norm), P);
+  program.bound_above("least P", Eigen::MatrixXd(weights.cwiseAbs2().asDiagonal()), P);
   const MatrixExpression level = program.scalar("noise_level");
   for (std::size_t i = 0; i < kNoisePoints; ++i) {
     const double tau = subject.T1 + (subject.T2 - subject.T1) * static_cast<double>(i) /
@@ -191,8 +173,17 @@ void minimize_ferrante2016_level(LmiProgram& program, const CertificateSubject& 
 
 }  // namespace
 
-MatrixExpression least_P_of_design(const CertificateSubject& subject) {
-  return least_P(subject, FinalErrorNorm::kWeighted);
+Eigen::VectorXd weights_of_design(const CertificateSubject& subject) {
+  constexpr int kSteps = 100;
+  const Eigen::MatrixXd flow =
+      exponential_of(subject.plant.A() * (kDefaultHorizon * subject.T2 / kSteps));
+  Eigen::MatrixXd outputs = subject.plant.C();
+  Eigen::VectorXd weights = outputs.colwise().norm().transpose();
+  for (int i = 0; i < kSteps; ++i) {
+    outputs = (outputs * flow).eval();
+    weights = weights.cwiseMax(outputs.colwise().norm().transpose()).eval();
+  }
+  return weights.cwiseMax(kLeastWeight * weights.maxCoeff());
 }
 
 double final_error_of_level(const Theorem& theorem, const CertificateSubject& subject,
@@ -219,9 +210,11 @@ Eigen::MatrixXd default_disturbance_input(const CertificateSubject& subject) {
   const Eigen::Index n = A.rows();
   const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(n, n);
   const Eigen::VectorXd shown = shown_within_horizon(subject, unit);
+  const Eigen::VectorXd in_any_units = shown_within_horizon(balanced(subject), unit);
   Eigen::MatrixXd N(n, 0);
   for (Eigen::Index i = 0; i < n; ++i) {
-    if (is_kinematic(A, subject.plant.G, i) || !(shown(i) > 1e-12 * shown.maxCoeff())) continue;
+    const bool is_shown = in_any_units(i) > 1e-12 * in_any_units.maxCoeff();
+    if (is_kinematic(A, subject.plant.G, i) || !is_shown) continue;
     N.conservativeResize(n, N.cols() + 1);
     N.rightCols(1) = unit.col(i) / shown(i);
   }
@@ -270,23 +263,24 @@ bool has_final_error_level(const Theorem& theorem) {
 
 void minimize_final_error(LmiProgram& program, const Theorem& theorem,
                           const CertificateSubject& subject, const NamedMatrices& fixed,
-                          FinalErrorNorm norm, const Parameters& parameters) {
+                          const Eigen::VectorXd& weights, const Parameters& parameters) {
   if (theorem.name() == "ferrante2016_theorem1") {
-    minimize_ferrante2016_level(program, subject, fixed.at("L"), norm, parameters);
+    minimize_ferrante2016_level(program, subject, fixed.at("L"), weights, parameters);
   } else if (theorem.name() == "ferrante2019_theorem2") {
     Parameters all = parameters;
     for (const char* name : {"delta", "lambda_t"}) all[name] = scalar_value(fixed, name);
-    minimize_ferrante2019_level(program, subject, norm, all);
+    minimize_ferrante2019_level(program, subject, weights, all);
   }
 }
 
 void minimize_ferrante2019_level(LmiProgram& program, const CertificateSubject& subject,
-                                 FinalErrorNorm norm, const Parameters& parameters) {
+                                 const Eigen::VectorXd& weights, const Parameters& parameters) {
   const ErrorAssumptions assumptions = final_error_assumptions(parameters);
   const double rate = 2.0 * parameters.at("lambda_t");
   const Eigen::Index n = subject.plant.states();
   const Eigen::Index m = subject.plant.C().rows();
-  program.bound_above("least P1", least_P(subject, norm), symbol("P1", n, n));
+  program.bound_above("least P1", Eigen::MatrixXd(weights.cwiseAbs2().asDiagonal()),
+                      symbol("P1", n, n));
   // W of the bound ends at ω2 |η|² / (1 − e^{−2 λ T1}) + γ² |w|² / (2 λ); here over |η|² or |w|².
   const double unit = assumptions.noise > 0.0 ? assumptions.noise : assumptions.disturbance;
   const auto squared = [](double x) { return x * x; };

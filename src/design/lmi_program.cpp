@@ -9,6 +9,27 @@
 #include "sampled_data_observers/certificate/matrix_functions.h"
 
 namespace sampled_data_observers {
+namespace {
+
+/// The congruence D a D with a diagonal D that makes the largest coefficient, or the constant, of
+/// each diagonal entry 1: it is as definite as a, and how far inside it is does not depend on
+/// units.
+AffineMatrix equilibrated(AffineMatrix a) {
+  Eigen::VectorXd largest = a.constant.diagonal().cwiseAbs();
+  for (const AffineMatrix::Term& term : a.terms) {
+    if (term.row != term.col) continue;
+    largest(term.row) = std::max(largest(term.row), std::abs(term.coefficient));
+  }
+  Eigen::VectorXd D = Eigen::VectorXd::Ones(largest.size());
+  for (Eigen::Index i = 0; i < D.size(); ++i) {
+    if (std::isfinite(largest(i)) && largest(i) > 0.0) D(i) = 1.0 / std::sqrt(largest(i));
+  }
+  a.constant = D.asDiagonal() * a.constant * D.asDiagonal();
+  for (AffineMatrix::Term& term : a.terms) term.coefficient *= D(term.row) * D(term.col);
+  return a;
+}
+
+}  // namespace
 
 /// Symbols are decision variables or fixed values.
 class LmiProgram::Algebra {
@@ -183,7 +204,8 @@ std::vector<LmiProgram::Block> LmiProgram::compile() const {
       algebra.emplace(*this, tau);
       evaluator.emplace(*algebra);
     }
-    compiled.push_back({block.name, evaluator->evaluate(block.expression), block.is_strict});
+    compiled.push_back(
+        {block.name, equilibrated(evaluator->evaluate(block.expression)), block.is_strict});
   }
   return compiled;
 }

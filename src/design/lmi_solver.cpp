@@ -73,7 +73,7 @@ std::string why_unsolved(const LmiSolution& solution) {
   const bool is_certain =
       solution.status == SolverStatus::kInfeasible ||
       (solution.status == SolverStatus::kSolved && solution.dual_objective >= -kNoRoom);
-  if (is_certain) return "has no solution";
+  if (is_certain) return "has no solution by the solver's account";
   return "was not solved: the solver failed (" + solution.message +
          "), which does not tell whether there is a solution";
 }

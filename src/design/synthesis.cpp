@@ -13,6 +13,7 @@
 #include "sampled_data_observers/design/attempts.h"
 #include "sampled_data_observers/design/final_error.h"
 #include "sampled_data_observers/design/parameter_search.h"
+#include "sampled_data_observers/design/plant_scaling.h"
 #include "sampled_data_observers/design/request_error.h"
 #include "sampled_data_observers/design/require_detectable.h"
 #include "sampled_data_observers/design/workers.h"
@@ -90,7 +91,8 @@ class Synthesis {
         const std::string decay = method_.decay_parameter();
         const auto given = problem_.given.find(decay);
         const bool is_given = given != problem_.given.end() && given->second > 0.0;
-        const double start = is_given ? given->second : 0.1 / problem_.subject.T2;
+        const double start =
+            is_given ? given->second : 0.1 / (is_rate(decay) ? problem_.subject.T2 : 1.0);
         maximize(start, is_given && !problem_.accepts_less, decay, [this, &decay](double value) {
           Trial trial{problem_.subject, problem_.given};
           trial.given[decay] = value;
@@ -114,7 +116,7 @@ class Synthesis {
     } catch (const std::invalid_argument& fault) {
       throw RequestError(method_.name() + " is not for this plant: " + fault.what());
     }
-    require_detectable(problem_.subject.plant);
+    require_detectable(balanced(problem_.subject).plant);
     const std::vector<DesignParameter> known = method_.parameters(problem_.subject);
     for (const auto& [name, value] : problem_.given) {
       parameter_named(known, name);
@@ -209,7 +211,7 @@ class Synthesis {
 
   /// Whether no time between samples hides a mode that does not decay.
   bool shows_all(const CertificateSubject& subject) {
-    const std::string unseen = undetectable_sampling(subject);
+    const std::string unseen = undetectable_sampling(balanced(subject));
     if (!unseen.empty()) ++messages_[unseen];
     return unseen.empty();
   }
@@ -228,8 +230,10 @@ class Synthesis {
     for (Parameters& parameters : whole) {
       parameters.insert(choices.fixed.begin(), choices.fixed.end());
     }
-    const std::vector<DesignCandidate> candidates =
-        proved_attempts(method_, subject, whole, objective, workers);
+    const std::vector<DesignCandidate> candidates = proved_attempts(
+        method_, subject, whole, objective,
+        problem_.given.count("gain_bound") > 0 ? GainBound::kGiven : GainBound::kOfScaledPlant,
+        workers);
     attempts_ += candidates.size();
     std::vector<double> costs;
     for (std::size_t i = 0; i < candidates.size(); ++i) {
@@ -251,6 +255,7 @@ class Synthesis {
     design.observer_type = method_.observer_type();
     design.certificate = {&method_.theorem(), subject, candidate.values};
     design.parameters = parameters;
+    if (candidate.gain_bound > 0.0) design.parameters["gain_bound"] = candidate.gain_bound;
     design.margin = candidate.margin;
     design.proved_conditions = candidate.proved_conditions;
     design.solver = candidate.solver;

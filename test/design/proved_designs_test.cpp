@@ -115,7 +115,7 @@ DesignCandidate claimed(double L, double gain_bound) {
       *find_theorem("ferrante2016_theorem1"),
       {{"L", scalar_matrix(L)}, {"P", scalar_matrix(1.0)}, {"decay", scalar_matrix(0.0)}});
   return proved_attempt(method, linear_subject(scalar_matrix(1.0), scalar_matrix(1.0), 1.0, 1.0),
-                        {{"gain_bound", gain_bound}}, Objective::kFeasible);
+                        {{"gain_bound", gain_bound}}, Objective::kFeasible, GainBound::kGiven);
 }
 
 TEST(ProvedAttempts, AcceptWhatBallArithmeticProves) {
@@ -131,9 +131,11 @@ TEST(ProvedAttempts, RefuseWhatItDoesNotProve) {
   const DesignCandidate candidate = claimed(0.6, 1.0);
   EXPECT_FALSE(candidate.is_verified());
   EXPECT_EQ(candidate.proved_conditions, 0U);
-  EXPECT_NE(candidate.message.find("not proved in ball arithmetic"), std::string::npos);
   EXPECT_NE(candidate.message.find("ferrante2016 (12)"), std::string::npos) << candidate.message;
-  EXPECT_NE(candidate.message.find("at tau = 1 s"), std::string::npos) << candidate.message;
+  // At the edge, floating point may say what it likes.
+  for (const double rounding : {-1e-15, -1e-16, 0.0, 1e-17}) {
+    EXPECT_FALSE(claimed(1.0 - std::exp(-1.0) + rounding, 1.0).is_verified()) << rounding;
+  }
 }
 
 TEST(ProvedAttempts, RefuseGainsBeyondTheirBound) {
@@ -146,7 +148,7 @@ TEST(ProvedAttempts, RefuseGainsBeyondTheirBound) {
 TEST(WhyUnsolved, TellsInfeasibleFromFailed) {
   LmiSolution solution;
   solution.status = SolverStatus::kInfeasible;
-  EXPECT_EQ(why_unsolved(solution), "has no solution");
+  EXPECT_EQ(why_unsolved(solution), "has no solution by the solver's account");
   for (const SolverStatus status :
        {SolverStatus::kInaccurate, SolverStatus::kFailed, SolverStatus::kTimedOut}) {
     solution.status = status;

@@ -60,12 +60,10 @@ TEST(Sferlazza2019Aircraft, IsDesignedForFor3To4SecondsAgainstThePaper) {
   EXPECT_EQ(scalar_value(design.certificate.values, "lambda"), 0.7);
 }
 
-TEST(Sferlazza2019Aircraft, IsDesignedForFor4To8SecondsAtTheLargestMargin) {
+TEST(Sferlazza2019Aircraft, IsDesignedForFor4To8Seconds) {
   const Design design = design_by(kMethod, aircraft(4.0, 8.0));
-  const NamedMatrices& values = design.certificate.values;
-  EXPECT_NEAR(margin_of(values, 4.0, 8.0), 2.8e-3, 0.1e-3);
-  EXPECT_LE(max_eigenvalue(values.at("P")), 1.0 + 1e-6);
-  EXPECT_TRUE(verified(values, 4.0, 8.0).holds);
+  EXPECT_TRUE(all_hold(check(design.certificate)));
+  EXPECT_TRUE(verified(design.certificate.values, 4.0, 8.0).holds);
 }
 
 TEST(Sferlazza2019Aircraft, CannotBeObservedFromSamplesHalfATurnApart) {

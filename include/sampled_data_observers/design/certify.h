@@ -29,8 +29,9 @@ DesignCandidate certify_here(const Theorem& theorem, const CertificateSubject& s
 
 /// Proves given gains for the least bound on the final error (final_error.h) with everything else
 /// fixed: first the least level, then a proof as far inside as possible for a slightly larger one.
+/// @param weights  of each entry of the error, whose weighted norm the level is about
 DesignCandidate certify_final_error(const Theorem& theorem, const CertificateSubject& subject,
-                                    const NamedMatrices& fixed, FinalErrorNorm norm,
+                                    const NamedMatrices& fixed, const Eigen::VectorXd& weights,
                                     const ErrorAssumptions& assumptions);
 
 }  // namespace sampled_data_observers

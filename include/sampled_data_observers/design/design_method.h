@@ -13,6 +13,8 @@
 
 namespace sampled_data_observers {
 
+struct PlantScaling;
+
 /// A design that can't be made, with what to change.
 class DesignError : public std::runtime_error {
  public:
@@ -53,12 +55,15 @@ struct DesignProblem {
 struct DesignCandidate {
   /// All that the theorem names; empty where there is no design.
   NamedMatrices values;
-  /// least_margin() of the theorem's own conditions: > 0 where they hold.
+  /// least_margin() of the theorem's own conditions, in the units of the attempt: > 0 where they
+  /// hold.
   double margin = 0.0;
   /// How good it is by the objective: the smaller the better.
   double cost = 0.0;
   /// Conditions that ball arithmetic proved, which are all of them, or none was tried.
   std::size_t proved_conditions = 0;
+  /// What `gain_bound` is in the units of the plant file; 0 where no gain is bounded.
+  double gain_bound = 0.0;
   std::string solver;
   /// What went wrong, where there is no design.
   std::string message;
@@ -107,6 +112,18 @@ class DesignMethod {
   /// The candidate is verified by the theorem's own conditions.
   virtual DesignCandidate attempt(const CertificateSubject& subject, const Parameters& parameters,
                                   Objective objective) const = 0;
+
+  /// The same for a plant and parameters in the units of a scaling; one who knows the gains
+  /// scales them as well.
+  virtual DesignCandidate attempt_scaled(const CertificateSubject& subject,
+                                         const Parameters& parameters, Objective objective,
+                                         const PlantScaling& /*scaling*/) const {
+    return attempt(subject, parameters, objective);
+  }
+
+  /// Makes exact again what rounding has changed on the way back to the units of the plant file,
+  /// and what is exact by the method's definition.
+  virtual void restore(const CertificateSubject& /*subject*/, NamedMatrices& /*values*/) const {}
 };
 
 /// A method that is one semidefinite program: it states its variables and its inequalities as named

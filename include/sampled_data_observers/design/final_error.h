@@ -17,13 +17,9 @@ constexpr const char* kFinalErrorLevel = "final_error_level";
 /// By how much a least level is enlarged, so that what is found does not lie on the edge.
 constexpr double kFinalErrorRoom = 1.02;
 
-/// What the level measures: the error of the state, as the bound at run time does, or each entry
-/// times what it makes of the outputs within ten times T2, so that gains do not depend on units
-/// and serve the outputs, too.
-enum class FinalErrorNorm { kState, kWeighted };
-
-/// P, or P1, must be at least this for levels of the weighted error.
-MatrixExpression least_P_of_design(const CertificateSubject& subject);
+/// What each entry of the error makes of the outputs within ten times T2: what a level weighs it
+/// by, so that gains do not depend on units and serve the outputs, too.
+Eigen::VectorXd weights_of_design(const CertificateSubject& subject);
 
 /// What bounds the final error at such a level, but for a factor that is common to all gains.
 double final_error_of_level(const Theorem& theorem, const CertificateSubject& subject,
@@ -69,13 +65,14 @@ bool has_final_error_level(const Theorem& theorem);
 
 /// Minimizes the level in a program with the theorem's multipliers as variables, and its gains and
 /// parameters fixed; or keeps it below parameters[kFinalErrorLevel], where there is one.
+/// @param weights  of each entry of the error, whose weighted norm the level is about
 void minimize_final_error(LmiProgram& program, const Theorem& theorem,
                           const CertificateSubject& subject, const NamedMatrices& fixed,
-                          FinalErrorNorm norm, const Parameters& parameters);
+                          const Eigen::VectorXd& weights, const Parameters& parameters);
 
 /// The same for any program that has P1, P2 and gamma of ferrante2019 as variables.
 void minimize_ferrante2019_level(LmiProgram& program, const CertificateSubject& subject,
-                                 FinalErrorNorm norm, const Parameters& parameters);
+                                 const Eigen::VectorXd& weights, const Parameters& parameters);
 
 /// What the bound at run time does under the assumptions on noise and disturbance, over samples
 /// that all come after T1, all after T2, or after both in turn, whichever is worst.

@@ -61,7 +61,8 @@ class LmiProgram {
     AffineMatrix matrix;
     bool is_strict = false;
   };
-  /// The blocks, symmetric to rounding, with all symbols in place.
+  /// The blocks, symmetric to rounding, with all symbols in place, and each equilibrated: by a
+  /// diagonal congruence its diagonal entries have 1 as their largest coefficient.
   std::vector<Block> compile() const;
   /// The objective, a 1 x 1 matrix, if there is one.
   std::optional<AffineMatrix> compile_objective() const;

@@ -7,7 +7,8 @@ namespace sampled_data_observers {
 
 std::vector<DesignParameter> ferrante2019_parameters(const CertificateSubject& subject) {
   std::vector<DesignParameter> all = {
-      {"lambda_t", "rate of convergence [1/s]", 0.01, std::nullopt},
+      {"lambda_t", "rate of convergence [1/s]; 0.001/T2 where not given", 1e-3 / subject.T2,
+       std::nullopt},
       {"delta", "how fast the weight of the held innovation falls [1/s]", std::nullopt,
        SearchRange{0.1 / subject.T2, 30.0 / subject.T2, true}},
       {"gain_bound", "bound on the norm of L", 1000.0, std::nullopt},
@@ -76,7 +77,7 @@ LmiProgram ferrante2019_program(const CertificateSubject& subject, const Paramet
   program.fix("delta", scalar_matrix(parameters.at("delta")));
   program.fix("lambda_t", scalar_matrix(parameters.at("lambda_t")));
   if (objective == Objective::kMinFinalError) {
-    minimize_ferrante2019_level(program, subject, FinalErrorNorm::kWeighted, parameters);
+    minimize_ferrante2019_level(program, subject, weights_of_design(subject), parameters);
   }
   return program;
 }

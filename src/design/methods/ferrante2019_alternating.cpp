@@ -31,6 +31,11 @@ class Alternating : public DesignMethod {
   std::string summary() const override { return summary_; }
   bool is_special_case() const override { return injection_ != Injection::kFree; }
 
+  void restore(const CertificateSubject& subject, NamedMatrices& values) const override {
+    if (injection_ != Injection::kPredictor) return;
+    values["H"] = -(subject.plant.C() * values.at("L"));
+  }
+
   const Theorem& theorem() const override { return *find_theorem("ferrante2019_theorem2"); }
 
   std::vector<DesignParameter> parameters(const CertificateSubject& subject) const override {
@@ -73,7 +78,7 @@ class Alternating : public DesignMethod {
       if (best.values.empty() || is_better(candidate, best)) best = std::move(candidate);
     };
     Parameters own = parameters;
-    own["a"] = 1.0;
+    own["a"] = 1.0 / subject.T2;
     for (const DesignMethod* method : starts(own.at("delta") > 2.0 * own.at("lambda_t"))) {
       offer(method->attempt(subject, own, objective));
     }

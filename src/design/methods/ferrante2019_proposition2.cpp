@@ -26,6 +26,10 @@ class Proposition2 : public Ferrante2019Proposition {
 
   bool is_special_case() const override { return is_predictor_; }
 
+  void restore(const CertificateSubject& subject, NamedMatrices& values) const override {
+    if (is_predictor_) values["H"] = -(subject.plant.C() * values.at("L"));
+  }
+
   LmiProgram program(const CertificateSubject& subject, const Parameters& parameters,
                      Objective objective) const override {
     const PlantMatrices plant = ferrante2019_plant(subject, parameters, objective);

@@ -28,7 +28,8 @@ std::string on_the_edge(double margin) {
   std::ostringstream text;
   text.imbue(std::locale::classic());
   text.precision(2);
-  text << "the solution lies on the edge of the inequalities (margin " << margin << " for P <= I)";
+  text << "the solution lies on the edge of the inequalities (least eigenvalue " << margin
+       << " once they are scaled to ones on their diagonals)";
   return text.str();
 }
 

@@ -12,8 +12,8 @@ namespace sampled_data_observers {
 /// there is none such, and for plants of which A alone does not tell (see require_detectable()).
 std::string undetectable_sampling(const CertificateSubject& subject);
 
-/// Solutions with P <= I that are less far inside are on the edge: P is nearly singular, and what
-/// they prove is convergence that nobody would see.
+/// Solutions that are less far inside, by ConditionCheck::margin(), are on the edge: P is nearly
+/// singular in any units, and what they prove is convergence that nobody would see.
 constexpr double kLeastMargin = 1e-7;
 std::string on_the_edge(double margin);
 

@@ -7,7 +7,6 @@
 #include "sampled_data_observers/certificate/matrix_functions.h"
 #include "sampled_data_observers/design/certify.h"
 #include "sampled_data_observers/design/final_error.h"
-#include "sampled_data_observers/design/sferlazza2019_verification.h"
 #include "sampled_plant.h"
 
 namespace sampled_data_observers {
@@ -56,11 +55,8 @@ class Algorithm1 : public DesignMethod {
     if (!none.message.empty()) return none;
     const NamedMatrices scalars = {{"lambda", scalar_matrix(lambda)},
                                    {"decay", scalar_matrix(decay)}};
-    const Eigen::Index n = subject.plant.states();
-    const Eigen::MatrixXd A = subject.plant.A() + decay * Eigen::MatrixXd::Identity(n, n);
 
     const std::vector<Condition> conditions = theorem().conditions(subject);
-    const Eigen::MatrixXd complement = null_space(subject.plant.C());
     std::vector<double> times = {subject.T1};
     if (subject.T2 > subject.T1) times.push_back(subject.T2);
     for (int iteration = 1; iteration <= kMaxIterations; ++iteration) {
@@ -72,28 +68,11 @@ class Algorithm1 : public DesignMethod {
                        why_unsolved(solution);
         return none;
       }
-      if (solution.margin <= kLeastMargin) {
-        none.message = on_the_edge(solution.margin);
-        return none;
-      }
-      const Eigen::MatrixXd& P = solution.values.at("P");
       NamedMatrices values = scalars;
-      values["P"] = P;
+      values["P"] = solution.values.at("P");
       const std::optional<double> worst = worst_time(conditions, values, times);
-      const IntervalVerification proof =
-          worst ? IntervalVerification{false, worst, 0}
-                : verify_between(A, complement, P, subject.T1, subject.T2);
-      if (proof.holds) {
-        DesignCandidate found = certify_here(theorem(), subject, values, objective);
-        found.solver = solution.solver + ", in " + std::to_string(iteration) +
-                       (iteration == 1 ? " iteration" : " iterations");
-        if (objective == Objective::kMinFinalError && found.is_verified()) {
-          found.cost =
-              final_error(theorem(), subject, found.values, final_error_assumptions(parameters));
-        }
-        return found;
-      }
-      times.push_back(*proof.stopped_at);
+      if (!worst) return finished(subject, parameters, values, objective, solution, iteration);
+      times.push_back(*worst);
     }
     none.message = "(21) was not proved for all times between T1 and T2 in " +
                    std::to_string(kMaxIterations) + " iterations";
@@ -116,6 +95,26 @@ class Algorithm1 : public DesignMethod {
       for (const double tau : times) program.require_at(condition, tau);
     }
     return program;
+  }
+
+  DesignCandidate finished(const CertificateSubject& subject, const Parameters& parameters,
+                           const NamedMatrices& values, Objective objective,
+                           const LmiSolution& solution, int iteration) const {
+    DesignCandidate found = certify_here(theorem(), subject, values, objective);
+    found.solver = solution.solver + ", in " + std::to_string(iteration) +
+                   (iteration == 1 ? " iteration" : " iterations");
+    if (!found.is_verified()) return found;
+    if (found.margin <= kLeastMargin) {
+      DesignCandidate none;
+      none.solver = found.solver;
+      none.message = on_the_edge(found.margin);
+      return none;
+    }
+    if (objective == Objective::kMinFinalError) {
+      found.cost =
+          final_error(theorem(), subject, found.values, final_error_assumptions(parameters));
+    }
+    return found;
   }
 
   /// The time at which (21) is less than half as far inside as at those solved for (51); none where

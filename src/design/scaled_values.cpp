@@ -1,0 +1,141 @@
+// What theorems name, in other units.
+#include <cmath>
+#include <set>
+#include <string>
+
+#include "sampled_data_observers/certificate/matrix_functions.h"
+#include "sampled_data_observers/design/final_error.h"
+#include "sampled_data_observers/design/plant_scaling.h"
+
+namespace sampled_data_observers {
+namespace {
+
+/// "L_d" of "L_d/1".
+std::string base_of(const std::string& name) { return name.substr(0, name.find('/')); }
+
+bool is_etienne2019(const Theorem& theorem) { return theorem.name().rfind("etienne2019", 0) == 0; }
+
+/// Values on their way from units that differ by a scaling.
+class Unscaling {
+ public:
+  Unscaling(const Theorem& theorem, const NamedMatrices& values, const PlantScaling& scaling)
+      : theorem_(theorem),
+        scaling_(scaling),
+        from_x_(scaling.state.cwiseInverse()),
+        from_y_(scaling.output.cwiseInverse()),
+        level_(level(values)) {}
+
+  Eigen::MatrixXd unscaled(const std::string& base, const Eigen::MatrixXd& value) const {
+    const double time = scaling_.time;
+    const bool acts_at_samples = theorem_.observer_types().front() == "ConstantGainObserver";
+    if (is_rate(base)) return value / time;
+    if (base == "gamma") return gamma_unit() * value;
+    if (base == "noise_size" || base == kNoise) return scaling_.output(0) * value;
+    if (base == "disturbance_size" || base == kDisturbance) return scaling_.disturbance * value;
+    if (base == "chi") {
+      return value * (level_ / (time * scaling_.nonlinearity * scaling_.nonlinearity));
+    }
+    if (base == "P" || base == "P1") return form_of_state(level_, value);
+    if (base == "P2") return level_ * (from_y_.asDiagonal() * value * from_y_.asDiagonal());
+    if (base == "L") return gain(acts_at_samples ? 1.0 : time, value, scaling_.output);
+    if (base == "L_c") return gain(time, value, scaling_.continuous_output);
+    if (base == "L_d") return gain(1.0, value, scaling_.jump_output);
+    if (base == "H") return (scaling_.output.asDiagonal() * value * from_y_.asDiagonal()) / time;
+    return is_etienne2019(theorem_) ? multiplier_of_etienne2019(base, value) : value;
+  }
+
+ private:
+  /// What V is measured in. With P > I, the least eigenvalue of P stays as it is, as it does by
+  /// itself where all states have one factor; where multiples of V are all the same, flows of V are
+  /// to be compared with |y_p|².
+  double level(const NamedMatrices& values) const {
+    if (!has_norm_of_state(theorem_)) {
+      return scaling_.time * scaling_.performance * scaling_.performance;
+    }
+    const Eigen::VectorXd& x = scaling_.state;
+    const bool is_uniform = (x.array() == x(0)).all();
+    const auto P = values.find("P");
+    if (is_uniform || P == values.end()) return x(0) * x(0);
+    return min_eigenvalue(P->second) / min_eigenvalue(form_of_state(1.0, P->second));
+  }
+
+  Eigen::MatrixXd form_of_state(double factor, const Eigen::MatrixXd& value) const {
+    return factor * (from_x_.asDiagonal() * value * from_x_.asDiagonal());
+  }
+
+  Eigen::MatrixXd gain(double time, const Eigen::MatrixXd& value,
+                       const Eigen::VectorXd& output) const {
+    return (scaling_.state.asDiagonal() * value * output.cwiseInverse().asDiagonal()) / time;
+  }
+
+  /// Of the signal that gamma is the gain from: w, or L σ + N w, or the two by their sizes.
+  double gamma_unit() const {
+    if (!is_etienne2019(theorem_)) return scaling_.performance / scaling_.disturbance;
+    const double by_sizes = std::sqrt(level_ / scaling_.time);
+    if (theorem_.name() == "etienne2019_proposition2_channels") return by_sizes;
+    return by_sizes * scaling_.time / scaling_.state.minCoeff();
+  }
+
+  /// Of forms in the error, its derivative, what is held of it, and the signals.
+  Eigen::MatrixXd multiplier_of_etienne2019(const std::string& base,
+                                            const Eigen::MatrixXd& value) const {
+    if (base == "X") return form_of_state(level_ / scaling_.time, value);
+    if (base == "Y" || base == "G" || base == "G_1" || base == "G_3") {
+      return form_of_state(level_, value);
+    }
+    if (base == "G_2") return form_of_state(level_ * scaling_.time, value);
+    if (base != "G_4" && base != "G_5") return value;
+    if (theorem_.name() == "etienne2019_proposition2_channels") {
+      return level_ * (from_x_.asDiagonal() * value);
+    }
+    return form_of_state(level_ * scaling_.time, value);
+  }
+
+  const Theorem& theorem_;
+  const PlantScaling& scaling_;
+  Eigen::VectorXd from_x_;
+  Eigen::VectorXd from_y_;
+  double level_;
+};
+
+}  // namespace
+
+bool is_rate(const std::string& name) {
+  static const std::set<std::string> all = {"a",   "alpha",      "decay",       "delta",
+                                            "ell", "flow_decay", "flow_growth", "lambda_t"};
+  return all.count(name) > 0;
+}
+
+bool has_norm_of_state(const Theorem& theorem) {
+  return theorem.name().rfind("etienne2019_proposition2", 0) == 0;
+}
+
+Parameters scaled(const Theorem& theorem, const Parameters& parameters,
+                  const PlantScaling& scaling) {
+  NamedMatrices values;
+  for (const auto& [name, value] : parameters) values[name] = scalar_matrix(value);
+  Parameters result;
+  for (const auto& [name, value] : scaled(theorem, values, scaling)) result[name] = value(0, 0);
+  return result;
+}
+
+double gain_unit(const std::string& gain, const PlantScaling& scaling) {
+  const bool is_continuous = base_of(gain) == "L_c";
+  const Eigen::VectorXd& output = is_continuous ? scaling.continuous_output : scaling.output;
+  return scaling.state(0) / (output(0) * scaling.time);
+}
+
+NamedMatrices scaled(const Theorem& theorem, const NamedMatrices& values,
+                     const PlantScaling& scaling) {
+  return unscaled(theorem, values, inverse_of(scaling));
+}
+
+NamedMatrices unscaled(const Theorem& theorem, const NamedMatrices& values,
+                       const PlantScaling& scaling) {
+  const Unscaling units(theorem, values, scaling);
+  NamedMatrices result;
+  for (const auto& [name, value] : values) result[name] = units.unscaled(base_of(name), value);
+  return result;
+}
+
+}  // namespace sampled_data_observers
