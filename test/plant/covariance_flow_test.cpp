@@ -38,7 +38,9 @@ Eigen::MatrixXd van_loan(const Eigen::MatrixXd& A, const Eigen::MatrixXd& Q, dou
 }
 
 Eigen::MatrixXd matrix2(double a, double b, double c, double d) {
-  return (Eigen::MatrixXd(2, 2) << a, b, c, d).finished();
+  Eigen::MatrixXd matrix(2, 2);
+  matrix << a, b, c, d;
+  return matrix;
 }
 
 struct Case {
