@@ -57,6 +57,9 @@ std::optional<CertificateConfig> read_certificate(ConfigSection& root, const Pla
   config.plant_file = of_plant.text("file");
   config.plant_hash = of_plant.text("hash");
   of_plant.finish();
+  if (section.has("disturbance")) {
+    config.disturbance = section.number_in("disturbance", 0.0, 1e50, std::nullopt);
+  }
 
   const Theorem& theorem = *certificate.theorem;
   certificate.values = read_named_values(section, theorem.parameters(certificate.subject));

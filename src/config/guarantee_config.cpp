@@ -142,21 +142,43 @@ double assumption(ConfigSection& section, const std::string& key) {
 
 constexpr double kLongestLatency = 1e5;  // s
 
-ErrorAssumptions read_assumptions(ConfigSection& root, const CertificateSubject& subject,
-                                  const Plant& plant, Duration& latency) {
+/// That of error_assumptions, or else what the gains were designed for, which `guarantee` then
+/// says.
+double read_disturbance(ConfigSection& section, const CertificateConfig& claim,
+                        Guarantee& guarantee) {
+  if (section.has("disturbance")) return assumption(section, "disturbance");
+  if (!claim.disturbance) {
+    throw section.error("disturbance",
+                        "the largest |w| that enters by certificate/N, such as the line "
+                        "'disturbance: 0.1' (0 for none)",
+                        "none");
+  }
+  if (!guarantee.text.empty()) {
+    std::ostringstream text;
+    text.imbue(std::locale::classic());
+    text
+        << "; |w| <= " << *claim.disturbance
+        << ", the disturbance that the gains were designed for, since error_assumptions gives none";
+    guarantee.text += text.str();
+  }
+  return *claim.disturbance;
+}
+
+ErrorAssumptions read_assumptions(ConfigSection& root, const CertificateConfig& claim,
+                                  const Plant& plant, Guarantee& guarantee) {
   ErrorAssumptions assumptions;
   ConfigSection section = root.section("error_assumptions");
   assumptions.initial_error = assumption(section, "initial_error");
   assumptions.noise = assumption(section, "noise");
-  if (subject.plant.N.cols() > 0) {
-    assumptions.disturbance = assumption(section, "disturbance");
+  if (claim.certificate.subject.plant.N.cols() > 0) {
+    assumptions.disturbance = read_disturbance(section, claim, guarantee);
   } else if (section.has("disturbance") && assumption(section, "disturbance") > 0.0) {
     throw section.error("disturbance",
                         "0, or a certificate for disturbances (with certificate/N; design again "
                         "with design/N)",
                         "'" + section.text("disturbance") + "'");
   }
-  latency = from_seconds(section.number_in("latency", 0.0, kLongestLatency, 0.0));
+  guarantee.latency = from_seconds(section.number_in("latency", 0.0, kLongestLatency, 0.0));
   section.finish();
   ConfigSection theta = root.section("gains").section_or_empty("theta0");
   for (const Sensor& sensor : plant.sensors()) {
@@ -231,8 +253,7 @@ Guarantee read_guarantee(ConfigSection& root, const ConfigNode& tree, const Obse
   if (error) guarantee.warning = std::string("no guarantee and no error bound: ") + error->what();
   if (!root.has("error_assumptions")) return guarantee;
   require_bounded(root, config);
-  const ErrorAssumptions assumptions =
-      read_assumptions(root, certificate.subject, *config.plant, guarantee.latency);
+  const ErrorAssumptions assumptions = read_assumptions(root, *claim, *config.plant, guarantee);
   if (error) return guarantee;
   try {
     guarantee.bound = theorem.error_bound(certificate.subject, certificate.values, assumptions);

@@ -98,6 +98,10 @@ void write_gain_file(const Design& design, const GainFileOrigin& origin, std::os
       << "  T1: " << shortest_decimal(subject.T1) << "\n"
       << "  T2: " << shortest_decimal(subject.T2) << '\n';
   if (subject.plant.N.cols() > 0) out << "  N: " << nested_lists(subject.plant.N) << '\n';
+  if (design.disturbance) {
+    out << "  disturbance: " << shortest_decimal(*design.disturbance)
+        << "  # |w|, unless error_assumptions/disturbance says otherwise\n";
+  }
   if (subject.plant.C_p.rows() > 0) out << "  C_p: " << nested_lists(subject.plant.C_p) << '\n';
   const StatedErrorMaps& stated = subject.plant.stated;
   if (stated.A) out << "  A: " << nested_lists(*stated.A) << '\n';

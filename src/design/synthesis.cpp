@@ -256,6 +256,10 @@ class Synthesis {
     design.certificate = {&method_.theorem(), subject, candidate.values};
     design.parameters = parameters;
     if (candidate.gain_bound > 0.0) design.parameters["gain_bound"] = candidate.gain_bound;
+    for (auto& [name, value] : design.parameters) {
+      const auto own = candidate.values.find(name);
+      if (own != candidate.values.end()) value = own->second(0, 0);
+    }
     design.margin = candidate.margin;
     design.proved_conditions = candidate.proved_conditions;
     design.solver = candidate.solver;
@@ -353,7 +357,11 @@ class Synthesis {
 
 Design search_design(const DesignMethod& method, const DesignProblem& problem,
                      const SynthesisOptions& options) {
-  return Synthesis(method, problem, options).run();
+  Design design = Synthesis(method, problem, options).run();
+  if (problem.objective == Objective::kMinFinalError && problem.subject.plant.N.cols() > 0) {
+    design.disturbance = problem.assumptions.disturbance;
+  }
+  return design;
 }
 
 Design synthesize(const DesignMethod& method, const DesignProblem& problem,

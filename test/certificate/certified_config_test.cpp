@@ -233,7 +233,8 @@ TEST(CertifiedConfigTest, RefusesWhatIsNoCertificateInAnyCase) {
       {"certificate: {T1: 0.3}", {"certificate/T2: expected 0 <= T1 <= T2"}},
       {"certificate: {gama: 3}", {"certificate/gama"}},
       {"certificate: {N: [[1]]}", {"certificate/N"}},
-      {"error_assumptions: {initial_error: 1, noise: 0.1}", {"error_assumptions/disturbance"}},
+      {"error_assumptions: {initial_error: 1, noise: 0.1}",
+       {"error_assumptions/disturbance", "such as the line 'disturbance: 0.1'"}},
       {"error_assumptions: {initial_error: -1, noise: 0.1, disturbance: 0}",
        {"error_assumptions/initial_error"}},
       {"error_assumptions: {noise: 0.1, disturbance: 0}", {"error_assumptions/initial_error"}},
@@ -284,6 +285,30 @@ TEST(CertifiedConfigTest, ADisturbanceNeedsACertificateForDisturbances) {
   };
   EXPECT_FALSE(std::isnan(initial_bound(read("{initial_error: 1, noise: 0, disturbance: 0}"))));
   EXPECT_THROW(read("{initial_error: 1, noise: 0, disturbance: 0.1}"), ConfigError);
+}
+
+TEST(CertifiedConfigTest, TakesTheDisturbanceThatTheGainsWereDesignedForWhereNoneIsDeclared) {
+  const auto read = [](const std::string& assumptions) {
+    return CertifiedGains(kGains)
+        .with("certificate: {disturbance: 0.5}")
+        .assuming(assumptions)
+        .config();
+  };
+  const auto bound_after_a_sample = [](const ObserverConfig& config) {
+    LawRunner runner(config.law);
+    runner.sample(0, {0.0});
+    runner.flow(from_seconds(0.15));
+    return config.law->error_bound(runner.state().data());
+  };
+  const ObserverConfig designed = read("{initial_error: 1, noise: 0.1}");
+  const ObserverConfig declared = read("{initial_error: 1, noise: 0.1, disturbance: 0.5}");
+  EXPECT_EQ(bound_after_a_sample(designed), bound_after_a_sample(declared));
+  EXPECT_LT(bound_after_a_sample(read("{initial_error: 1, noise: 0.1, disturbance: 0.4}")),
+            bound_after_a_sample(designed));
+  EXPECT_NE(designed.guarantee.find("|w| <= 0.5, the disturbance that the gains were designed for"),
+            std::string::npos)
+      << designed.guarantee;
+  EXPECT_EQ(declared.guarantee.find("designed for"), std::string::npos);
 }
 
 // P > Φ(τ)ᵀ P Φ(τ), which is enclosed between the values of τ that are looked at.

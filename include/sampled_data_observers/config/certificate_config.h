@@ -15,6 +15,8 @@ struct CertificateConfig {
   /// The plant that the claim is about: its file, relative to the gain file, and its fingerprint.
   std::string plant_file;
   std::string plant_hash;
+  /// |w| that the gains were designed for, where the file says so.
+  std::optional<double> disturbance;
   std::string origin;
   /// Whether the file records a proof in ball arithmetic of just these numbers.
   bool is_proved = false;

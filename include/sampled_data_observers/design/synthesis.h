@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "sampled_data_observers/design/design_method.h"
@@ -22,6 +23,8 @@ struct Design {
   std::string observer_type;
   Certificate certificate;
   Objective objective = Objective::kFeasible;
+  /// |w| for which the final error was made small, where the plant has an N.
+  std::optional<double> disturbance;
   /// All scalars with which it was made.
   Parameters parameters;
   double margin = 0.0;
