@@ -17,6 +17,19 @@ bool has_gamma(const Theorem& theorem, const CertificateSubject& subject) {
                      [](const NamedShape& shape) { return shape.name == "gamma"; });
 }
 
+/// Whether a design for this theorem could ask for its least gamma: that of an L2 gain to a
+/// performance output says nothing without one.
+bool gain_has_meaning(const Theorem& theorem, const CertificateSubject& subject) {
+  bool has_design = false;
+  for (const DesignMethod* method : design_methods()) {
+    if (&method->theorem() != &theorem) continue;
+    has_design = true;
+    const auto all = method->objectives(subject);
+    if (std::find(all.begin(), all.end(), Objective::kMinGamma) != all.end()) return true;
+  }
+  return !has_design;
+}
+
 /// What the first design method of a theorem does with a parameter: its default, or the range in
 /// which it is searched for. Nothing where no method has it.
 DesignParameter as_in_design(const Theorem& theorem, const CertificateSubject& subject,
@@ -57,7 +70,8 @@ class GivenGains : public DesignMethod {
 
   std::vector<Objective> objectives(const CertificateSubject& subject) const override {
     std::vector<Objective> all = {Objective::kFeasible, Objective::kMaxT2};
-    if (has_gamma(theorem_, subject)) all.insert(all.begin(), Objective::kMinGamma);
+    if (has_gamma(theorem_, subject) && gain_has_meaning(theorem_, subject))
+      all.insert(all.begin(), Objective::kMinGamma);
     if (!theorem_.decay_parameter().empty()) all.push_back(Objective::kMaxDecay);
     if (has_final_error_level(theorem_)) all.push_back(Objective::kMinFinalError);
     return all;

@@ -6,13 +6,17 @@
 #include <stdexcept>
 
 #include "sampled_data_observers/design/final_error.h"
+#include "sampled_data_observers/design/request_error.h"
 
 namespace sampled_data_observers {
 namespace {
 
-/// Of a method that is tried: they find much the same gains, in several times its time.
-constexpr const char* kVariants[] = {"ferrante2019_proposition3", "ferrante2019_proposition4",
-                                     "ferrante2019_proposition5", "ferrante2019_alternating"};
+/// Of a method that is tried: they find much the same gains, in several times its time. With a held
+/// innovation, H = 0, the law is that of etienne2019.
+constexpr const char* kVariants[] = {
+    "ferrante2019_proposition3",      "ferrante2019_proposition4",
+    "ferrante2019_proposition5",      "ferrante2019_alternating",
+    "ferrante2019_proposition3_hold", "ferrante2019_proposition4_hold"};
 
 bool applies(const DesignMethod& method, const DesignProblem& problem) {
   try {
@@ -26,6 +30,13 @@ bool applies(const DesignMethod& method, const DesignProblem& problem) {
   }
   return problem.objective != Objective::kMinFinalError || problem.assumptions.disturbance == 0.0 ||
          bounds_disturbances(method.theorem());
+}
+
+bool has_parameter(const DesignMethod& method, const CertificateSubject& subject,
+                   const std::string& name) {
+  const auto all = method.parameters(subject);
+  return std::any_of(all.begin(), all.end(),
+                     [&](const DesignParameter& parameter) { return parameter.name == name; });
 }
 
 /// Without the parameters that other methods have.
@@ -51,6 +62,21 @@ std::vector<const DesignMethod*> methods_that_apply(const DesignProblem& problem
     if (!is_variant && applies(*method, problem)) all.push_back(method);
   }
   return all;
+}
+
+Parameters parameters_for(const DesignMethod* method, const CertificateSubject& subject,
+                          const Parameters& given) {
+  Parameters own;
+  for (const auto& parameter : given) {
+    const std::string& name = parameter.first;
+    const auto& all = design_methods();
+    if (std::none_of(all.begin(), all.end(),
+                     [&](const DesignMethod* any) { return has_parameter(*any, subject, name); })) {
+      throw RequestError("no method has a parameter '" + name + "'");
+    }
+    if (method == nullptr || has_parameter(*method, subject, name)) own.insert(parameter);
+  }
+  return own;
 }
 
 std::vector<MethodOutcome> synthesize_by_all(const std::vector<const DesignMethod*>& methods,

@@ -78,6 +78,8 @@ void print_assumptions(const DeclaredAssumptions& declared, const DesignProblem&
 void print_run_time_figures(const Design& design, const ErrorAssumptions& assumptions) {
   const Certificate& certificate = design.certificate;
   ErrorAssumptions bounded = assumptions;
+  // A proof without N is about plants without disturbance.
+  if (certificate.subject.plant.N.cols() == 0) bounded.disturbance = 0.0;
   if (!has_bound_for(certificate, bounded)) bounded.disturbance = 0.0;
   if (!has_bound_for(certificate, bounded)) bounded.noise = 0.0;
   if (!has_bound_for(certificate, bounded)) return;

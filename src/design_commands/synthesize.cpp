@@ -55,7 +55,8 @@ void note_gains_near_their_bound(const Design& design) {
   }
 }
 
-DesignProblem read_problem(const SynthesizeArguments& arguments, const DesignConfig& config) {
+DesignProblem read_problem(const SynthesizeArguments& arguments, const DesignConfig& config,
+                           const DesignMethod* method) {
   DesignProblem problem;
   problem.subject = config.subject;
   if (arguments.T1 > 0.0) problem.subject.T1 = arguments.T1;
@@ -70,8 +71,9 @@ DesignProblem read_problem(const SynthesizeArguments& arguments, const DesignCon
                   problem.subject.T2);
     throw DesignError(text);
   }
-  problem.given = config.parameters;
+  problem.given = parameters_for(method, problem.subject, config.parameters);
   for (const std::string& assignment : arguments.assignments) assign(assignment, problem.given);
+  if (method == nullptr) parameters_for(nullptr, problem.subject, problem.given);
   problem.searched.insert(arguments.searched.begin(), arguments.searched.end());
   return problem;
 }
@@ -121,10 +123,27 @@ Objective default_objective(const DesignProblem& problem, const DesignMethod* me
   return serves ? least.objective : Objective::kFeasible;
 }
 
+/// How an observer with these gains is started, and what its error bound takes.
+void print_how_to_run(const SynthesizeArguments& arguments, const DeclaredAssumptions& declared,
+                      const Design& design) {
+  std::string files;
+  for (const std::string& file : arguments.files) files += file + " ";
+  std::printf(
+      "To run it: replay BAG %s%s, or roslaunch observer.launch config:=\"%s%s\" (whole paths)\n"
+      "type:=%s\n",
+      files.c_str(), arguments.output.c_str(), files.c_str(), arguments.output.c_str(),
+      design.observer_type.c_str());
+  if (declared.noise) return;
+  std::printf(
+      "For a bound on the error, say how noisy the sensor is, in %s, and design again:\n"
+      "error_assumptions: {initial_error: NUMBER, noise: NUMBER}\n",
+      arguments.files.front().c_str());
+}
+
 void synthesize_command(const SynthesizeArguments& arguments, const std::string& command_line) {
   const DesignConfig config = read_design_config(arguments.files, load_plant_plugin);
   const DesignMethod* method = find_design_method(arguments.method);
-  DesignProblem problem = read_problem(arguments, config);
+  DesignProblem problem = read_problem(arguments, config, method);
   DesignProblem assumed = problem;
   DeclaredAssumptions declared = {config.noise, config.disturbance};
   if (method != nullptr && !declared.disturbance && !bounds_disturbances(method->theorem())) {
@@ -166,6 +185,7 @@ void synthesize_command(const SynthesizeArguments& arguments, const std::string&
               design.seconds);
   print_run_time_figures(design, problem.assumptions);
   note_gains_near_their_bound(design);
+  print_how_to_run(arguments, {config.noise, config.disturbance}, design);
   if (!arguments.cross_check.empty()) {
     cross_check(*find_design_method(design.method), design, arguments.time_limit);
   }

@@ -339,6 +339,52 @@ TEST_F(DesignTool, RefusesParametersThatAMethodDoesNotHave) {
       << refused.output;
 }
 
+TEST_F(DesignTool, TakesFromAPlantFileTheParametersThatTheMethodHas) {
+  const std::string parameters = "{lambda_t: 0.05, delta: 3}";
+  const std::string of_several =
+      write("plant.yaml", oscillator(parameters, "{lambda_t: 0.05, delta: 3, alpha: 1}"));
+  const ToolRun made = synthesize(of_several);
+  EXPECT_EQ(made.status, 0) << made.output;
+  EXPECT_NE(read("gains.yaml").find("delta: 3\n"), std::string::npos);
+  const std::string unknown =
+      write("unknown.yaml", oscillator(parameters, "{lambda_t: 0.05, delt: 3}"));
+  const std::string expected = "no method has a parameter 'delt'";
+  EXPECT_TRUE(synthesize(unknown).says(expected));
+  const ToolRun bare = run("synthesize " + unknown + " -o " + path("gains.yaml"));
+  EXPECT_EQ(bare.status, 1);
+  EXPECT_TRUE(bare.says(expected)) << bare.output;
+}
+
+TEST_F(DesignTool, AnalyzesNoGainWithoutPerformanceOutput) {
+  const std::string plant =
+      write("plant.yaml", oscillator("  parameters", "  N: [[1], [0]]\n  parameters"));
+  const std::string gains = write("given.yaml",
+                                  "observer: IntersampleInjectionObserver\n"
+                                  "sampling: {T1: 0.1, T2: 0.3}\n"
+                                  "gains: {L: [[2.067], [-3]], H: [[-1.384]]}\n");
+  const std::string command = "analyze " + gains + " --plant " + plant;
+  const ToolRun refused = run(command + " --objective min-gamma");
+  EXPECT_EQ(refused.status, 1) << refused.output;
+  EXPECT_TRUE(refused.says("a gain needs design/N")) << refused.output;
+  const ToolRun all = run(command + " --set delta=3");
+  EXPECT_EQ(all.status, 0) << all.output;
+  EXPECT_FALSE(all.says("min-gamma")) << all.output;
+  EXPECT_TRUE(all.says("max-T2")) << all.output;
+}
+
+TEST_F(DesignTool, WarnsOfGainsThatHardlyCorrect) {
+  const ToolRun slow =
+      synthesize(write("plant.yaml", oscillator("lambda_t: 0.05", "lambda_t: 1e-4")));
+  ASSERT_EQ(slow.status, 0) << slow.output;
+  EXPECT_TRUE(slow.says("these gains hardly correct")) << slow.output;
+  EXPECT_TRUE(slow.says("--set lambda_t=NUMBER")) << slow.output;
+  const ToolRun fast =
+      synthesize(write("plant.yaml", oscillator("lambda_t: 0.05, delta: 3", "lambda_t: 0.3")));
+  ASSERT_EQ(fast.status, 0) << fast.output;
+  EXPECT_FALSE(fast.says("hardly correct")) << fast.output;
+  EXPECT_FALSE(fast.says("|disturbance|")) << fast.output;  // the plant has no N
+}
+
 TEST_F(DesignTool, SaysThatTheOutputCannotBeWritten) {
   const ToolRun refused =
       run("synthesize " + write("plant.yaml", oscillator()) +

@@ -144,6 +144,13 @@ class SweepTest(ToolTest):
         self.assertGreaterEqual(rates[0], rates[1])
         self.assertGreater(rates[1], 0.05)
 
+    def test_refuses_to_draw_different_quantities_together(self):
+        text = self.sweep("out", *self.RANGE, "--method", "etienne2019_proposition2",
+                          "--objective", "min-gamma", status=1)
+        self.assertIn("one sweep draws one quantity", text)
+        self.assertIn("L2 gain", text)
+        self.assertFalse(os.path.exists(self.path("out")))
+
     def test_bad_requests_are_refused(self):
         self.assertIn("T1", self.sweep("out", *self.RANGE, "--T1", "0.3", status=1))
         self.assertIn("expected LOW < HIGH, found 0.4 and 0.2",

@@ -19,9 +19,15 @@ struct MethodOutcome {
 };
 
 /// The methods that are about the problem's plant and times, serve its objective, and give a bound
-/// under its assumptions. Of ferrante2019 only Proposition 2: the others find much the same, in
-/// several times its time.
+/// under its assumptions. Of ferrante2019 only Proposition 2, with any H and as a predictor: the
+/// others find much the same, in several times its time.
 std::vector<const DesignMethod*> methods_that_apply(const DesignProblem& problem);
+
+/// Of parameters that a plant file gives for several methods, those that this one has; all of them
+/// where it is null.
+/// @throws RequestError for one that no method has
+Parameters parameters_for(const DesignMethod* method, const CertificateSubject& subject,
+                          const Parameters& given);
 
 /// Designs by each of these methods. Parameters that a method does not have are not given to it.
 std::vector<MethodOutcome> synthesize_by_all(const std::vector<const DesignMethod*>& methods,

@@ -6,6 +6,7 @@
 #include "methods.h"
 #include "sampled_data_observers/certificate/matrix_functions.h"
 #include "sampled_data_observers/design/certify.h"
+#include "sampled_data_observers/design/final_error.h"
 #include "sampled_data_observers/design/polytopic_embedding.h"
 #include "sampled_plant.h"
 
@@ -23,7 +24,8 @@ class ConstantGainDesign : public LmiDesignMethod {
   }
 
   std::vector<Objective> objectives(const CertificateSubject&) const override {
-    return {Objective::kFeasible, Objective::kMaxT2, Objective::kMaxDecay};
+    return {Objective::kFeasible, Objective::kMaxT2, Objective::kMaxDecay,
+            Objective::kMinFinalError};
   }
 
  protected:
@@ -37,8 +39,10 @@ class ConstantGainDesign : public LmiDesignMethod {
     return subject.plant.A() + parameters.at("decay") * Eigen::MatrixXd::Identity(n, n);
   }
 
-  /// (36) with each of these in place of e^{Aτ}.
-  static LmiProgram program_at(const CertificateSubject& subject,
+  /// (36) with each of these in place of e^{Aτ}; for the least final error with a row for the
+  /// noise, which enters through −L: V after the next interval is at most V + level |η|².
+  static LmiProgram program_at(const CertificateSubject& subject, const Parameters& parameters,
+                               Objective objective,
                                const std::vector<Eigen::MatrixXd>& exponentials,
                                const std::string& number) {
     const Eigen::Index n = subject.plant.states();
@@ -47,13 +51,31 @@ class ConstantGainDesign : public LmiDesignMethod {
     const MatrixExpression P = program.symmetric("P", n);
     const MatrixExpression F = program.matrix("F", n, n);
     const MatrixExpression J = program.matrix("J", n, subject.plant.C().rows());
-    for (const Eigen::MatrixXd& X : exponentials) {
-      program.require_negative(
-          number,
-          symmetric_blocks(
-              {{-He(F), F - J * C, transpose(MatrixExpression(X)) * P}, {-P, zeros(n, n)}, {-P}}));
+    if (objective != Objective::kMinFinalError) {
+      for (const Eigen::MatrixXd& X : exponentials) {
+        const MatrixExpression flown = transpose(MatrixExpression(X)) * P;
+        program.require_negative(
+            number, symmetric_blocks({{-He(F), F - J * C, flown}, {-P, zeros(n, n)}, {-P}}));
+      }
+      program.bound_above("P <= I", P, identity(n));
+      return program;
     }
-    program.bound_above("P <= I", P, identity(n));
+    const auto given = parameters.find(kFinalErrorLevel);
+    const bool is_given = given != parameters.end();
+    const MatrixExpression level =
+        is_given ? MatrixExpression(given->second) : program.scalar(kFinalErrorLevel);
+    const Eigen::Index m = subject.plant.C().rows();
+    for (const Eigen::MatrixXd& X : exponentials) {
+      const MatrixExpression flown = transpose(MatrixExpression(X)) * P;
+      program.require_negative(number + " with noise",
+                               symmetric_blocks({{-He(F), F - J * C, -J, flown},
+                                                 {-P, zeros(n, m), zeros(n, n)},
+                                                 {-(level * identity(m)), zeros(m, n)},
+                                                 {-P}}));
+    }
+    const Eigen::VectorXd weights = weights_of_design(subject);
+    program.bound_above("least P", Eigen::MatrixXd(weights.cwiseAbs2().asDiagonal()), P);
+    if (!is_given) program.minimize(level);
     return program;
   }
 
@@ -78,6 +100,9 @@ class Corollary1 : public ConstantGainDesign {
     DesignCandidate none;
     none.message = objection(subject, parameters);
     if (!none.message.empty()) return none;
+    if (objective == Objective::kMinFinalError) {
+      return LmiDesignMethod::attempt(subject, parameters, objective);
+    }
     DesignCandidate candidate = solve(subject, parameters, objective);
     if (!candidate.is_verified() || candidate.margin > kLeastMargin) return candidate;
     none.message = on_the_edge(candidate.margin);
@@ -85,9 +110,10 @@ class Corollary1 : public ConstantGainDesign {
   }
 
   LmiProgram program(const CertificateSubject& subject, const Parameters& parameters,
-                     Objective) const override {
-    return program_at(
-        subject, polytopic_embedding(flow(subject, parameters), subject.T1, subject.T2), "(41)");
+                     Objective objective) const override {
+    return program_at(subject, parameters, objective,
+                      polytopic_embedding(flow(subject, parameters), subject.T1, subject.T2),
+                      "(41)");
   }
 };
 
@@ -110,8 +136,7 @@ class Proposition1 : public ConstantGainDesign {
     const std::vector<Condition> conditions = theorem().conditions(subject);
     std::vector<double> times = first_times(subject);
     for (int iteration = 1; iteration <= kMaxIterations; ++iteration) {
-      const LmiSolution solution =
-          solve_with_csdp(program_at_times(subject, parameters, times), SolverOptions());
+      const LmiSolution solution = solved_at_times(subject, parameters, objective, times);
       none.solver = solution.solver;
       if (!solution.satisfies_all()) {
         none.message = "(36) for " + std::to_string(times.size()) + " times between T1 and T2 " +
@@ -122,6 +147,11 @@ class Proposition1 : public ConstantGainDesign {
       values["P"] = solution.values.at("P");
       values["decay"] = scalar_matrix(parameters.at("decay"));
       const std::optional<double> worst = violated_time(conditions, values);
+      if (!worst && objective == Objective::kMinFinalError) {
+        values.erase("P");
+        return certify_final_error(theorem(), subject, values, weights_of_design(subject),
+                                   final_error_assumptions(parameters));
+      }
       if (!worst) return finished(subject, std::move(values), objective, solution, iteration);
       times.push_back(*worst);
     }
@@ -131,8 +161,8 @@ class Proposition1 : public ConstantGainDesign {
   }
 
   LmiProgram program(const CertificateSubject& subject, const Parameters& parameters,
-                     Objective) const override {
-    return program_at_times(subject, parameters, first_times(subject));
+                     Objective objective) const override {
+    return program_at_times(subject, parameters, objective, first_times(subject));
   }
 
  private:
@@ -149,12 +179,25 @@ class Proposition1 : public ConstantGainDesign {
   }
 
   static LmiProgram program_at_times(const CertificateSubject& subject,
-                                     const Parameters& parameters,
+                                     const Parameters& parameters, Objective objective,
                                      const std::vector<double>& times) {
     const Eigen::MatrixXd A = flow(subject, parameters);
     std::vector<Eigen::MatrixXd> exponentials;
     for (const double tau : times) exponentials.push_back(exponential_of(A * tau));
-    return program_at(subject, exponentials, "(36)");
+    return program_at(subject, parameters, objective, exponentials, "(36)");
+  }
+
+  /// Of a least level, the solution for a slightly larger one: gains at the edge can't be proved.
+  static LmiSolution solved_at_times(const CertificateSubject& subject,
+                                     const Parameters& parameters, Objective objective,
+                                     const std::vector<double>& times) {
+    LmiSolution solution =
+        solve_with_csdp(program_at_times(subject, parameters, objective, times), SolverOptions());
+    const auto level = solution.values.find(kFinalErrorLevel);
+    if (level == solution.values.end()) return solution;
+    Parameters with_room = parameters;
+    with_room[kFinalErrorLevel] = kFinalErrorRoom * level->second(0, 0);
+    return solve_with_csdp(program_at_times(subject, with_room, objective, times), SolverOptions());
   }
 
   /// Where (12) holds least, if it does not hold there by the margin that a design needs.
