@@ -8,6 +8,7 @@
 
 #include "sampled_data_observers/certificate/matrix_functions.h"
 #include "sampled_data_observers/design/certify.h"
+#include "sampled_data_observers/design/final_error.h"
 #include "sampled_data_observers/design/packing.h"
 #include "sampled_data_observers/design/plant_scaling.h"
 #include "sampled_data_observers/design/rigorous_check.h"
@@ -76,6 +77,28 @@ bool depends_on_units(const Theorem& theorem) {
   return has_norm_of_state(theorem) || theorem.name() == "bernard2022_example4_2";
 }
 
+/// Where the final error is to be small, a gain for noise and disturbance is one for their sizes.
+Parameters with_sizes(Parameters parameters, Objective objective) {
+  if (objective != Objective::kMinFinalError) return parameters;
+  for (const auto& [size, assumed] :
+       {std::pair("noise_size", kNoise), std::pair("disturbance_size", kDisturbance)}) {
+    const auto found = parameters.find(size);
+    if (found != parameters.end()) found->second = parameters.at(assumed);
+  }
+  return parameters;
+}
+
+/// Of a bound on the norm of the state: the noise that it is for is the unit of states and outputs.
+void measure_by_noise(const Parameters& parameters, PlantScaling& scaling) {
+  const auto noise = parameters.find("noise_size");
+  if (noise == parameters.end() || !(noise->second > 0.0)) return;
+  const double factor = noise->second / scaling.output(0);
+  scaling.state *= factor;
+  scaling.output *= factor;
+  scaling.disturbance *= factor;
+  scaling.performance *= factor;
+}
+
 /// The units in which a method is best served, without changing what is asked of it.
 PlantScaling units_for(const DesignMethod& method, const CertificateSubject& subject,
                        const Parameters& parameters, Objective objective, bool keeps_gains) {
@@ -87,7 +110,9 @@ PlantScaling units_for(const DesignMethod& method, const CertificateSubject& sub
   // Noise is as large as the norm of what it adds to all outputs.
   kept.of_outputs =
       keeps_gains || has_norm_of_state(theorem) || objective == Objective::kMinFinalError;
-  return scaling_of(theorem, subject, kept);
+  PlantScaling scaling = scaling_of(theorem, subject, kept);
+  if (has_norm_of_state(theorem)) measure_by_noise(parameters, scaling);
+  return scaling;
 }
 
 /// What is found for a plant in other units.
@@ -185,8 +210,8 @@ DesignCandidate unpacked(const WorkerOutcome& outcome) {
 }  // namespace
 
 DesignCandidate proved_attempt(const DesignMethod& method, const CertificateSubject& subject,
-                               const Parameters& parameters, Objective objective,
-                               GainBound gain_bound) {
+                               const Parameters& given, Objective objective, GainBound gain_bound) {
+  const Parameters parameters = with_sizes(given, objective);
   const std::vector<std::string> bounded = method.bounded_gains(subject);
   const bool keeps_norms = gain_bound == GainBound::kGiven && !bounded.empty();
   const ScaledAttempt attempt{method, subject, parameters, objective,

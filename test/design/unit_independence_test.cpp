@@ -153,6 +153,28 @@ TEST(UnitIndependence, OfHeldInnovations) {
   expect_same("etienne2019_proposition1", drive(), {}, kFastest);
 }
 
+/// The bound is on the norm of the state, so that all states have one unit.
+TEST(UnitIndependence, OfTheFinalErrorOfHeldInnovations) {
+  CertificateSubject subject = drive();
+  subject.plant.N = Eigen::MatrixXd::Identity(3, 1).colwise().reverse();
+  const Parameters given = {{"alpha", 1.0}, {"noise_size", 0.05}, {"disturbance_size", 0.2}};
+  const auto final_error = [&](const Rewriting& units) {
+    Parameters own = rewritten(given, units);
+    own["noise_size"] /= units.E;
+    const Certificate certificate =
+        design_by("etienne2019_proposition2", rewritten(subject, units), own, Objective::kMinGamma)
+            .certificate;
+    return certificate.theorem->gain_figure(certificate.values).value * units.D.front();
+  };
+  const double expected = final_error({{1.0, 1.0, 1.0}, 1.0, 1.0});
+  for (const double unit : {1e6, 1e-5, 1.0}) {
+    for (const double c : {1e-3, 1.0, 1e3}) {
+      const Rewriting units = {{unit, unit, unit}, 2e-4, c};
+      EXPECT_NEAR(final_error(units), expected, 1e-2 * expected) << unit << ", c = " << c;
+    }
+  }
+}
+
 /// A position that falls, and is turned back at jumps at which it is seen, as at all times.
 CertificateSubject bouncing() {
   Eigen::MatrixXd A(2, 2);
@@ -199,28 +221,34 @@ TEST(UnitIndependence, OfGainsAtJumps) {
 
 /// For noise and disturbance in the units of the outputs and of N, the same design comes out: its
 /// gains, in SI units.
-TEST(UnitIndependence, OfTheLeastFinalError) {
-  const auto found_for = [](const CertificateSubject& subject, double noise) {
+void expect_same_gain_for_the_least_final_error(const char* method, const Parameters& given) {
+  const auto found_for = [&](const CertificateSubject& subject, double noise, double c) {
     DesignProblem problem;
     problem.subject = subject;
     problem.subject.plant.C_p.resize(0, subject.plant.states());
     problem.objective = Objective::kMinFinalError;
     problem.assumptions.noise = noise;
     problem.assumptions.disturbance = 2.0;
-    problem.given = {{"lambda_t", 0.02 / subject.T2}, {"delta", 1.2 / subject.T2}};
+    for (const auto& [name, value] : given) problem.given[name] = c * value;
     SynthesisOptions options;
     options.jobs = 2;
-    return synthesize(*find_design_method("ferrante2019_proposition2"), problem, options);
+    return synthesize(*find_design_method(method), problem, options);
   };
   const CertificateSubject subject = oscillator(0.2);
-  const Eigen::MatrixXd L = found_for(subject, 0.1).certificate.values.at("L");
+  const Eigen::MatrixXd L = found_for(subject, 0.1, 1.0).certificate.values.at("L");
   for (const Rewriting& units : rewritings()) {
-    const Design other = found_for(rewritten(subject, units), 0.1 / units.E);
+    const Design other = found_for(rewritten(subject, units), 0.1 / units.E, units.c);
     const Eigen::VectorXd D = Eigen::Map<const Eigen::VectorXd>(units.D.data(), 2);
     const Eigen::MatrixXd L_in_SI =
         D.asDiagonal() * other.certificate.values.at("L") / (units.E * units.c);
     EXPECT_LT(norm2(L_in_SI - L), 0.01 * norm2(L)) << L_in_SI << " and " << L;
   }
+}
+
+TEST(UnitIndependence, OfTheLeastFinalError) {
+  expect_same_gain_for_the_least_final_error("ferrante2019_proposition2",
+                                             {{"lambda_t", 0.1}, {"delta", 6.0}});
+  expect_same_gain_for_the_least_final_error("etienne2019_proposition2", {{"alpha", 1.0}});
 }
 
 /// A flexible drive: angles [µrad], speeds [rpm], torque [kN m] of a slow actuator.

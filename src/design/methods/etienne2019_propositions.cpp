@@ -5,7 +5,6 @@
 #include "methods.h"
 #include "sampled_data_observers/certificate/matrix_functions.h"
 #include "sampled_data_observers/certificate/wirtinger.h"
-#include "sampled_data_observers/design/final_error.h"
 
 namespace sampled_data_observers {
 namespace {
@@ -134,21 +133,17 @@ class Proposition2Design : public GainDesign {
             Objective::kMinFinalError};
   }
 
-  /// The least final error is the least gain for noise and disturbance of these sizes, but for the
-  /// root of 2 if there are both.
+  /// The least final error is the least gain for noise and disturbance of the sizes that are given,
+  /// but for the root of 2 if there are both.
   DesignCandidate attempt(const CertificateSubject& subject, const Parameters& parameters,
                           Objective objective) const override {
     if (objective != Objective::kMinFinalError) {
       return GainDesign::attempt(subject, parameters, objective);
     }
-    const ErrorAssumptions assumptions = final_error_assumptions(parameters);
     DesignCandidate none;
     none.message = "nothing but noise limits the gain L: it must be larger than 0";
-    if (!(assumptions.noise > 0.0)) return none;
-    Parameters sized = parameters;
-    sized["noise_size"] = assumptions.noise;
-    if (subject.plant.N.cols() > 0) sized["disturbance_size"] = assumptions.disturbance;
-    return GainDesign::attempt(subject, sized, Objective::kMinGamma);
+    if (!(parameters.at("noise_size") > 0.0)) return none;
+    return GainDesign::attempt(subject, parameters, Objective::kMinGamma);
   }
 
  protected:
