@@ -79,13 +79,13 @@ DesignProblem read_problem(const SynthesizeArguments& arguments, const DesignCon
 }
 
 void print_outcomes(const std::vector<MethodOutcome>& outcomes) {
-  std::printf("  %-32s %s\n", "method", "bound on the final error");
+  std::printf("  %-36s %s\n", "method", "bound on the final error");
   for (const MethodOutcome& outcome : outcomes) {
     if (outcome.design && std::isfinite(outcome.final_error)) {
-      std::printf("  %-32s %.6g\n", outcome.method.c_str(), outcome.final_error);
+      std::printf("  %-36s %.6g\n", outcome.method.c_str(), outcome.final_error);
     } else {
       const std::string first_line = outcome.message.substr(0, outcome.message.find('\n'));
-      std::printf("  %-32s %s\n", outcome.method.c_str(),
+      std::printf("  %-36s %s\n", outcome.method.c_str(),
                   outcome.design ? "none" : first_line.c_str());
     }
   }
