@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// In which a disturbance is taken to show as much as noise does, in multiples of T2.
-constexpr double kDefaultHorizon = 10.0;
+constexpr double kDefaultHorizon = 5.0;
 /// Of the weight of the state that shows most: the least of any other.
 constexpr double kLeastWeight = 1e-3;
 constexpr std::size_t kNoisePoints = 9;

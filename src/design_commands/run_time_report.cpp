@@ -71,7 +71,7 @@ void print_assumptions(const DeclaredAssumptions& declared, const DesignProblem&
               columns_of(problem.subject.plant.N).c_str(),
               declared.disturbance ? ""
                                    : "\n(assumed: what moves the outputs by as much as the noise "
-                                     "within ten times T2; design/N and\n"
+                                     "within five times T2; design/N and\n"
                                      "error_assumptions/disturbance say it otherwise)");
 }
 
