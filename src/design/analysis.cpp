@@ -7,6 +7,7 @@
 #include "sampled_data_observers/design/final_error.h"
 #include "sampled_data_observers/design/plant_scaling.h"
 #include "sampled_data_observers/design/request_error.h"
+#include "sampled_data_observers/design/run_time_figures.h"
 
 namespace sampled_data_observers {
 namespace {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "sampled_data_observers/design/final_error.h"
+#include "sampled_data_observers/design/run_time_figures.h"
 
 namespace sampled_data_observers {
 namespace {

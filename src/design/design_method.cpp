@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "methods/methods.h"
+#include "sampled_data_observers/design/assumed_disturbance.h"
 #include "sampled_data_observers/design/certify.h"
 #include "sampled_data_observers/design/final_error.h"
 

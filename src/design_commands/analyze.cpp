@@ -15,6 +15,7 @@
 #include "sampled_data_observers/config/named_values.h"
 #include "sampled_data_observers/config/yaml_file.h"
 #include "sampled_data_observers/design/analysis.h"
+#include "sampled_data_observers/design/assumed_disturbance.h"
 #include "sampled_data_observers/design/request_error.h"
 #include "sampled_data_observers/design/workers.h"
 #include "sampled_data_observers/replay/option_checks.h"

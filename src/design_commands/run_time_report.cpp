@@ -6,6 +6,8 @@
 #include <string>
 
 #include "sampled_data_observers/certificate/matrix_functions.h"
+#include "sampled_data_observers/design/final_error.h"
+#include "sampled_data_observers/design/run_time_figures.h"
 
 namespace sampled_data_observers {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sampled_data_observers/design/final_error.h"
+#include "sampled_data_observers/design/assumed_disturbance.h"
 #include "sampled_data_observers/design/synthesis.h"
 
 namespace sampled_data_observers {

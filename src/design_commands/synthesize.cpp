@@ -13,6 +13,7 @@
 #include "run_time_report.h"
 #include "sampled_data_observers/certificate/matrix_functions.h"
 #include "sampled_data_observers/config/design_config.h"
+#include "sampled_data_observers/design/assumed_disturbance.h"
 #include "sampled_data_observers/design/best_design.h"
 #include "sampled_data_observers/design/final_error.h"
 #include "sampled_data_observers/design/request_error.h"

@@ -13,6 +13,7 @@
 #include "sampled_data_observers/design/final_error.h"
 #include "sampled_data_observers/design/gain_file.h"
 #include "sampled_data_observers/design/polytopic_embedding.h"
+#include "sampled_data_observers/design/run_time_figures.h"
 #include "support/allocation_counter.h"
 
 namespace sampled_data_observers::test {

@@ -15,8 +15,8 @@
 
 #include "sampled_data_observers/config/design_config.h"
 #include "sampled_data_observers/config/yaml_file.h"
+#include "sampled_data_observers/design/assumed_disturbance.h"
 #include "sampled_data_observers/design/best_design.h"
-#include "sampled_data_observers/design/final_error.h"
 #include "sampled_data_observers/design/gain_file.h"
 #include "sampled_data_observers/design/workers.h"
 #include "textbook_run.h"

@@ -5,6 +5,7 @@
 
 #include "methods.h"
 #include "sampled_data_observers/certificate/matrix_functions.h"
+#include "sampled_data_observers/design/assumed_disturbance.h"
 #include "sampled_data_observers/design/certify.h"
 #include "sampled_data_observers/design/final_error.h"
 #include "sampled_data_observers/design/polytopic_embedding.h"

@@ -1,6 +1,7 @@
 #include "ferrante2019.h"
 
 #include "sampled_data_observers/certificate/matrix_functions.h"
+#include "sampled_data_observers/design/assumed_disturbance.h"
 #include "sampled_data_observers/design/final_error.h"
 
 namespace sampled_data_observers {

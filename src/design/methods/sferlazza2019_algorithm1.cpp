@@ -7,6 +7,7 @@
 #include "sampled_data_observers/certificate/matrix_functions.h"
 #include "sampled_data_observers/design/certify.h"
 #include "sampled_data_observers/design/final_error.h"
+#include "sampled_data_observers/design/run_time_figures.h"
 #include "sampled_plant.h"
 
 namespace sampled_data_observers {
