@@ -1,9 +1,11 @@
 #include "sampled_data_observers/design/best_design.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <limits>
 #include <stdexcept>
+#include <tuple>
 
 #include "sampled_data_observers/design/final_error.h"
 #include "sampled_data_observers/design/request_error.h"
@@ -88,12 +90,15 @@ std::vector<MethodOutcome> synthesize_by_all(const std::vector<const DesignMetho
     MethodOutcome outcome;
     outcome.method = method->name();
     outcome.final_error = std::numeric_limits<double>::infinity();
+    outcome.time_to_hundredth = std::numeric_limits<double>::infinity();
     try {
       outcome.design = synthesize(*method, problem_for(*method, problem), options);
       const Certificate& certificate = outcome.design->certificate;
       if (has_bound_for(certificate, problem.assumptions)) {
-        outcome.final_error = final_error(*certificate.theorem, certificate.subject,
-                                          certificate.values, problem.assumptions);
+        const RunTimeFigures figures = run_time_figures(*certificate.theorem, certificate.subject,
+                                                        certificate.values, problem.assumptions);
+        outcome.final_error = figures.final_error;
+        outcome.time_to_hundredth = figures.time_to_hundredth;
       }
     } catch (const DesignError& error) {
       outcome.message = error.what();
@@ -103,11 +108,18 @@ std::vector<MethodOutcome> synthesize_by_all(const std::vector<const DesignMetho
   return outcomes;
 }
 
-const MethodOutcome* best_of(const std::vector<MethodOutcome>& outcomes) {
+const MethodOutcome* best_of(const std::vector<MethodOutcome>& outcomes, Objective objective) {
+  // What is compared first, and what decides between equals: the smaller, the better.
+  const auto cost = [&](const MethodOutcome& outcome) {
+    double own = 0.0;
+    if (objective == Objective::kMaxT2) own = -outcome.design->certificate.subject.T2;
+    if (objective == Objective::kMaxDecay) own = outcome.time_to_hundredth;
+    return std::make_tuple(std::isinf(outcome.final_error), own, outcome.final_error);
+  };
   const MethodOutcome* best = nullptr;
   for (const MethodOutcome& outcome : outcomes) {
     if (!outcome.design) continue;
-    if (best == nullptr || outcome.final_error < best->final_error) best = &outcome;
+    if (best == nullptr || cost(outcome) < cost(*best)) best = &outcome;
   }
   return best;
 }

@@ -184,7 +184,10 @@ class Explanation {
           applicable_.end()) {
         continue;
       }
-      c_.out.bullet(std::string("begin with --method ") + candidate.method + ": " + candidate.why);
+      c_.out.bullet(
+          std::string("begin with `design synthesize` without --method, which takes the best of "
+                      "several, or with --method ") +
+          candidate.method + ": " + candidate.why);
       return;
     }
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <string>
+#include <vector>
 
 #include "sampled_data_observers/certificate/matrix_functions.h"
 #include "sampled_data_observers/design/final_error.h"
@@ -61,7 +62,8 @@ void note_what_is_of_little_use(const Certificate& certificate, const RunTimeFig
 
 }  // namespace
 
-void print_assumptions(const DeclaredAssumptions& declared, const DesignProblem& problem) {
+void print_assumptions(const DeclaredAssumptions& declared, const DesignProblem& problem,
+                       const std::vector<std::string>& states) {
   const ErrorAssumptions& assumptions = problem.assumptions;
   std::printf("Designed for |noise| <= %.6g%s", assumptions.noise,
               declared.noise ? "" : " (assumed: error_assumptions/noise is not given)");
@@ -75,6 +77,15 @@ void print_assumptions(const DeclaredAssumptions& declared, const DesignProblem&
                                    : "\n(assumed: what moves the outputs by as much as the noise "
                                      "within five times T2; design/N and\n"
                                      "error_assumptions/disturbance say it otherwise)");
+  const Eigen::MatrixXd& N = problem.subject.plant.N;
+  std::printf("The guarantee is for plants that are not off by more than that:\n");
+  for (Eigen::Index i = 0; i < N.rows(); ++i) {
+    const double off = N.row(i).norm() * assumptions.disturbance;
+    if (off > 0.0) {
+      std::printf("  the derivative of %s by up to %.3g\n",
+                  states[static_cast<std::size_t>(i)].c_str(), off);
+    }
+  }
 }
 
 void print_run_time_figures(const Design& design, const ErrorAssumptions& assumptions) {

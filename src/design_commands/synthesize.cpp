@@ -79,15 +79,30 @@ DesignProblem read_problem(const SynthesizeArguments& arguments, const DesignCon
   return problem;
 }
 
-void print_outcomes(const std::vector<MethodOutcome>& outcomes) {
-  std::printf("  %-36s %s\n", "method", "bound on the final error");
+/// With what an objective is about, where that is not the bound on the final error.
+void print_outcomes(const std::vector<MethodOutcome>& outcomes, Objective objective) {
+  const char* figure = "";
+  if (objective == Objective::kMaxT2) figure = "T2 [s]";
+  if (objective == Objective::kMaxDecay) figure = "1/100 after [s]";
+  std::printf("  %-36s %-16s %s\n", "method", figure, "bound on the final error");
   for (const MethodOutcome& outcome : outcomes) {
-    if (outcome.design && std::isfinite(outcome.final_error)) {
-      std::printf("  %-36s %.6g\n", outcome.method.c_str(), outcome.final_error);
-    } else {
+    if (!outcome.design) {
       const std::string first_line = outcome.message.substr(0, outcome.message.find('\n'));
-      std::printf("  %-36s %s\n", outcome.method.c_str(),
-                  outcome.design ? "none" : first_line.c_str());
+      std::printf("  %-36s %s\n", outcome.method.c_str(), first_line.c_str());
+      continue;
+    }
+    char number[32] = "";
+    if (objective == Objective::kMaxT2) {
+      std::snprintf(number, sizeof number, "%.6g", outcome.design->certificate.subject.T2);
+    }
+    if (objective == Objective::kMaxDecay) {
+      std::snprintf(number, sizeof number, "%.6g", outcome.time_to_hundredth);
+    }
+    std::printf("  %-36s %-16s ", outcome.method.c_str(), number);
+    if (std::isfinite(outcome.final_error)) {
+      std::printf("%.6g\n", outcome.final_error);
+    } else {
+      std::printf("none for this noise and disturbance\n");
     }
   }
 }
@@ -100,13 +115,13 @@ Design best_design(const DesignProblem& problem, const SynthesisOptions& options
                        to_string(problem.objective) + " for this plant: see --method");
   }
   const std::vector<MethodOutcome> outcomes = synthesize_by_all(methods, problem, options);
-  const MethodOutcome* best = best_of(outcomes);
+  const MethodOutcome* best = best_of(outcomes, problem.objective);
   if (best == nullptr) {
     std::string text = "none of the methods that apply found a design";
     for (const MethodOutcome& outcome : outcomes) text += "\n" + outcome.message;
     throw DesignError(text);
   }
-  print_outcomes(outcomes);
+  print_outcomes(outcomes, problem.objective);
   std::printf("taken: %s\n\n", best->method.c_str());
   return *best->design;
 }
@@ -124,14 +139,25 @@ Objective default_objective(const DesignProblem& problem, const DesignMethod* me
   return serves ? least.objective : Objective::kFeasible;
 }
 
+/// @throws RequestError where neither noise nor disturbance limits the gains
+void require_something_to_weigh(const DeclaredAssumptions& declared) {
+  const bool has_disturbance = declared.disturbance.value_or(0.0) > 0.0;
+  if (has_disturbance || declared.noise.value_or(1.0) > 0.0) return;
+  throw RequestError(
+      "error_assumptions: expected a noise or a disturbance larger than 0 for the objective "
+      "min-final-error, found noise: 0 and no disturbance; declare what the sensor or the plant is "
+      "off by, or take another --objective");
+}
+
 /// How an observer with these gains is started, and what its error bound takes.
 void print_how_to_run(const SynthesizeArguments& arguments, const DeclaredAssumptions& declared,
                       const Design& design) {
   std::string files;
   for (const std::string& file : arguments.files) files += file + " ";
   std::printf(
-      "To run it: replay BAG %s%s, or roslaunch observer.launch config:=\"%s%s\" (whole paths)\n"
-      "type:=%s\n",
+      "To run it:\n"
+      "  rosrun sampled_data_observers replay BAG %s%s\n"
+      "  roslaunch sampled_data_observers observer.launch config:=\"%s%s\" type:=%s\n",
       files.c_str(), arguments.output.c_str(), files.c_str(), arguments.output.c_str(),
       design.observer_type.c_str());
   if (declared.noise) return;
@@ -155,9 +181,10 @@ void synthesize_command(const SynthesizeArguments& arguments, const std::string&
   problem.objective = arguments.objective.empty() ? default_objective(assumed, method)
                                                   : objective_of(arguments.objective);
   if (problem.objective == Objective::kMinFinalError) {
+    require_something_to_weigh(declared);
     assumed.objective = problem.objective;
     problem = assumed;
-    print_assumptions(declared, problem);
+    print_assumptions(declared, problem, config.plant->state_names());
   } else if (arguments.objective.empty()) {
     std::printf(
         "Any gains whose proof is far from its edge (--objective feasible): %s is not for "

@@ -59,7 +59,8 @@ void print_bound_loss(const ReplaySummary& summary, std::ostream& out) {
   if (summary.after_bound > 0) {
     out << summary.after_bound
         << " inputs or jumps came after error bounds of later stamps were published, which rested "
-           "on their absence: set error_assumptions/latency to what is never exceeded\n";
+           "on their absence: set error_assumptions/latency to what is never exceeded, and "
+           "publish_delay to as much\n";
   }
   if (!summary.bound_lost_at) return;
   std::ostringstream stamp;

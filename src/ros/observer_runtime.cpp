@@ -147,11 +147,13 @@ EventReport ObserverRuntime::receive(const EventChannel& channel, const Event& e
   return report;
 }
 
-/// The plant had it, whatever became of it here.
+/// The plant had it, whatever became of it here. At its own stamp an input changes nothing yet, as
+/// a jump does.
 bool ObserverRuntime::comes_after_bound(const Event& event, const EventReport& report) const {
   const bool is_of_plant = event.kind == EventKind::kInput || event.kind == EventKind::kJump;
   return is_of_plant && report.outcome != EventOutcome::kDuplicate && event.stamp > 0 &&
-         event.stamp <= bounded_until_;
+         (event.kind == EventKind::kInput ? event.stamp < bounded_until_
+                                          : event.stamp <= bounded_until_);
 }
 
 /// A sample that a gate keeps out says as much of the estimate as one that is used.

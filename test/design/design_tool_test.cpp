@@ -2,11 +2,13 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <string>
 
 namespace sampled_data_observers {
@@ -112,6 +114,44 @@ class DesignTool : public testing::Test {
 
   fs::path folder_;
 };
+
+TEST_F(DesignTool, RefusesAssumptionsThatItDoesNotKnowOrThatLimitNothing) {
+  const ToolRun misspelt =
+      run("synthesize " + write("plant.yaml", oscillator() + "error_assumptions: {nois: 0.1}\n") +
+          " -o " + path("gains.yaml"));
+  EXPECT_EQ(misspelt.status, 1) << misspelt.output;
+  EXPECT_TRUE(misspelt.says("nois")) << misspelt.output;
+  const ToolRun exact =
+      run("synthesize " + write("plant.yaml", oscillator() + "error_assumptions: {noise: 0}\n") +
+          " -o " + path("gains.yaml"));
+  EXPECT_EQ(exact.status, 1) << exact.output;
+  EXPECT_TRUE(exact.says("found noise: 0 and no disturbance")) << exact.output;
+}
+
+/// By the table that is printed, and by the gains that are written.
+TEST_F(DesignTool, TakesTheMethodThatServesTheObjectiveBest) {
+  const std::string plant =
+      write("plant.yaml", oscillator("  parameters: {lambda_t: 0.05, delta: 3}\n") +
+                              "error_assumptions: {noise: 0.1, disturbance: 0}\n");
+  const ToolRun fastest =
+      run("synthesize " + plant + " --objective max-decay -o " + path("gains.yaml"));
+  EXPECT_EQ(fastest.status, 0) << fastest.output;
+  EXPECT_TRUE(fastest.says("1/100 after [s]")) << fastest.output;
+  double least = 1e9;
+  double taken = -1.0;
+  std::istringstream lines(fastest.output);
+  const std::string name = fastest.output.substr(fastest.output.find("taken: ") + 7);
+  for (std::string line; std::getline(lines, line) && line.rfind("taken", 0) != 0;) {
+    std::istringstream words(line);
+    std::string method;
+    double time = 0.0;
+    double bound = 0.0;
+    if (!(words >> method >> time >> bound)) continue;
+    least = std::min(least, time);
+    if (name.rfind(method + "\n", 0) == 0) taken = time;
+  }
+  EXPECT_EQ(taken, least) << fastest.output;
+}
 
 TEST_F(DesignTool, MakesAGainFileThatVerifiesAndProves) {
   const ToolRun made = synthesize(write("plant.yaml", oscillator()));

@@ -107,9 +107,9 @@ TEST(Explanation, WarnsOfAPathologicalIntervalOnlyWhereT2IsClose) {
 }
 
 TEST(Explanation, RecommendsOneMethod) {
-  EXPECT_TRUE(says(impulsive(), "begin with --method bernard2022_equation36"));
-  EXPECT_TRUE(says(test::aircraft(1.0, 3.0), "begin with --method sferlazza2019_algorithm1"));
-  EXPECT_TRUE(says(test::oscillator(0.2), "begin with --method ferrante2019_alternating"));
+  EXPECT_TRUE(says(impulsive(), "or with --method bernard2022_equation36"));
+  EXPECT_TRUE(says(test::aircraft(1.0, 3.0), "or with --method sferlazza2019_algorithm1"));
+  EXPECT_TRUE(says(test::oscillator(0.2), "or with --method ferrante2019_alternating"));
 }
 
 /// x2' = -x2 + w, which y = x1 does not show at all, has the gain 1 from w to x2, for any observer.

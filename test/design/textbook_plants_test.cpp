@@ -51,7 +51,7 @@ class TextbookPlantsTest : public ::testing::TestWithParam<TextbookPlant> {
     SynthesisOptions options;
     options.jobs = default_jobs();
     const auto outcomes = synthesize_by_all(methods_that_apply(problem_), problem_, options);
-    const MethodOutcome* best = best_of(outcomes);
+    const MethodOutcome* best = best_of(outcomes, problem_.objective);
     ASSERT_NE(best, nullptr) << outcomes.front().message;
     method_ = best->method;
     std::ostringstream text;

@@ -185,6 +185,8 @@ TEST_F(BoundedRuntimeTest, CountsWhatComesAfterABoundThatRestedOnItsAbsence) {
   EXPECT_FALSE(receive(0, 1'000'000'000, 0.0, 1'000'000'000).came_after_bound);
   EXPECT_TRUE(std::isfinite(last_due(1'100'000'000).value));
   EXPECT_FALSE(receive(1, 1'100'000'001, 1.0, 1'105'000'000).came_after_bound);
+  // At its own stamp it has changed nothing yet.
+  EXPECT_FALSE(receive(1, 1'100'000'000, 1.0, 1'105'000'000).came_after_bound);
   EXPECT_TRUE(receive(1, 1'090'000'000, 2.0, 1'106'000'000).came_after_bound);
   EXPECT_FALSE(receive(1, 1'090'000'000, 2.0, 1'107'000'000).came_after_bound);  // a duplicate
   // A sample that is not there makes a bound no less true.

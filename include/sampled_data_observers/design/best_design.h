@@ -14,6 +14,9 @@ struct MethodOutcome {
   std::optional<Design> design;
   /// Of its bound at run time, under the problem's assumptions; infinite where it has none.
   double final_error = 0.0;
+  /// When its bound at run time has fallen to a hundredth of the initial error [s]; infinite where
+  /// it has none.
+  double time_to_hundredth = 0.0;
   /// Why there is no design.
   std::string message;
 };
@@ -34,7 +37,9 @@ std::vector<MethodOutcome> synthesize_by_all(const std::vector<const DesignMetho
                                              const DesignProblem& problem,
                                              const SynthesisOptions& options);
 
-/// The outcome with a design of least final error; null where there is no design.
-const MethodOutcome* best_of(const std::vector<MethodOutcome>& outcomes);
+/// The outcome whose design serves the objective best among those with a bound on the final error:
+/// for max-T2 the longest T2, for max-decay the shortest time to a hundredth, else the least bound.
+/// Null where there is no design.
+const MethodOutcome* best_of(const std::vector<MethodOutcome>& outcomes, Objective objective);
 
 }  // namespace sampled_data_observers

@@ -78,7 +78,7 @@ class Alternating : public DesignMethod {
       if (best.values.empty() || is_better(candidate, best)) best = std::move(candidate);
     };
     Parameters own = parameters;
-    own["a"] = 1.0 / subject.T2;
+    own["a"] = 0.25 / subject.T2;
     for (const DesignMethod* method : starts(own.at("delta") > 2.0 * own.at("lambda_t"))) {
       offer(method->attempt(subject, own, objective));
     }

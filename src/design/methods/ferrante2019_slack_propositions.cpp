@@ -40,8 +40,8 @@ class SlackProposition : public Ferrante2019Proposition {
   std::vector<DesignParameter> parameters(const CertificateSubject& subject) const override {
     std::vector<DesignParameter> all = Ferrante2019Proposition::parameters(subject);
     all.push_back(
-        {"a", "scale of the slack matrix X3 = a X1 [1/s], 1 in the paper; 1/T2 where not given",
-         1.0 / subject.T2, SearchRange{0.03 / subject.T2, 30.0 / subject.T2, true}});
+        {"a", "scale of the slack matrix X3 = a X1 [1/s], 1 in the paper; 0.25/T2 where not given",
+         0.25 / subject.T2, SearchRange{0.03 / subject.T2, 30.0 / subject.T2, true}});
     return all;
   }
 
