@@ -76,6 +76,7 @@ INSTANTIATE_TEST_SUITE_P(
     All, PrintedGainsTest,
     ::testing::Values(
         ShippedExample{"ferrante2019_oscillator", "plant.yaml", Objective::kMinGamma},
+        ShippedExample{"ferrante2019_unicycle", "plant.yaml", Objective::kMinGamma},
         ShippedExample{"etienne2019_dc_drive", "scenario.yaml", Objective::kMinGamma},
         ShippedExample{"bernard2022_bouncing_ball", "scenario.yaml", Objective::kMaxDecay},
         ShippedExample{"bernard2022_impulsive", "scenario.yaml", Objective::kMaxDecay}),
