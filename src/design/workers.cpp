@@ -208,13 +208,14 @@ class Pool {
     if (::poll(waiting.data(), waiting.size(), timeout) < 0) return;  // interrupted
     for (std::size_t k = 0; k < waiting.size(); ++k) {
       std::unique_ptr<Worker>& worker = workers_[positions[k]];
-      if (waiting[k].revents != 0) {
-        take(worker, worker->finish());
-      } else if (worker->seconds() > options_.time_limit) {
+      // Also where its result has come meanwhile: the limit decides, not who looks first.
+      if (worker->seconds() > options_.time_limit) {
         WorkerOutcome outcome;
         outcome.status = WorkerOutcome::Status::kTimedOut;
         outcome.seconds = worker->seconds();
         take(worker, std::move(outcome));
+      } else if (waiting[k].revents != 0) {
+        take(worker, worker->finish());
       }
     }
   }
