@@ -18,8 +18,6 @@ namespace {
 
 /// By which a least gamma is enlarged where its own proof fails.
 constexpr double kFurtherInflations[] = {1.003, 1.01, 1.03};
-/// For the proof of one attempt [s].
-constexpr double kProofTime = 10.0;
 /// Of the norm of a gain, for rounding.
 constexpr double kBoundTolerance = 1e-9;
 
@@ -52,9 +50,7 @@ void require_gain_bound(double norm, double bound, DesignCandidate& candidate) {
 
 void require_proof(const Theorem& theorem, const CertificateSubject& subject, double unit_of_time,
                    DesignCandidate& candidate) {
-  ProofOptions options;
-  options.time_limit = kProofTime;
-  const auto proofs = prove(theorem.conditions(subject), candidate.values, options);
+  const auto proofs = prove(theorem.conditions(subject), candidate.values, ProofOptions());
   for (const ConditionProof& proof : proofs) {
     if (proof.status == ProofStatus::kProved) continue;
     std::ostringstream text = number_text();
@@ -198,7 +194,7 @@ DesignCandidate unpacked(const WorkerOutcome& outcome) {
       candidate.message = outcome.result;
       break;
     case WorkerOutcome::Status::kTimedOut:
-      candidate.message = "the solver took longer than the time limit";
+      candidate.message = "solver and proof took longer than the time limit";
       break;
     case WorkerOutcome::Status::kCrashed:
       candidate.message = "the solver's process died";

@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <random>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -11,7 +10,6 @@
 #include "sampled_data_observers/certificate/ferrante2016_bounds.h"
 #include "sampled_data_observers/certificate/matrix_functions.h"
 #include "sampled_data_observers/design/final_error.h"
-#include "sampled_data_observers/design/gain_file.h"
 #include "sampled_data_observers/design/polytopic_embedding.h"
 #include "sampled_data_observers/design/run_time_figures.h"
 #include "support/allocation_counter.h"
@@ -187,16 +185,6 @@ TEST(Ferrante2016Example2, AcceptsThePrintedGainByTheTheorem) {
 TEST(Ferrante2016Example2, ComesToItsEdgeWhereSamplesMayFollowTooSoon) {
   EXPECT_EQ(refusal(kMethod, mass_spring(0.05, 3.0)), "");
   EXPECT_NE(refusal(kMethod, mass_spring(0.001, 3.0)), "");
-}
-
-TEST(Ferrante2016Example2, HasNoLargestT2AndSaysSo) {
-  const Design design = design_by(kMethod, mass_spring(0.2, 3.0), {}, Objective::kMaxT2);
-  EXPECT_TRUE(design.has_no_maximum);
-  EXPECT_DOUBLE_EQ(design.certificate.subject.T2, 1024.0 * 3.0);
-  EXPECT_TRUE(all_hold(check(design.certificate)));
-  std::ostringstream file;
-  write_gain_file(design, {"plant.yaml", "", "", ""}, file);
-  EXPECT_NE(file.str().find("max-T2  # the search ended here"), std::string::npos) << file.str();
 }
 
 TEST(Ferrante2016Example2, HasFiguresThatAreNumbersForLongTimesToo) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "paper_plants.h"
 #include "sampled_data_observers/design/analysis.h"
 #include "sampled_data_observers/design/attempts.h"
+#include "sampled_data_observers/design/gain_file.h"
 #include "sampled_data_observers/design/plant_scaling.h"
 
 namespace sampled_data_observers::test {
@@ -125,6 +127,18 @@ TEST(LargestT2, IsNeverLessThanWasAskedFor) {
   EXPECT_NE(
       refusal(method, oscillator(1.002 * largest), given, Objective::kMaxT2).find("as asked for"),
       std::string::npos);
+}
+
+/// Without damping a gain that is small enough serves any T2.
+TEST(LargestT2, MayNotExistAndTheGainFileSaysSo) {
+  const Design design =
+      design_by("ferrante2016_corollary1", mass_spring(0.2, 3.0), {}, Objective::kMaxT2);
+  EXPECT_TRUE(design.has_no_maximum);
+  EXPECT_DOUBLE_EQ(design.certificate.subject.T2, 1024.0 * 3.0);
+  EXPECT_TRUE(all_hold(check(design.certificate)));
+  std::ostringstream file;
+  write_gain_file(design, {"plant.yaml", "", "", ""}, file);
+  EXPECT_NE(file.str().find("max-T2  # the search ended here"), std::string::npos) << file.str();
 }
 
 }  // namespace
