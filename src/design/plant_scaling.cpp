@@ -8,8 +8,10 @@
 namespace sampled_data_observers {
 namespace {
 
+/// A matrix of another shape, such as none at all, is left to who asks for it.
 Eigen::MatrixXd in_units(const Eigen::VectorXd& rows, const Eigen::MatrixXd& a,
                          const Eigen::VectorXd& cols) {
+  if (a.rows() != rows.size() || a.cols() != cols.size()) return a;
   return rows.cwiseInverse().asDiagonal() * a * cols.asDiagonal();
 }
 
@@ -141,12 +143,12 @@ CertificateSubject scaled(const CertificateSubject& subject, const PlantScaling&
     if (mode.A_d) mode.A_d = in_units(x, *mode.A_d, x);
   }
   for (Eigen::MatrixXd& vertex : plant.vertices) vertex = scaling.time * in_units(x, vertex, x);
-  const Eigen::MatrixXd to_flow = x.cwiseInverse().asDiagonal();
-  plant.N = scaling.time * scaling.disturbance * (to_flow * plant.N);
-  plant.G = scaling.time * scaling.nonlinearity * (to_flow * plant.G);
-  plant.S = plant.S * x.asDiagonal();
+  const auto ones = [](Eigen::Index size) { return Eigen::VectorXd(Eigen::VectorXd::Ones(size)); };
+  plant.N = scaling.time * scaling.disturbance * in_units(x, plant.N, ones(plant.N.cols()));
+  plant.G = scaling.time * scaling.nonlinearity * in_units(x, plant.G, ones(plant.G.cols()));
+  plant.S = in_units(ones(plant.S.rows()), plant.S, x);
   if (plant.lipschitz_constant) *plant.lipschitz_constant /= scaling.nonlinearity;
-  plant.C_p = plant.C_p * x.asDiagonal() / scaling.performance;
+  plant.C_p = in_units(ones(plant.C_p.rows()), plant.C_p, x) / scaling.performance;
   return result;
 }
 
