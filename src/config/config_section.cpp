@@ -190,7 +190,8 @@ std::vector<bool> ConfigSection::flags(const std::string& key, std::size_t size)
 
 Eigen::MatrixXd ConfigSection::matrix(const std::string& key, Eigen::Index rows,
                                       Eigen::Index cols) {
-  const std::string expected = (rows < 0 ? "an " : "a ") + sized(rows, "m") + " x " + sized(cols, "n") +
+  const std::string expected = (rows < 0 ? "an " : "a ") + sized(rows, "m") + " x " +
+                               sized(cols, "n") +
                                " matrix of finite numbers as a list of rows, each a list";
   const ConfigNode& node = required(key, expected);
   if (node.kind != ConfigNode::Kind::kSequence || node.items.empty()) {
