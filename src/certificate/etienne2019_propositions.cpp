@@ -38,7 +38,7 @@ class IssBound : public ErrorBound {
     const Eigen::MatrixXd& L = values.at("L");
     final_ = raised(level * level / rate_);
     per_error_ = std::sqrt(largest_eigenvalue_above(P));
-    least_ = least_eigenvalue_below(P);
+    least_ = positive_least_eigenvalue(P, "P");
     growth_ = -std::numeric_limits<double>::infinity();
     for (const Eigen::MatrixXd& flow : flow_vertices_of(subject.plant)) {
       growth_ = std::max(growth_, growth_above(P, flow));

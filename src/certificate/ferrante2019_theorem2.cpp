@@ -54,7 +54,7 @@ class LyapunovErrorBound : public ErrorBound {
       final_ = push_ / rate_;
     }
     per_sample_ = V.omega_2 * assumptions.noise * assumptions.noise;
-    least_ = V.alpha_1;
+    least_ = positive_least_eigenvalue(values.at("P1"), "P1");
     initial_error_ = assumptions.initial_error;
     of_estimate_ = V.alpha_2;
     // θ̃ = C ε − θ at first, and √V is a norm of (ε, θ̃).
@@ -258,8 +258,12 @@ class Ferrante2019Theorem : public Theorem {
     if (variant_.has_rate) return scalar_value(values, "lambda_t");
     const MatrixExpression at_T2 =
         M(subject, exponential(symbol("delta") * MatrixExpression(subject.T2)));
-    const double beta = -std::max(max_eigenvalue(evaluate(M(subject, 1.0), values)),
-                                  max_eigenvalue(evaluate(at_T2, values)));
+    // With room for the rounding of M, not of its eigenvalues alone.
+    const auto above = [&](const MatrixExpression& expression) {
+      const Eigen::MatrixXd value = evaluate(expression, values);
+      return max_eigenvalue(value) + 1e3 * eigenvalue_rounding(value.rows(), value.norm());
+    };
+    const double beta = -std::max(above(M(subject, 1.0)), above(at_T2));
     const LyapunovBounds V = bounds_of_V(subject, values);
     return beta / (2.0 * std::max(V.alpha_2, V.omega_2));
   }

@@ -32,7 +32,7 @@ class JumpBasedBound : public ErrorBound {
     noise_ = weighted_norm(L_d, P) * assumptions.noise;
     initial_error_ = assumptions.initial_error;
     per_error_ = std::sqrt(largest_eigenvalue_above(P));
-    least_ = std::sqrt(least_eigenvalue_below(P));
+    least_ = std::sqrt(positive_least_eigenvalue(P, "P"));
   }
 
   Eigen::Index state_size() const override { return kEntries; }

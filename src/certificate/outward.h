@@ -1,6 +1,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
 
 #include "sampled_data_observers/certificate/matrix_functions.h"
 
@@ -16,10 +20,32 @@ inline double eigenvalue_rounding(Eigen::Index n, double norm) {
   return 1e-15 * static_cast<double>(n) * norm;
 }
 
-/// Not more than the least eigenvalue of a symmetric matrix; not positive where rounding hides it.
-inline double least_eigenvalue_below(const Eigen::MatrixXd& P) {
+/// Not more than the least eigenvalue of a symmetric matrix as it is.
+inline double computed_least_eigenvalue_below(const Eigen::MatrixXd& P) {
   const Eigen::VectorXd values = symmetric_eigenvalues(P);
   return values(0) - eigenvalue_rounding(P.rows(), values.cwiseAbs().maxCoeff());
+}
+
+/// Not more than the least eigenvalue of a symmetric matrix; not positive where rounding hides it,
+/// also with rows and columns scaled to ones on the diagonal.
+inline double least_eigenvalue_below(const Eigen::MatrixXd& P) {
+  const double least = computed_least_eigenvalue_below(P);
+  if (!P.allFinite() || !(P.diagonal().minCoeff() > 0.0)) return least;
+  // Powers of two, which round nothing: P = D⁻¹ S D⁻¹ >= λ_min(S) D⁻².
+  const Eigen::VectorXd D =
+      P.diagonal().unaryExpr([](double p) { return std::exp2(-std::round(std::log2(p) / 2.0)); });
+  const double scaled = computed_least_eigenvalue_below(D.asDiagonal() * P * D.asDiagonal());
+  return scaled > 0.0 ? std::max(least, scaled / D.cwiseAbs2().maxCoeff()) : least;
+}
+
+/// The same for a P > 0 by which a bound on the error divides.
+/// @throws std::invalid_argument where rounding hides it
+inline double positive_least_eigenvalue(const Eigen::MatrixXd& P, const std::string& name) {
+  const double least = least_eigenvalue_below(P);
+  if (least > 0.0) return least;
+  throw std::invalid_argument("the least eigenvalue of " + name +
+                              " is lost in rounding: write states in units in which they are of "
+                              "like size, and design again");
 }
 
 /// Not less than the largest eigenvalue of a symmetric matrix >= 0.

@@ -48,9 +48,11 @@ void require_gain_bound(double norm, double bound, DesignCandidate& candidate) {
   refuse(candidate, text.str());
 }
 
-void require_proof(const Theorem& theorem, const CertificateSubject& subject, double unit_of_time,
-                   DesignCandidate& candidate) {
-  const auto proofs = prove(theorem.conditions(subject), candidate.values, ProofOptions());
+void require_proof(const Theorem& theorem, const CertificateSubject& subject,
+                   RoundedNumbers rounded, double unit_of_time, DesignCandidate& candidate) {
+  ProofOptions options;
+  options.rounded = rounded;
+  const auto proofs = prove(theorem.conditions(subject), candidate.values, options);
   for (const ConditionProof& proof : proofs) {
     if (proof.status == ProofStatus::kProved) continue;
     std::ostringstream text = number_text();
@@ -65,12 +67,6 @@ void require_proof(const Theorem& theorem, const CertificateSubject& subject, do
     return;
   }
   candidate.proved_conditions = proofs.size();
-}
-
-/// Whether conditions in other units are other ones: by P > I, or by a basis of the state that is
-/// computed in floating point.
-bool depends_on_units(const Theorem& theorem) {
-  return has_norm_of_state(theorem) || theorem.name() == "bernard2022_example4_2";
 }
 
 /// Where the final error is to be small, a gain for noise and disturbance is one for their sizes.
@@ -122,15 +118,21 @@ struct ScaledAttempt {
   const Theorem& theorem() const { return method.theorem(); }
 
   /// The candidate in the units of the plant file. It is checked and proved in such as differ from
-  /// them by powers of two: what holds in those holds for the same numbers in these.
+  /// them by powers of two: what holds in those holds for the same numbers in these, and for all
+  /// that are rounded to them.
   DesignCandidate proved(const DesignCandidate& found) const {
     const NamedMatrices values = in_units_of_file(found.values);
+    const bool is_in_file = has_conditions_for_units(theorem());
     const PlantScaling exact =
-        depends_on_units(theorem()) ? units_of_file(subject) : rounded_to_powers_of_two(scaling);
+        is_in_file ? units_of_file(subject) : rounded_to_powers_of_two(scaling);
     const CertificateSubject exactly = scaled(subject, exact);
     DesignCandidate candidate =
         judged(theorem(), exactly, scaled(theorem(), values, exact), objective, found);
-    if (candidate.is_verified()) require_proof(theorem(), exactly, exact.time, candidate);
+    if (candidate.is_verified()) {
+      require_proof(theorem(), exactly,
+                    is_in_file ? RoundedNumbers::kNotWhole : RoundedNumbers::kAllButZero,
+                    exact.time, candidate);
+    }
     if (candidate.is_verified()) candidate.values = values;
     // The units of the attempt are the same whatever those of the file.
     candidate.cost =

@@ -6,9 +6,11 @@
 
 namespace sampled_data_observers {
 
-void set_nearest(arb_ptr ball, double value) {
+void set_nearest(arb_ptr ball, double value, RoundedNumbers rounded) {
   arb_set_d(ball, value);
-  if (!std::isfinite(value) || value == std::trunc(value)) return;
+  const bool is_exact =
+      value == 0.0 || (rounded == RoundedNumbers::kNotWhole && value == std::trunc(value));
+  if (!std::isfinite(value) || is_exact) return;
   // Half the distance to the next double.
   constexpr int kDigits = std::numeric_limits<double>::digits;
   constexpr int kLeast = std::numeric_limits<double>::min_exponent - kDigits - 1;
@@ -17,10 +19,12 @@ void set_nearest(arb_ptr ball, double value) {
   arb_add_error_2exp_si(ball, std::max(exponent - kDigits - 1, kLeast));
 }
 
-BallMatrix nearest_balls(const Eigen::MatrixXd& values) {
+BallMatrix nearest_balls(const Eigen::MatrixXd& values, RoundedNumbers rounded) {
   BallMatrix balls(values.rows(), values.cols());
   for (Eigen::Index i = 0; i < values.rows(); ++i) {
-    for (Eigen::Index j = 0; j < values.cols(); ++j) set_nearest(balls.entry(i, j), values(i, j));
+    for (Eigen::Index j = 0; j < values.cols(); ++j) {
+      set_nearest(balls.entry(i, j), values(i, j), rounded);
+    }
   }
   return balls;
 }

@@ -5,6 +5,8 @@
 // The library's headers are C.
 #include <arb_mat.h>
 
+#include "sampled_data_observers/design/rigorous_check.h"
+
 namespace sampled_data_observers {
 
 /// A real number that is known to lie in a ball: a midpoint and a radius.
@@ -54,11 +56,11 @@ class BallMatrix {
   arb_mat_t value_;
 };
 
-/// All numbers of which `value` is the nearest double, `value` among them; a whole number stands
-/// for itself. What is proved for the balls of the numbers read from a file is so proved of the
-/// decimals in the file and of the doubles that an observer computes with.
-void set_nearest(arb_ptr ball, double value);
-BallMatrix nearest_balls(const Eigen::MatrixXd& values);
+/// All numbers of which `value` is the nearest double, `value` among them; zero, and what is not
+/// rounded, stands for itself. What is proved for the balls of the numbers read from a file is so
+/// proved of the decimals in the file and of the doubles that an observer computes with.
+void set_nearest(arb_ptr ball, double value, RoundedNumbers rounded);
+BallMatrix nearest_balls(const Eigen::MatrixXd& values, RoundedNumbers rounded);
 
 /// The numbers themselves.
 BallMatrix exact_balls(const Eigen::MatrixXd& values);

@@ -99,6 +99,7 @@ class Budget {
     return spent.count() > options_.time_limit;
   }
   double time_limit() const { return options_.time_limit; }
+  RoundedNumbers rounded() const { return options_.rounded; }
 
   /// @param share  of the condition that is being proved
   void report(double share) const {
@@ -152,7 +153,7 @@ class Prover {
   };
 
   void decide_domain() {
-    TaylorAlgebra algebra(values_, 0.0, 0.0, kPrecisions[0]);
+    TaylorAlgebra algebra(values_, 0.0, 0.0, kPrecisions[0], budget_.rounded());
     const BallMatrix number = ExpressionEvaluator<TaylorAlgebra>(algebra)
                                   .evaluate(condition_.positive_definite)
                                   .coefficients.front();
@@ -233,7 +234,7 @@ class Prover {
     ++proof_.intervals;
     for (const slong precision : kPrecisions) {
       TaylorAlgebra algebra(values_, interval.centre(), condition_.tau ? interval.radius() : 0.0,
-                            precision);
+                            precision, budget_.rounded());
       std::vector<BallMatrix> F = ExpressionEvaluator<TaylorAlgebra>(algebra)
                                       .evaluate(condition_.positive_definite)
                                       .coefficients;

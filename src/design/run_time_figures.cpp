@@ -26,11 +26,11 @@ class Run {
   /// Over one interval and its sample. @return the largest bound
   double advance() {
     const double interval = intervals_[next_++ % intervals_.size()];
-    double largest = bound_.bound(then_.data());
+    double largest = bound(then_);
     for (const double fraction : {0.25, 0.5, 0.75, 1.0}) {
       now_ = then_;
       bound_.flow(fraction == 1.0 ? interval : fraction * interval, now_.data());
-      largest = std::max(largest, bound_.bound(now_.data()));
+      largest = std::max(largest, bound(now_));
     }
     if (jumps_) {
       bound_.jump(0.0, now_.data());  // none is told twice
@@ -39,12 +39,18 @@ class Run {
     }
     then_ = now_;
     time_ += interval;
-    return std::max(largest, bound_.bound(then_.data()));
+    return std::max(largest, bound(then_));
   }
 
   double time() const { return time_; }
 
  private:
+  /// What is no number bounds nothing.
+  double bound(const std::vector<double>& state) const {
+    const double value = bound_.bound(state.data());
+    return std::isnan(value) ? kInfinity : value;
+  }
+
   const ErrorBound& bound_;
   bool jumps_;
   std::vector<double> intervals_;

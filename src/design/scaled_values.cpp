@@ -110,6 +110,10 @@ bool has_norm_of_state(const Theorem& theorem) {
   return theorem.name().rfind("etienne2019_proposition2", 0) == 0;
 }
 
+bool has_conditions_for_units(const Theorem& theorem) {
+  return has_norm_of_state(theorem) || theorem.name() == "bernard2022_example4_2";
+}
+
 Parameters scaled(const Theorem& theorem, const Parameters& parameters,
                   const PlantScaling& scaling) {
   NamedMatrices values;

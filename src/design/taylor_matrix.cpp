@@ -26,8 +26,12 @@ Ball inverse_factorial(std::size_t k, slong precision) {
 }  // namespace
 
 TaylorAlgebra::TaylorAlgebra(const NamedMatrices& values, double centre, double radius,
-                             slong precision)
-    : values_(values), centre_(centre), precision_(precision), is_point_(radius == 0.0) {
+                             slong precision, RoundedNumbers rounded)
+    : values_(values),
+      centre_(centre),
+      precision_(precision),
+      rounded_(rounded),
+      is_point_(radius == 0.0) {
   Ball r;
   arb_set_d(r.get(), radius);
   // Two polynomials of the degree multiplied, and those of exponentials.
@@ -73,7 +77,7 @@ TaylorAlgebra::Coefficients TaylorAlgebra::scale(const Coefficients& scalar,
 }
 
 TaylorMatrix TaylorAlgebra::constant(const Eigen::MatrixXd& value) const {
-  return {{nearest_balls(value)}, std::nullopt};
+  return {{nearest_balls(value, rounded_)}, std::nullopt};
 }
 
 TaylorMatrix TaylorAlgebra::symbol(const MatrixExpression::Node& node) const {

@@ -42,7 +42,8 @@ class TaylorAlgebra {
   /// @param centre     τ_c, exactly
   /// @param radius     r >= 0
   /// @param precision  bits
-  TaylorAlgebra(const NamedMatrices& values, double centre, double radius, slong precision);
+  TaylorAlgebra(const NamedMatrices& values, double centre, double radius, slong precision,
+                RoundedNumbers rounded = RoundedNumbers::kNotWhole);
 
   Matrix constant(const Eigen::MatrixXd& value) const;
   Matrix symbol(const MatrixExpression::Node& node) const;
@@ -76,6 +77,7 @@ class TaylorAlgebra {
   const NamedMatrices& values_;
   double centre_;
   slong precision_;
+  RoundedNumbers rounded_;
   bool is_point_;
   /// [−r, r]^k, for even k without the negative numbers.
   std::vector<Ball> powers_;

@@ -17,6 +17,7 @@
 #include "sampled_data_observers/config/plant_config.h"
 #include "sampled_data_observers/config/plant_fingerprint.h"
 #include "sampled_data_observers/config/yaml_file.h"
+#include "sampled_data_observers/design/certificate_proof.h"
 #include "sampled_data_observers/design/gain_file.h"
 #include "sampled_data_observers/design/rigorous_check.h"
 #include "sampled_data_observers/replay/progress_bar.h"
@@ -85,7 +86,7 @@ std::size_t verify_rigorously(const Certificate& certificate, double time_limit)
     options.on_progress = [&](double share) {
       progress.advance_to(static_cast<std::size_t>(share * static_cast<double>(kSteps)));
     };
-    proofs = prove(conditions, certificate.values, options);
+    proofs = prove(certificate, options);
   }
   bool is_disproved = false;
   bool is_undecided = false;

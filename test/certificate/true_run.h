@@ -80,7 +80,7 @@ class TrueRun {
   struct Comparison {
     PublishedBound bound;
     double error = 0.0;
-    bool holds() const { return !(error > bound.value); }
+    bool holds() const { return error <= bound.value; }
   };
   /// The estimate of `seconds` as it is given out at `now`.
   Comparison compare(double seconds, double now) {

@@ -76,6 +76,17 @@ TEST(RigorousCheck, LeavesUndecidedWhatIsSingularAtAPoint) {
   EXPECT_NE(proof.reason.find("too close to zero"), std::string::npos) << proof.reason;
 }
 
+/// 3, and the double below it: apart by twice what rounding may hide of each.
+TEST(RigorousCheck, TakesWholeNumbersForRoundedOnesWhereUnitsAreNotThoseOfAFile) {
+  const std::vector<Condition> conditions = {
+      {"apart", symbol("x", 1, 1) - std::nextafter(3.0, 0.0), std::nullopt}};
+  const NamedMatrices values = {{"x", scalar_matrix(3.0)}};
+  EXPECT_EQ(first_unproved(prove(conditions, values, ProofOptions())), "");
+  ProofOptions options;
+  options.rounded = RoundedNumbers::kAllButZero;
+  EXPECT_EQ(prove(conditions, values, options).front().status, ProofStatus::kUndecided);
+}
+
 TEST(RigorousCheck, SaysWhetherTheTimeOrTheMatrixIsToBlame) {
   const std::vector<Condition> conditions = {
       {"first", cosine() + 1.001, Condition::Range{0.0, 50.0}}, {"second", 1.0, std::nullopt}};

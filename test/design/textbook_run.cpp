@@ -1,5 +1,7 @@
 #include "textbook_run.h"
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -138,6 +140,7 @@ class TextbookRun {
   void look(const Eigen::VectorXd& copy, const Eigen::VectorXd& held, int k) {
     estimator_.estimate_at(stamp_, estimate_);
     const double bound = estimator_.bound(estimate_, stamp_).value;
+    EXPECT_TRUE(std::isfinite(bound));
     const Eigen::VectorXd error = state_ - estimate_.state.head(state_.size());
     seen_.largest_share = std::max(seen_.largest_share, error.norm() / bound);
     if (k < kSamples / 2) return;

@@ -8,7 +8,9 @@
 #include "ferrante2019_examples.h"
 #include "paper_plants.h"
 #include "sampled_data_observers/certificate/matrix_functions.h"
+#include "sampled_data_observers/design/certificate_proof.h"
 #include "sampled_data_observers/design/plant_scaling.h"
+#include "sampled_data_observers/design/run_time_figures.h"
 
 namespace sampled_data_observers::test {
 namespace {
@@ -271,6 +273,36 @@ TEST(UnitIndependence, LetsAllMethodsServeAPlantInTheUnitsOfItsField) {
        {"ferrante2016_corollary1", "sferlazza2019_algorithm1", "ferrante2019_proposition2",
         "ferrante2019_proposition4", "etienne2019_proposition1"}) {
     EXPECT_EQ(refusal(method, flexible_drive()), "") << method;
+  }
+}
+
+/// As `design verify --rigorous` does it, of the numbers in the file.
+TEST(UnitIndependence, OfWhatCanBeProvedOfAGainFile) {
+  const CertificateSubject wild =
+      rewritten(flexible_drive(), {{1e6, 1e-6, 2.0, 3e5, 1e-4}, 1.0, 1e-3});
+  for (const char* method : {"ferrante2016_corollary1", "sferlazza2019_algorithm1",
+                             "ferrante2019_proposition2", "etienne2019_proposition1"}) {
+    Certificate certificate = design_by(method, wild).certificate;
+    EXPECT_EQ(first_unproved(prove(certificate, ProofOptions())), "") << method;
+    const char* gain = certificate.values.count("L") > 0 ? "L" : "P";
+    certificate.values.at(gain) *= -1.0;
+    EXPECT_NE(first_unproved(prove(certificate, ProofOptions())), "") << method;
+  }
+}
+
+/// In which eigenvalues of P as it is are lost in rounding.
+TEST(UnitIndependence, OfWhetherThereIsABoundOnTheError) {
+  ErrorAssumptions noise;
+  noise.noise = 1.0;
+  const CertificateSubject wild =
+      rewritten(flexible_drive(), {{1e6, 1e-6, 2.0, 3e5, 1e-4}, 1.0, 1e-3});
+  for (const char* method : {"ferrante2016_corollary1", "sferlazza2019_algorithm1",
+                             "ferrante2019_proposition2", "ferrante2019_proposition4"}) {
+    const Certificate certificate = design_by(method, wild).certificate;
+    const RunTimeFigures figures =
+        run_time_figures(*certificate.theorem, certificate.subject, certificate.values, noise);
+    EXPECT_TRUE(std::isfinite(figures.final_error) && figures.final_error > 0.0) << method;
+    EXPECT_GE(figures.factor_on_start, 1.0) << method;
   }
 }
 

@@ -46,6 +46,10 @@ bool is_rate(const std::string& name);
 /// Whether gamma is for the Euclidean norm of the state, by P > I.
 bool has_norm_of_state(const Theorem& theorem);
 
+/// Whether conditions in other units are other ones: by P > I, or by a basis of the state that is
+/// computed in floating point.
+bool has_conditions_for_units(const Theorem& theorem);
+
 /// The nearest units by which a change is exact in floating point.
 PlantScaling rounded_to_powers_of_two(PlantScaling scaling);
 

@@ -29,9 +29,16 @@ struct ConditionProof {
   std::string reason;
 };
 
+/// Which numbers stand for all numbers of which they are the nearest double.
+enum class RoundedNumbers {
+  kNotWhole,   ///< of a file, where whole numbers are meant as they are
+  kAllButZero  ///< in other units: what is whole there need not be so in the file
+};
+
 struct ProofOptions {
   /// Of all conditions together [s]. What is not decided by then is undecided.
   double time_limit = 60.0;
+  RoundedNumbers rounded = RoundedNumbers::kNotWhole;
   /// Called now and then with the share that is done, from 0 to 1; may be empty.
   std::function<void(double)> on_progress;
 };
@@ -39,9 +46,10 @@ struct ProofOptions {
 /// Proves or disproves conditions, over all τ of their intervals and not on a grid, in ball
 /// arithmetic: rounding is accounted for.
 ///
-/// Every number that is not whole, of `values` and of the constants in the conditions, stands for
-/// all numbers of which it is the nearest double. Its decimal in a file is one of them, and the
-/// double that an observer computes with is another: a proof is about both.
+/// Every number of `values` and of the constants in the conditions that is not whole, or not zero
+/// (RoundedNumbers), stands for all numbers of which it is the nearest double. Its decimal in a
+/// file is one of them, and the double that an observer computes with is another: a proof is about
+/// both.
 ///
 /// An interval of τ is proved by the Cholesky decomposition of an enclosure, scaled by a
 /// congruence, or bisected. A condition is disproved by a τ and a vector. Undecided is one whose
