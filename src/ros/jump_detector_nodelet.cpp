@@ -12,6 +12,10 @@
 
 namespace sampled_data_observers {
 
+JumpDetectorNodelet::JumpDetectorNodelet() : threads_(1) {}
+
+JumpDetectorNodelet::~JumpDetectorNodelet() { threads_.stop(); }
+
 void JumpDetectorNodelet::onInit() {
   try {
     const ConfigNode tree = read_parameter_tree(getPrivateNodeHandle());
@@ -19,18 +23,17 @@ void JumpDetectorNodelet::onInit() {
     const TopicSource config = read_detector_source(root.section("jumps").section("detector"));
     root.finish();
     source_ = make_message_source(config);
-    publisher_ = getNodeHandle().advertise<JumpEvent>("jumps", kQueueLength);
+    ros::NodeHandle handle = threads_.handle(getNodeHandle());
+    publisher_ = handle.advertise<JumpEvent>("jumps", kQueueLength);
     subscriber_ = source_->subscribe(
-        getNodeHandle(), kQueueLength,
+        handle, kQueueLength,
         [this](const MessagePointer& message, Stamp receipt) { receive(message, receipt); });
     signal_topic_ = subscriber_.getTopic();
     NODELET_INFO("jumps on %s, detected in %s (%s)", publisher_.getTopic().c_str(),
                  signal_topic_.c_str(), config.type.c_str());
+    threads_.start();
   } catch (const std::exception& error) {
     NODELET_FATAL("not started: %s", error.what());
-    // Now, while the callback queue still lives: roscpp crashes if that happens in the destructor.
-    subscriber_ = ros::Subscriber();
-    publisher_ = ros::Publisher();
     throw;
   }
 }

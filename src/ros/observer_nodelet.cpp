@@ -6,6 +6,18 @@
 #include "sampled_data_observers/ros/plant_plugins.h"
 
 namespace sampled_data_observers {
+namespace {
+
+constexpr std::uint32_t kEventThreads = 1;  // one event after another
+/// So that one long service, or a master that does not answer, does not hold up the diagnostics.
+constexpr std::uint32_t kServiceThreads = 3;
+
+}  // namespace
+
+ObserverNodelet::ObserverNodelet(std::string type)
+    : type_(std::move(type)), event_threads_(kEventThreads), service_threads_(kServiceThreads) {}
+
+ObserverNodelet::~ObserverNodelet() { stop(); }
 
 void ObserverNodelet::onInit() {
   try {
@@ -21,13 +33,13 @@ void ObserverNodelet::onInit() {
     start(tree, config);
   } catch (const std::exception& error) {
     NODELET_FATAL("not started: %s", error.what());
-    // Now, while the callback queue still lives: roscpp crashes if that happens in the destructor.
-    stop();
     throw;
   }
 }
 
 void ObserverNodelet::stop() {
+  service_threads_.stop();
+  event_threads_.stop();
   clock_watch_.reset();
   master_watch_.reset();
   diagnostics_.reset();
@@ -39,8 +51,9 @@ void ObserverNodelet::stop() {
 }
 
 void ObserverNodelet::start(const ConfigNode& tree, const ObserverConfig& config) {
-  // Callbacks run as soon as there is something to call: all is made before anything starts.
-  const ros::NodeHandle& handle = getNodeHandle();
+  const ros::NodeHandle handle = event_threads_.handle(getNodeHandle());
+  // Others, so that events go on while a service works.
+  const ros::NodeHandle service_handle = service_threads_.handle(getNodeHandle());
   runtime_ = std::make_unique<SharedRuntime>(config, getName(), handle.resolveName("reset"));
   std::unique_ptr<EstimateOutputs> outputs;
   if (config.outputs) {
@@ -50,24 +63,25 @@ void ObserverNodelet::start(const ConfigNode& tree, const ObserverConfig& config
   subscriptions_ =
       std::make_unique<EventSubscriptions>(handle, config, *runtime_, *publication_, getName());
   gains_ = std::make_unique<GainReloader>(tree, config, *runtime_);
-  // Their queue has threads of its own, so that events go on while a service works.
-  services_ = std::make_unique<ObserverServices>(getMTNodeHandle(), *runtime_, *gains_, getName());
-  clock_watch_ = std::make_unique<ClockWatch>(getMTNodeHandle(), getName());
-  diagnostics_ =
-      std::make_unique<DiagnosticsReporter>(getMTNodeHandle(), getMTPrivateNodeHandle(), getName(),
-                                            diagnosis_subject(config), runtime_->statistics());
+  services_ = std::make_unique<ObserverServices>(service_handle, *runtime_, *gains_, getName());
+  clock_watch_ = std::make_unique<ClockWatch>(service_handle, getName());
+  diagnostics_ = std::make_unique<DiagnosticsReporter>(
+      service_handle, service_threads_.handle(getPrivateNodeHandle()), getName(),
+      diagnosis_subject(config), runtime_->statistics());
   std::vector<ExpectedType> topics;
   for (const EventChannel& channel : event_channels(config)) {
     topics.push_back({handle.resolveName(channel.source.topic), channel.source.type});
   }
   master_watch_ = std::make_unique<MasterWatch>(
-      getMTNodeHandle(), services_->names(), std::move(topics),
+      service_handle, services_->names(), std::move(topics),
       [this](std::size_t channel, const std::string& type) {
         diagnostics_->note_published_type(channel, type);
       },
       getName());
   publication_->start(config, getName());
   subscriptions_->start();
+  event_threads_.start();
+  service_threads_.start();
   NODELET_INFO("%s: %zu states, estimates at %.6g Hz on %s", type_.c_str(),
                config.law->estimate_names().size(), 1.0 / to_seconds(config.period),
                publication_->topic().c_str());

@@ -6,9 +6,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <csignal>
 #include <fstream>
+#include <thread>
 
 #include "ros/observer_client.h"
 
@@ -84,6 +87,29 @@ TEST_F(LifecycleTest, UnloadingAndReloadingLeaksNothing) {
   for (int i = 0; i < 30; ++i) cycle();
   // The tables and the history of one observer alone take 0.1 MB; 30 leaked would show.
   EXPECT_LT(resident_kilobytes(), before + 2000);
+}
+
+TEST_F(LifecycleTest, UnloadingInTheMidstOfEventsLeavesNothingBehind) {
+  test::ObserverClient client;
+  std::atomic<bool> running{true};
+  std::thread publisher([&] {
+    while (running) {
+      client.publish_sample(ros::Time::now(), 1.0);
+      std::this_thread::sleep_for(std::chrono::microseconds(200));
+    }
+  });
+  for (int i = 0; i < 30; ++i) {
+    EXPECT_TRUE(load(loader_, "/observer"));
+    EXPECT_TRUE(client.connect());
+    EXPECT_TRUE(loader_.unload("/observer"));
+    ros::V_string topics;
+    ros::this_node::getAdvertisedTopics(topics);
+    EXPECT_EQ(0, std::count(topics.begin(), topics.end(), "/estimate"));
+    EXPECT_FALSE(ros::service::exists("/get_estimate", false));
+    if (HasFailure()) break;
+  }
+  running = false;
+  publisher.join();
 }
 
 TEST_F(LifecycleTest, PublishersMayDieAndReturn) {

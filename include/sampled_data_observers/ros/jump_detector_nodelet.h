@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "sampled_data_observers/ros/callback_threads.h"
 #include "sampled_data_observers/ros/message_source.h"
 
 namespace sampled_data_observers {
@@ -15,11 +16,16 @@ namespace sampled_data_observers {
 ///
 /// Private parameters: the section `detector` of a configuration (read_parameter_tree()).
 class JumpDetectorNodelet : public nodelet::Nodelet {
+ public:
+  JumpDetectorNodelet();
+  ~JumpDetectorNodelet() override;
+
  private:
   /// @throws ConfigError for a bad configuration, after reporting it: the nodelet does not start.
   void onInit() override;
   void receive(const MessagePointer& message, Stamp receipt);
 
+  CallbackThreads threads_;
   std::unique_ptr<MessageSource> source_;
   std::string signal_topic_;
   ros::Publisher publisher_;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "sampled_data_observers/ros/callback_threads.h"
 #include "sampled_data_observers/ros/clock_watch.h"
 #include "sampled_data_observers/ros/diagnostics_reporter.h"
 #include "sampled_data_observers/ros/estimate_publication.h"
@@ -21,9 +22,12 @@ namespace sampled_data_observers {
 /// Private parameters: the configuration (read_parameter_tree()). Topics, services and what they
 /// mean: doc/ros_interface.md; threads and locks: doc/architecture.md.
 class ObserverNodelet : public nodelet::Nodelet {
+ public:
+  ~ObserverNodelet() override;
+
  protected:
   /// @param type  the value that the key `observer` of the configuration must have
-  explicit ObserverNodelet(std::string type) : type_(std::move(type)) {}
+  explicit ObserverNodelet(std::string type);
 
  private:
   /// @throws ConfigError for a bad configuration, after reporting it: the nodelet does not start.
@@ -34,6 +38,8 @@ class ObserverNodelet : public nodelet::Nodelet {
   void stop();
 
   const std::string type_;
+  CallbackThreads event_threads_;
+  CallbackThreads service_threads_;
   // Each uses those before it.
   std::unique_ptr<SharedRuntime> runtime_;
   std::unique_ptr<EstimatePublication> publication_;
