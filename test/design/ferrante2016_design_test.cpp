@@ -261,6 +261,25 @@ TEST(Ferrante2016Proposition1, IsAtLeastAsFastAsCorollary1) {
                             Objective::kFeasible));
 }
 
+/// x' = x, samples 1 s apart: L e/(1 - |1 - L| e) times the noise is left, least for L = 1.
+TEST(Ferrante2016, HasTheLeastFinalErrorOfAScalarPlant) {
+  for (const char* method : {kMethod, "ferrante2016_proposition1"}) {
+    DesignProblem problem;
+    problem.subject = scalar_plant();
+    problem.objective = Objective::kMinFinalError;
+    problem.assumptions.noise = 0.1;
+    SynthesisOptions options;
+    options.jobs = 2;
+    const Design design = synthesize(*find_design_method(method), problem, options);
+    const double least = 0.1 * std::exp(1.0);
+    EXPECT_NEAR(scalar_value(design.certificate.values, "L"), 1.0, 0.05) << method;
+    const double error =
+        final_error(theorem(), problem.subject, design.certificate.values, problem.assumptions);
+    EXPECT_GE(error, least) << method;
+    EXPECT_LT(error, 1.05 * least) << method;
+  }
+}
+
 TEST(Ferrante2016Corollary1, TellsWhatItCannotDesignFor) {
   Eigen::MatrixXd A(2, 2);
   A << 0, 1, 0, 0;
