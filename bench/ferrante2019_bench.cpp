@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "sampled_data_observers/config/design_config.h"
-#include "sampled_data_observers/design/design_method.h"
-#include "sampled_data_observers/design/workers.h"
+#include "config/design_config.h"
+#include "design/design_method.h"
+#include "design/workers.h"
 
 namespace sdo = sampled_data_observers;
 

@@ -8,9 +8,9 @@
 #include <unsupported/Eigen/MatrixFunctions>
 
 #include "allocations.h"
+#include "observer/constant_gain_observer.h"
+#include "plant/linear_plant.h"
 #include "sampled_data_observers/hybrid/timeline.h"
-#include "sampled_data_observers/observer/constant_gain_observer.h"
-#include "sampled_data_observers/plant/linear_plant.h"
 
 namespace sampled_data_observers {
 namespace {

@@ -15,8 +15,10 @@
 #include <string>
 #include <vector>
 
+#include "messages/runtime_messages.h"
+#include "sampled_data_observers/config/event_channels.h"
 #include "sampled_data_observers/config/yaml_file.h"
-#include "sampled_data_observers/ros/observer_runtime.h"
+#include "sampled_data_observers/runtime/observer_runtime.h"
 
 namespace sampled_data_observers {
 namespace {
@@ -117,12 +119,14 @@ class Soak {
     event.stamp = message.stamp;
     event.values = &message.value;
     event.size = 1;
-    ++outcomes_[describe(runtime_.receive(channel, event, now, status_))];
+    const EventReport report = runtime_.receive(event, now);
+    write(channel, event, report, "", now, status_);
+    ++outcomes_[describe(report)];
   }
 
   void publish(Stamp now) {
     while (const Estimate* estimate = runtime_.next_due(now)) {
-      runtime_.write(*estimate, message_);
+      write(runtime_, *estimate, message_);
       if (last_ != 0 && estimate->stamp != last_ + config_.period) ++missed_;
       last_ = estimate->stamp;
       ++estimates_;

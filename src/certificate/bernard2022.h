@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "sampled_data_observers/certificate/certificate.h"
+#include "certificate/certificate.h"
 
 namespace sampled_data_observers {
 

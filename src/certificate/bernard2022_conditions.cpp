@@ -2,9 +2,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "bernard2022.h"
-#include "jump_based_bound.h"
-#include "theorems.h"
+#include "certificate/bernard2022.h"
+#include "certificate/jump_based_bound.h"
+#include "certificate/theorems.h"
 
 namespace sampled_data_observers {
 namespace {

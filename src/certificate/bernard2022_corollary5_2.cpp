@@ -1,8 +1,8 @@
 #include <stdexcept>
 
-#include "bernard2022.h"
-#include "jump_based_bound.h"
-#include "theorems.h"
+#include "certificate/bernard2022.h"
+#include "certificate/jump_based_bound.h"
+#include "certificate/theorems.h"
 
 namespace sampled_data_observers {
 namespace {

@@ -1,9 +1,9 @@
 #include <map>
 #include <stdexcept>
 
-#include "bernard2022.h"
-#include "sampled_data_observers/observer/observable_form.h"
-#include "theorems.h"
+#include "certificate/bernard2022.h"
+#include "certificate/theorems.h"
+#include "observer/observable_form.h"
 
 namespace sampled_data_observers {
 namespace {

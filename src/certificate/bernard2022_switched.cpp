@@ -1,7 +1,7 @@
 #include <stdexcept>
 
-#include "bernard2022.h"
-#include "theorems.h"
+#include "certificate/bernard2022.h"
+#include "certificate/theorems.h"
 
 namespace sampled_data_observers {
 namespace {

@@ -1,10 +1,10 @@
-#include "sampled_data_observers/certificate/certificate.h"
+#include "certificate/certificate.h"
 
 #include <algorithm>
 #include <cstdio>
 #include <regex>
 
-#include "theorems.h"
+#include "certificate/theorems.h"
 
 namespace sampled_data_observers {
 

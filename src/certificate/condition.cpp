@@ -1,4 +1,4 @@
-#include "sampled_data_observers/certificate/condition.h"
+#include "certificate/condition.h"
 
 #include <algorithm>
 #include <boost/math/tools/minima.hpp>
@@ -7,8 +7,8 @@
 #include <locale>
 #include <sstream>
 
-#include "rounded_matrix.h"
-#include "sampled_data_observers/certificate/matrix_functions.h"
+#include "certificate/rounded_matrix.h"
+#include "linear_algebra/matrix_functions.h"
 
 namespace sampled_data_observers {
 namespace {

@@ -4,11 +4,11 @@
 #include <stdexcept>
 #include <utility>
 
-#include "bound_flow.h"
-#include "outward.h"
-#include "sampled_data_observers/certificate/matrix_functions.h"
-#include "sampled_data_observers/certificate/wirtinger.h"
-#include "theorems.h"
+#include "certificate/bound_flow.h"
+#include "certificate/outward.h"
+#include "certificate/theorems.h"
+#include "certificate/wirtinger.h"
+#include "linear_algebra/matrix_functions.h"
 
 namespace sampled_data_observers {
 namespace {

@@ -1,9 +1,9 @@
-#include "sampled_data_observers/certificate/ferrante2016_bounds.h"
+#include "certificate/ferrante2016_bounds.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "sampled_data_observers/certificate/matrix_functions.h"
+#include "linear_algebra/matrix_functions.h"
 
 namespace sampled_data_observers {
 namespace {

@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "linear_sampling.h"
-#include "sampled_data_observers/certificate/exponential_norm.h"
-#include "sampled_data_observers/certificate/ferrante2016_bounds.h"
-#include "sampled_data_observers/certificate/matrix_functions.h"
-#include "sampled_data_observers/certificate/sampled_error_bound.h"
-#include "theorems.h"
+#include "certificate/exponential_norm.h"
+#include "certificate/ferrante2016_bounds.h"
+#include "certificate/linear_sampling.h"
+#include "certificate/sampled_error_bound.h"
+#include "certificate/theorems.h"
+#include "linear_algebra/matrix_functions.h"
 
 namespace sampled_data_observers {
 namespace {

@@ -1,4 +1,4 @@
-#include "sampled_data_observers/certificate/ferrante2019_matrix.h"
+#include "certificate/ferrante2019_matrix.h"
 
 namespace sampled_data_observers {
 

@@ -5,11 +5,11 @@
 #include <string>
 #include <utility>
 
-#include "bound_flow.h"
-#include "outward.h"
-#include "sampled_data_observers/certificate/ferrante2019_matrix.h"
-#include "sampled_data_observers/certificate/matrix_functions.h"
-#include "theorems.h"
+#include "certificate/bound_flow.h"
+#include "certificate/ferrante2019_matrix.h"
+#include "certificate/outward.h"
+#include "certificate/theorems.h"
+#include "linear_algebra/matrix_functions.h"
 
 namespace sampled_data_observers {
 namespace {

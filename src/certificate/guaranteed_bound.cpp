@@ -1,4 +1,4 @@
-#include "sampled_data_observers/certificate/guaranteed_bound.h"
+#include "certificate/guaranteed_bound.h"
 
 #include <algorithm>
 #include <cmath>

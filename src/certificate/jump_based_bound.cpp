@@ -1,11 +1,11 @@
-#include "jump_based_bound.h"
+#include "certificate/jump_based_bound.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "bound_flow.h"
-#include "outward.h"
-#include "sampled_data_observers/certificate/matrix_functions.h"
+#include "certificate/bound_flow.h"
+#include "certificate/outward.h"
+#include "linear_algebra/matrix_functions.h"
 
 namespace sampled_data_observers {
 namespace {

@@ -1,4 +1,4 @@
-#include "linear_sampling.h"
+#include "certificate/linear_sampling.h"
 
 #include <stdexcept>
 

@@ -1,4 +1,4 @@
-#include "sampled_data_observers/certificate/matrix_expression.h"
+#include "certificate/matrix_expression.h"
 
 #include <stdexcept>
 #include <utility>

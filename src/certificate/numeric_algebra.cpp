@@ -1,10 +1,10 @@
-#include "sampled_data_observers/certificate/numeric_algebra.h"
+#include "certificate/numeric_algebra.h"
 
 #include <stdexcept>
 #include <vector>
 
-#include "sampled_data_observers/certificate/evaluate_expression.h"
-#include "sampled_data_observers/certificate/matrix_functions.h"
+#include "certificate/evaluate_expression.h"
+#include "linear_algebra/matrix_functions.h"
 
 namespace sampled_data_observers {
 namespace {

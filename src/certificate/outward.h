@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "sampled_data_observers/certificate/matrix_functions.h"
+#include "linear_algebra/matrix_functions.h"
 
 namespace sampled_data_observers {
 

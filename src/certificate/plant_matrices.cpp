@@ -1,9 +1,9 @@
-#include "sampled_data_observers/certificate/plant_matrices.h"
+#include "certificate/plant_matrices.h"
 
 #include <algorithm>
 #include <stdexcept>
 
-#include "sampled_data_observers/plant/lipschitz_map.h"
+#include "plant/lipschitz_map.h"
 
 namespace sampled_data_observers {
 namespace {

@@ -1,4 +1,4 @@
-#include "sampled_data_observers/certificate/proof_fingerprint.h"
+#include "certificate/proof_fingerprint.h"
 
 #include <boost/uuid/name_generator_sha1.hpp>
 #include <boost/uuid/uuid_io.hpp>

@@ -1,4 +1,4 @@
-#include "rounded_matrix.h"
+#include "certificate/rounded_matrix.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "sampled_data_observers/certificate/evaluate_expression.h"
-#include "sampled_data_observers/certificate/matrix_functions.h"
+#include "certificate/evaluate_expression.h"
+#include "linear_algebra/matrix_functions.h"
 
 namespace sampled_data_observers {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <Eigen/Core>
 
-#include "sampled_data_observers/certificate/matrix_expression.h"
-#include "sampled_data_observers/certificate/numeric_algebra.h"
+#include "certificate/matrix_expression.h"
+#include "certificate/numeric_algebra.h"
 
 namespace sampled_data_observers {
 

@@ -1,4 +1,4 @@
-#include "sampled_data_observers/certificate/sampled_error_bound.h"
+#include "certificate/sampled_error_bound.h"
 
 #include <limits>
 

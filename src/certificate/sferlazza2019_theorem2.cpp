@@ -4,16 +4,16 @@
 #include <stdexcept>
 #include <utility>
 
-#include "linear_sampling.h"
-#include "outward.h"
-#include "sampled_data_observers/certificate/exponential_norm.h"
-#include "sampled_data_observers/certificate/matrix_functions.h"
-#include "sampled_data_observers/certificate/sampled_error_bound.h"
-#include "sampled_data_observers/certificate/spectral_norm.h"
-#include "sampled_data_observers/observer/time_varying_gain.h"
+#include "certificate/exponential_norm.h"
+#include "certificate/linear_sampling.h"
+#include "certificate/outward.h"
+#include "certificate/sampled_error_bound.h"
+#include "certificate/spectral_norm.h"
+#include "certificate/theorems.h"
+#include "linear_algebra/matrix_functions.h"
+#include "linear_algebra/ordered_linear_algebra.h"
+#include "observer/time_varying_gain.h"
 #include "sampled_data_observers/plant/linear_flow.h"
-#include "sampled_data_observers/plant/ordered_linear_algebra.h"
-#include "theorems.h"
 
 namespace sampled_data_observers {
 namespace {

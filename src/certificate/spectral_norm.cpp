@@ -1,10 +1,10 @@
-#include "sampled_data_observers/certificate/spectral_norm.h"
+#include "certificate/spectral_norm.h"
 
 #include <cmath>
 #include <limits>
 #include <utility>
 
-#include "sampled_data_observers/plant/ordered_linear_algebra.h"
+#include "linear_algebra/ordered_linear_algebra.h"
 
 namespace sampled_data_observers {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sampled_data_observers/certificate/certificate.h"
+#include "certificate/certificate.h"
 
 namespace sampled_data_observers {
 

@@ -1,10 +1,10 @@
-#include "sampled_data_observers/config/certificate_config.h"
+#include "config/certificate_config.h"
 
 #include <stdexcept>
 #include <utility>
 
-#include "sampled_data_observers/certificate/proof_fingerprint.h"
-#include "sampled_data_observers/config/named_values.h"
+#include "certificate/proof_fingerprint.h"
+#include "config/named_values.h"
 
 namespace sampled_data_observers {
 namespace {

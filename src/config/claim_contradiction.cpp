@@ -1,12 +1,12 @@
-#include "sampled_data_observers/config/claim_contradiction.h"
+#include "config/claim_contradiction.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
 
-#include "number_text.h"
-#include "sampled_data_observers/plant/lipschitz_map.h"
+#include "config/number_text.h"
+#include "plant/lipschitz_map.h"
 
 namespace sampled_data_observers {
 namespace {

@@ -6,7 +6,7 @@
 #include <sstream>
 #include <utility>
 
-#include "number_text.h"
+#include "config/number_text.h"
 
 namespace sampled_data_observers {
 namespace {

@@ -1,11 +1,11 @@
-#include "sampled_data_observers/config/contraction_check.h"
+#include "config/contraction_check.h"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "number_text.h"
-#include "sampled_data_observers/certificate/matrix_functions.h"
+#include "config/number_text.h"
+#include "linear_algebra/matrix_functions.h"
 #include "sampled_data_observers/observer/plant_observer.h"
 
 namespace sampled_data_observers {

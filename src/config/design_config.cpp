@@ -1,11 +1,11 @@
-#include "sampled_data_observers/config/design_config.h"
+#include "config/design_config.h"
 
 #include <stdexcept>
 
-#include "sampled_data_observers/config/claim_contradiction.h"
+#include "config/claim_contradiction.h"
+#include "config/named_values.h"
+#include "config/plant_fingerprint.h"
 #include "sampled_data_observers/config/config_section.h"
-#include "sampled_data_observers/config/named_values.h"
-#include "sampled_data_observers/config/plant_fingerprint.h"
 #include "sampled_data_observers/config/yaml_file.h"
 
 namespace sampled_data_observers {

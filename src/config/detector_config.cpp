@@ -1,6 +1,6 @@
 #include "sampled_data_observers/config/detector_config.h"
 
-#include "sampled_data_observers/config/expression_config.h"
+#include "config/expression_config.h"
 
 namespace sampled_data_observers {
 

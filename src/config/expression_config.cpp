@@ -1,4 +1,4 @@
-#include "sampled_data_observers/config/expression_config.h"
+#include "config/expression_config.h"
 
 #include <utility>
 

@@ -1,11 +1,11 @@
-#include "sampled_data_observers/config/gate_config.h"
+#include "config/gate_config.h"
 
 #include <algorithm>
 #include <optional>
 #include <vector>
 
-#include "sampled_data_observers/observer/estimator.h"
-#include "sampled_data_observers/observer/gated_samples.h"
+#include "observer/gated_samples.h"
+#include "sampled_data_observers/runtime/estimator.h"
 
 namespace sampled_data_observers {
 namespace {

@@ -1,4 +1,4 @@
-#include "sampled_data_observers/config/guarantee_config.h"
+#include "config/guarantee_config.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,12 +8,12 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "number_text.h"
-#include "sampled_data_observers/config/certificate_config.h"
-#include "sampled_data_observers/config/claim_contradiction.h"
+#include "config/certificate_config.h"
+#include "config/claim_contradiction.h"
+#include "config/integration_check.h"
+#include "config/number_text.h"
+#include "config/plant_fingerprint.h"
 #include "sampled_data_observers/config/gains_config.h"
-#include "sampled_data_observers/config/integration_check.h"
-#include "sampled_data_observers/config/plant_fingerprint.h"
 
 namespace sampled_data_observers {
 namespace {

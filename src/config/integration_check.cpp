@@ -1,14 +1,14 @@
-#include "sampled_data_observers/config/integration_check.h"
+#include "config/integration_check.h"
 
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <vector>
 
-#include "number_text.h"
-#include "sampled_data_observers/certificate/matrix_functions.h"
+#include "config/number_text.h"
+#include "linear_algebra/matrix_functions.h"
+#include "plant/lipschitz_map.h"
 #include "sampled_data_observers/observer/plant_observer.h"
-#include "sampled_data_observers/plant/lipschitz_map.h"
 
 namespace sampled_data_observers {
 namespace {

@@ -3,7 +3,7 @@
 #include <map>
 #include <stdexcept>
 
-#include "gains/builders.h"
+#include "config/gains/builders.h"
 
 namespace sampled_data_observers {
 namespace {

@@ -1,9 +1,9 @@
-#include "sampled_data_observers/config/mode_config.h"
+#include "config/mode_config.h"
 
 #include <utility>
 
-#include "sampled_data_observers/config/expression_config.h"
-#include "sampled_data_observers/plant/lipschitz_map.h"
+#include "config/expression_config.h"
+#include "plant/lipschitz_map.h"
 
 namespace sampled_data_observers {
 namespace {

@@ -1,4 +1,4 @@
-#include "sampled_data_observers/config/named_values.h"
+#include "config/named_values.h"
 
 namespace sampled_data_observers {
 namespace {

@@ -3,17 +3,17 @@
 #include <stdexcept>
 #include <utility>
 
-#include "sampled_data_observers/certificate/guaranteed_bound.h"
+#include "certificate/guaranteed_bound.h"
+#include "config/contraction_check.h"
+#include "config/gate_config.h"
+#include "config/guarantee_config.h"
+#include "config/integration_check.h"
+#include "observer/delayed_jumps.h"
+#include "observer/limited_jumps.h"
 #include "sampled_data_observers/config/config_section.h"
-#include "sampled_data_observers/config/contraction_check.h"
-#include "sampled_data_observers/config/gate_config.h"
-#include "sampled_data_observers/config/guarantee_config.h"
-#include "sampled_data_observers/config/integration_check.h"
 #include "sampled_data_observers/config/law_registry.h"
 #include "sampled_data_observers/config/plant_config.h"
 #include "sampled_data_observers/config/yaml_file.h"
-#include "sampled_data_observers/observer/delayed_jumps.h"
-#include "sampled_data_observers/observer/limited_jumps.h"
 
 namespace sampled_data_observers {
 namespace {
@@ -97,6 +97,7 @@ ObserverConfig read_observer_config(const ConfigNode& tree, const PlantPluginLoa
   const Plant& plant = *config.plant;
 
   config.sensors = read_sensor_sources(root, plant);
+  for (const auto& source : config.sensors) config.has_topic.push_back(source.has_value());
 
   LawContext context;
   context.observer.plant = config.plant;

@@ -5,9 +5,9 @@
 #include <set>
 #include <utility>
 
-#include "sampled_data_observers/config/expression_config.h"
-#include "sampled_data_observers/config/mode_config.h"
-#include "sampled_data_observers/plant/bias_states.h"
+#include "config/expression_config.h"
+#include "config/mode_config.h"
+#include "plant/bias_states.h"
 
 namespace sampled_data_observers {
 namespace {

@@ -1,4 +1,4 @@
-#include "sampled_data_observers/design/affine_matrix.h"
+#include "design/affine_matrix.h"
 
 #include <stdexcept>
 

@@ -1,13 +1,13 @@
-#include "sampled_data_observers/design/analysis.h"
+#include "design/analysis.h"
 
 #include <algorithm>
 #include <utility>
 
-#include "sampled_data_observers/design/certify.h"
-#include "sampled_data_observers/design/final_error.h"
-#include "sampled_data_observers/design/plant_scaling.h"
-#include "sampled_data_observers/design/request_error.h"
-#include "sampled_data_observers/design/run_time_figures.h"
+#include "design/certify.h"
+#include "design/final_error.h"
+#include "design/plant_scaling.h"
+#include "design/request_error.h"
+#include "design/run_time_figures.h"
 
 namespace sampled_data_observers {
 namespace {

@@ -1,7 +1,7 @@
-#include "sampled_data_observers/design/assumed_disturbance.h"
+#include "design/assumed_disturbance.h"
 
-#include "sampled_data_observers/certificate/matrix_functions.h"
-#include "sampled_data_observers/design/plant_scaling.h"
+#include "design/plant_scaling.h"
+#include "linear_algebra/matrix_functions.h"
 
 namespace sampled_data_observers {
 namespace {

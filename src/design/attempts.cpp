@@ -1,4 +1,4 @@
-#include "sampled_data_observers/design/attempts.h"
+#include "design/attempts.h"
 
 #include <algorithm>
 #include <locale>
@@ -6,12 +6,12 @@
 #include <string>
 #include <utility>
 
-#include "sampled_data_observers/certificate/matrix_functions.h"
-#include "sampled_data_observers/design/certify.h"
-#include "sampled_data_observers/design/final_error.h"
-#include "sampled_data_observers/design/packing.h"
-#include "sampled_data_observers/design/plant_scaling.h"
-#include "sampled_data_observers/design/rigorous_check.h"
+#include "design/certify.h"
+#include "design/final_error.h"
+#include "design/packing.h"
+#include "design/plant_scaling.h"
+#include "design/rigorous_check.h"
+#include "linear_algebra/matrix_functions.h"
 
 namespace sampled_data_observers {
 namespace {

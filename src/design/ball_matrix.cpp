@@ -1,4 +1,4 @@
-#include "ball_matrix.h"
+#include "design/ball_matrix.h"
 
 #include <algorithm>
 #include <cmath>

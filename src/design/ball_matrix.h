@@ -5,7 +5,7 @@
 // The library's headers are C.
 #include <arb_mat.h>
 
-#include "sampled_data_observers/design/rigorous_check.h"
+#include "design/rigorous_check.h"
 
 namespace sampled_data_observers {
 

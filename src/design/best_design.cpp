@@ -1,4 +1,4 @@
-#include "sampled_data_observers/design/best_design.h"
+#include "design/best_design.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,9 +7,9 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "sampled_data_observers/design/final_error.h"
-#include "sampled_data_observers/design/request_error.h"
-#include "sampled_data_observers/design/run_time_figures.h"
+#include "design/final_error.h"
+#include "design/request_error.h"
+#include "design/run_time_figures.h"
 
 namespace sampled_data_observers {
 namespace {

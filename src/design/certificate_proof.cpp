@@ -1,6 +1,6 @@
-#include "sampled_data_observers/design/certificate_proof.h"
+#include "design/certificate_proof.h"
 
-#include "sampled_data_observers/design/plant_scaling.h"
+#include "design/plant_scaling.h"
 
 namespace sampled_data_observers {
 namespace {

@@ -1,11 +1,11 @@
-#include "sampled_data_observers/design/certify.h"
+#include "design/certify.h"
 
 #include <algorithm>
 #include <functional>
 #include <utility>
 
-#include "sampled_data_observers/design/final_error.h"
-#include "sampled_data_observers/design/run_time_figures.h"
+#include "design/final_error.h"
+#include "design/run_time_figures.h"
 
 namespace sampled_data_observers {
 namespace {

@@ -7,8 +7,8 @@
 #include <new>
 #include <utility>
 
-#include "sampled_data_observers/design/lmi_solver.h"
-#include "standard_form.h"
+#include "design/lmi_solver.h"
+#include "design/standard_form.h"
 
 namespace sampled_data_observers {
 namespace {

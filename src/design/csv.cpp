@@ -1,4 +1,4 @@
-#include "sampled_data_observers/design/csv.h"
+#include "design/csv.h"
 
 #include <cstdio>
 #include <cstdlib>

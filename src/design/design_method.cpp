@@ -1,12 +1,12 @@
-#include "sampled_data_observers/design/design_method.h"
+#include "design/design_method.h"
 
 #include <algorithm>
 #include <utility>
 
-#include "methods/methods.h"
-#include "sampled_data_observers/design/assumed_disturbance.h"
-#include "sampled_data_observers/design/certify.h"
-#include "sampled_data_observers/design/final_error.h"
+#include "design/assumed_disturbance.h"
+#include "design/certify.h"
+#include "design/final_error.h"
+#include "design/methods/methods.h"
 
 namespace sampled_data_observers {
 

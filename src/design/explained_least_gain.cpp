@@ -1,8 +1,8 @@
 #include <stdexcept>
 
-#include "explanation_parts.h"
-#include "sampled_data_observers/certificate/ferrante2019_matrix.h"
-#include "sampled_data_observers/design/lmi_solver.h"
+#include "certificate/ferrante2019_matrix.h"
+#include "design/explanation_parts.h"
+#include "design/lmi_solver.h"
 
 namespace sampled_data_observers {
 namespace {

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <limits>
 
-#include "explanation_parts.h"
+#include "design/explanation_parts.h"
 
 namespace sampled_data_observers {
 namespace {

@@ -1,13 +1,13 @@
-#include "sampled_data_observers/design/explanation.h"
+#include "design/explanation.h"
 
 #include <algorithm>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "explanation_parts.h"
-#include "sampled_data_observers/design/design_method.h"
-#include "sampled_data_observers/design/observability.h"
+#include "design/design_method.h"
+#include "design/explanation_parts.h"
+#include "design/observability.h"
 
 namespace sampled_data_observers {
 namespace {

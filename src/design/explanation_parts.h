@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "paragraphs.h"
-#include "sampled_data_observers/certificate/certificate.h"
-#include "sampled_data_observers/design/observability.h"
+#include "certificate/certificate.h"
+#include "design/observability.h"
+#include "design/paragraphs.h"
 
 namespace sampled_data_observers {
 

@@ -1,12 +1,12 @@
-#include "sampled_data_observers/design/final_error.h"
+#include "design/final_error.h"
 
 #include <cmath>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "sampled_data_observers/certificate/matrix_functions.h"
-#include "sampled_data_observers/design/run_time_figures.h"
+#include "design/run_time_figures.h"
+#include "linear_algebra/matrix_functions.h"
 
 namespace sampled_data_observers {
 namespace {

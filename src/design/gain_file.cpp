@@ -1,12 +1,12 @@
-#include "sampled_data_observers/design/gain_file.h"
+#include "design/gain_file.h"
 
 #include <ostream>
 #include <set>
 #include <sstream>
 #include <stdexcept>
 
-#include "sampled_data_observers/certificate/proof_fingerprint.h"
-#include "sampled_data_observers/design/csv.h"
+#include "certificate/proof_fingerprint.h"
+#include "design/csv.h"
 
 namespace sampled_data_observers {
 namespace {

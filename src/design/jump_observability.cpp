@@ -1,12 +1,12 @@
-#include "sampled_data_observers/design/jump_observability.h"
+#include "design/jump_observability.h"
 
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <string>
 
-#include "sampled_data_observers/certificate/matrix_functions.h"
-#include "sampled_data_observers/design/observability.h"
+#include "design/observability.h"
+#include "linear_algebra/matrix_functions.h"
 
 namespace sampled_data_observers {
 namespace {

@@ -1,12 +1,12 @@
-#include "sampled_data_observers/design/lmi_program.h"
+#include "design/lmi_program.h"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
 
-#include "sampled_data_observers/certificate/evaluate_expression.h"
-#include "sampled_data_observers/certificate/matrix_functions.h"
+#include "certificate/evaluate_expression.h"
+#include "linear_algebra/matrix_functions.h"
 
 namespace sampled_data_observers {
 namespace {

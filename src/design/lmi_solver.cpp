@@ -1,7 +1,7 @@
-#include "sampled_data_observers/design/lmi_solver.h"
+#include "design/lmi_solver.h"
 
-#include "sampled_data_observers/design/packing.h"
-#include "sampled_data_observers/design/workers.h"
+#include "design/packing.h"
+#include "design/workers.h"
 
 namespace sampled_data_observers {
 namespace {

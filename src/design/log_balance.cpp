@@ -1,4 +1,4 @@
-#include "log_balance.h"
+#include "design/log_balance.h"
 
 #include <cmath>
 #include <vector>

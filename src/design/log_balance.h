@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sampled_data_observers/design/plant_scaling.h"
+#include "design/plant_scaling.h"
 
 namespace sampled_data_observers {
 

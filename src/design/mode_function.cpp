@@ -2,7 +2,7 @@
 #include <boost/math/constants/constants.hpp>
 #include <cmath>
 
-#include "sampled_data_observers/design/polytopic_embedding.h"
+#include "design/polytopic_embedding.h"
 
 namespace sampled_data_observers {
 namespace {

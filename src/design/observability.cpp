@@ -1,10 +1,10 @@
-#include "sampled_data_observers/design/observability.h"
+#include "design/observability.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "sampled_data_observers/certificate/matrix_functions.h"
+#include "linear_algebra/matrix_functions.h"
 
 namespace sampled_data_observers {
 namespace {

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sampled_data_observers/certificate/matrix_functions.h"
-#include "sampled_data_observers/design/explanation.h"
-#include "sampled_data_observers/design/observability.h"
+#include "design/explanation.h"
+#include "design/observability.h"
+#include "linear_algebra/matrix_functions.h"
 
 namespace sampled_data_observers {
 namespace {

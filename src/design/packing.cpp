@@ -1,4 +1,4 @@
-#include "sampled_data_observers/design/packing.h"
+#include "design/packing.h"
 
 #include <cstring>
 #include <stdexcept>

@@ -1,4 +1,4 @@
-#include "paragraphs.h"
+#include "design/paragraphs.h"
 
 #include <cstdio>
 

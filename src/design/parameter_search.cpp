@@ -1,4 +1,4 @@
-#include "sampled_data_observers/design/parameter_search.h"
+#include "design/parameter_search.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
-#include "sampled_data_observers/design/plant_scaling.h"
+#include "design/plant_scaling.h"
 
 #include <cmath>
 
-#include "log_balance.h"
-#include "sampled_data_observers/certificate/matrix_functions.h"
+#include "design/log_balance.h"
+#include "linear_algebra/matrix_functions.h"
 
 namespace sampled_data_observers {
 namespace {

@@ -1,4 +1,4 @@
-#include "sampled_data_observers/design/polytopic_embedding.h"
+#include "design/polytopic_embedding.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "sampled_data_observers/certificate/matrix_functions.h"
+#include "linear_algebra/matrix_functions.h"
 
 namespace sampled_data_observers {
 namespace {

@@ -1,4 +1,4 @@
-#include "sampled_data_observers/design/request_error.h"
+#include "design/request_error.h"
 
 #include <string>
 

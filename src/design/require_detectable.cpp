@@ -1,11 +1,11 @@
-#include "sampled_data_observers/design/require_detectable.h"
+#include "design/require_detectable.h"
 
 #include <cmath>
 #include <locale>
 #include <sstream>
 
-#include "sampled_data_observers/design/design_method.h"
-#include "sampled_data_observers/design/observability.h"
+#include "design/design_method.h"
+#include "design/observability.h"
 
 namespace sampled_data_observers {
 namespace {

@@ -1,4 +1,4 @@
-#include "sampled_data_observers/design/rigorous_check.h"
+#include "design/rigorous_check.h"
 
 #include <algorithm>
 #include <chrono>
@@ -7,10 +7,10 @@
 #include <limits>
 #include <queue>
 
-#include "ball_matrix.h"
-#include "sampled_data_observers/certificate/evaluate_expression.h"
-#include "sampled_data_observers/certificate/matrix_functions.h"
-#include "taylor_matrix.h"
+#include "certificate/evaluate_expression.h"
+#include "design/ball_matrix.h"
+#include "design/taylor_matrix.h"
+#include "linear_algebra/matrix_functions.h"
 
 namespace sampled_data_observers {
 namespace {

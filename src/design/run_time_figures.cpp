@@ -1,4 +1,4 @@
-#include "sampled_data_observers/design/run_time_figures.h"
+#include "design/run_time_figures.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,9 +3,9 @@
 #include <set>
 #include <string>
 
-#include "sampled_data_observers/certificate/matrix_functions.h"
-#include "sampled_data_observers/design/final_error.h"
-#include "sampled_data_observers/design/plant_scaling.h"
+#include "design/final_error.h"
+#include "design/plant_scaling.h"
+#include "linear_algebra/matrix_functions.h"
 
 namespace sampled_data_observers {
 namespace {

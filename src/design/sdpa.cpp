@@ -14,8 +14,8 @@
 #include <system_error>
 #include <thread>
 
-#include "sampled_data_observers/design/lmi_solver.h"
-#include "standard_form.h"
+#include "design/lmi_solver.h"
+#include "design/standard_form.h"
 
 namespace sampled_data_observers {
 namespace {

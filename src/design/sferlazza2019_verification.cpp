@@ -1,9 +1,9 @@
-#include "sampled_data_observers/design/sferlazza2019_verification.h"
+#include "design/sferlazza2019_verification.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "sampled_data_observers/certificate/matrix_functions.h"
+#include "linear_algebra/matrix_functions.h"
 
 namespace sampled_data_observers {
 namespace {

@@ -1,10 +1,10 @@
-#include "standard_form.h"
+#include "design/standard_form.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "sampled_data_observers/certificate/matrix_functions.h"
+#include "linear_algebra/matrix_functions.h"
 
 namespace sampled_data_observers {
 

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "sampled_data_observers/design/lmi_solver.h"
+#include "design/lmi_solver.h"
 
 namespace sampled_data_observers {
 

@@ -1,4 +1,4 @@
-#include "sampled_data_observers/design/sweep.h"
+#include "design/sweep.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,9 +7,9 @@
 #include <limits>
 #include <set>
 
-#include "sampled_data_observers/design/packing.h"
-#include "sampled_data_observers/design/request_error.h"
-#include "sampled_data_observers/design/workers.h"
+#include "design/packing.h"
+#include "design/request_error.h"
+#include "design/workers.h"
 
 namespace sampled_data_observers {
 namespace {

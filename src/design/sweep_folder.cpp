@@ -1,4 +1,4 @@
-#include "sampled_data_observers/design/sweep_folder.h"
+#include "design/sweep_folder.h"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -18,7 +18,7 @@
 #include <thread>
 #include <utility>
 
-#include "sampled_data_observers/design/csv.h"
+#include "design/csv.h"
 
 namespace sampled_data_observers {
 namespace {

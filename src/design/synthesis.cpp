@@ -1,4 +1,4 @@
-#include "sampled_data_observers/design/synthesis.h"
+#include "design/synthesis.h"
 
 #include <algorithm>
 #include <chrono>
@@ -8,15 +8,15 @@
 #include <optional>
 #include <sstream>
 
-#include "methods/sampled_plant.h"
-#include "sampled_data_observers/design/analysis.h"
-#include "sampled_data_observers/design/attempts.h"
-#include "sampled_data_observers/design/final_error.h"
-#include "sampled_data_observers/design/parameter_search.h"
-#include "sampled_data_observers/design/plant_scaling.h"
-#include "sampled_data_observers/design/request_error.h"
-#include "sampled_data_observers/design/require_detectable.h"
-#include "sampled_data_observers/design/workers.h"
+#include "design/analysis.h"
+#include "design/attempts.h"
+#include "design/final_error.h"
+#include "design/methods/sampled_plant.h"
+#include "design/parameter_search.h"
+#include "design/plant_scaling.h"
+#include "design/request_error.h"
+#include "design/require_detectable.h"
+#include "design/workers.h"
 
 namespace sampled_data_observers {
 namespace {

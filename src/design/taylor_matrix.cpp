@@ -1,4 +1,4 @@
-#include "taylor_matrix.h"
+#include "design/taylor_matrix.h"
 
 #include <algorithm>
 #include <utility>

@@ -3,9 +3,9 @@
 #include <optional>
 #include <vector>
 
-#include "ball_matrix.h"
-#include "sampled_data_observers/certificate/matrix_expression.h"
-#include "sampled_data_observers/certificate/numeric_algebra.h"
+#include "certificate/matrix_expression.h"
+#include "certificate/numeric_algebra.h"
+#include "design/ball_matrix.h"
 
 namespace sampled_data_observers {
 

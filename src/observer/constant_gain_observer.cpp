@@ -1,9 +1,9 @@
-#include "sampled_data_observers/observer/constant_gain_observer.h"
+#include "observer/constant_gain_observer.h"
 
 #include <utility>
 
+#include "sampled_data_observers/linear_algebra/ordered_product.h"
 #include "sampled_data_observers/observer/gain_check.h"
-#include "sampled_data_observers/plant/ordered_product.h"
 
 namespace sampled_data_observers {
 

@@ -1,4 +1,4 @@
-#include "sampled_data_observers/observer/delayed_jumps.h"
+#include "observer/delayed_jumps.h"
 
 #include <algorithm>
 

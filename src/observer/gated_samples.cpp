@@ -1,4 +1,4 @@
-#include "sampled_data_observers/observer/gated_samples.h"
+#include "observer/gated_samples.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
-#include "sampled_data_observers/observer/high_gain_observer.h"
+#include "observer/high_gain_observer.h"
 
 #include <stdexcept>
 #include <utility>
 
-#include "sampled_data_observers/observer/observable_form.h"
-#include "sampled_data_observers/plant/ordered_product.h"
+#include "observer/observable_form.h"
+#include "sampled_data_observers/linear_algebra/ordered_product.h"
 
 namespace sampled_data_observers {
 namespace {

@@ -1,12 +1,12 @@
-#include "sampled_data_observers/observer/hybrid_kalman_filter.h"
+#include "observer/hybrid_kalman_filter.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
-#include "sampled_data_observers/observer/definite_matrix.h"
-#include "sampled_data_observers/plant/ordered_linear_algebra.h"
+#include "linear_algebra/definite_matrix.h"
+#include "linear_algebra/ordered_linear_algebra.h"
 
 namespace sampled_data_observers {
 

@@ -1,11 +1,11 @@
-#include "sampled_data_observers/observer/intersample_injection_observer.h"
+#include "observer/intersample_injection_observer.h"
 
 #include <algorithm>
 #include <stdexcept>
 #include <utility>
 
+#include "sampled_data_observers/linear_algebra/ordered_product.h"
 #include "sampled_data_observers/observer/gain_check.h"
-#include "sampled_data_observers/plant/ordered_product.h"
 
 namespace sampled_data_observers {
 namespace {

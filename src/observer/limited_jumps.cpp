@@ -1,4 +1,4 @@
-#include "sampled_data_observers/observer/limited_jumps.h"
+#include "observer/limited_jumps.h"
 
 #include <algorithm>
 #include <stdexcept>

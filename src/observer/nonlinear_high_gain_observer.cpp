@@ -3,9 +3,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "sampled_data_observers/observer/high_gain_observer.h"
-#include "sampled_data_observers/observer/observable_form.h"
-#include "sampled_data_observers/observer/ordered_solve.h"
+#include "linear_algebra/ordered_solve.h"
+#include "observer/high_gain_observer.h"
+#include "observer/observable_form.h"
 
 namespace sampled_data_observers {
 namespace {

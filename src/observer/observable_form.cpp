@@ -1,4 +1,4 @@
-#include "sampled_data_observers/observer/observable_form.h"
+#include "observer/observable_form.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>

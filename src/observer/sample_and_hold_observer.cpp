@@ -1,4 +1,4 @@
-#include "sampled_data_observers/observer/sample_and_hold_observer.h"
+#include "observer/sample_and_hold_observer.h"
 
 namespace sampled_data_observers {
 namespace {

@@ -1,4 +1,4 @@
-#include "sampled_data_observers/observer/saturation.h"
+#include "observer/saturation.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "sampled_data_observers/observer/switched_observer.h"
+#include "observer/switched_observer.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
@@ -7,8 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "sampled_data_observers/linear_algebra/ordered_product.h"
 #include "sampled_data_observers/observer/gain_check.h"
-#include "sampled_data_observers/plant/ordered_product.h"
 
 namespace sampled_data_observers {
 namespace {

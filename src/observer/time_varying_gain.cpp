@@ -1,4 +1,4 @@
-#include "sampled_data_observers/observer/time_varying_gain.h"
+#include "observer/time_varying_gain.h"
 
 #include <Eigen/LU>
 #include <Eigen/QR>
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "sampled_data_observers/plant/ordered_linear_algebra.h"
+#include "linear_algebra/ordered_linear_algebra.h"
 
 namespace sampled_data_observers {
 namespace {

@@ -1,12 +1,12 @@
-#include "sampled_data_observers/observer/time_varying_gain_observer.h"
+#include "observer/time_varying_gain_observer.h"
 
 #include <algorithm>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
-#include "sampled_data_observers/observer/definite_matrix.h"
-#include "sampled_data_observers/plant/ordered_product.h"
+#include "linear_algebra/definite_matrix.h"
+#include "sampled_data_observers/linear_algebra/ordered_product.h"
 
 namespace sampled_data_observers {
 namespace {

@@ -1,9 +1,9 @@
-#include "sampled_data_observers/plant/bias_states.h"
+#include "plant/bias_states.h"
 
 #include <memory>
 #include <utility>
 
-#include "sampled_data_observers/plant/ordered_product.h"
+#include "sampled_data_observers/linear_algebra/ordered_product.h"
 
 namespace sampled_data_observers {
 namespace {

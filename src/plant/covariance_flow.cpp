@@ -1,11 +1,11 @@
-#include "sampled_data_observers/plant/covariance_flow.h"
+#include "plant/covariance_flow.h"
 
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
-#include "sampled_data_observers/plant/ordered_linear_algebra.h"
-#include "transition_matrix.h"
+#include "linear_algebra/ordered_linear_algebra.h"
+#include "linear_algebra/transition_matrix.h"
 
 namespace sampled_data_observers {
 namespace {

@@ -5,8 +5,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include "sampled_data_observers/plant/ordered_product.h"
-#include "transition_matrix.h"
+#include "linear_algebra/transition_matrix.h"
+#include "sampled_data_observers/linear_algebra/ordered_product.h"
 
 namespace sampled_data_observers {
 

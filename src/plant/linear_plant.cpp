@@ -1,4 +1,4 @@
-#include "sampled_data_observers/plant/linear_plant.h"
+#include "plant/linear_plant.h"
 
 #include <utility>
 

@@ -1,10 +1,10 @@
-#include "sampled_data_observers/plant/lipschitz_map.h"
+#include "plant/lipschitz_map.h"
 
 #include <stdexcept>
 #include <string>
 #include <utility>
 
-#include "sampled_data_observers/plant/ordered_product.h"
+#include "sampled_data_observers/linear_algebra/ordered_product.h"
 
 namespace sampled_data_observers {
 namespace {

@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "sampled_data_observers/plant/ordered_product.h"
+#include "sampled_data_observers/linear_algebra/ordered_product.h"
 
 namespace sampled_data_observers {
 

@@ -1,4 +1,4 @@
-#include "sampled_data_observers/real_time/memory_lock.h"
+#include "real_time/memory_lock.h"
 
 #include <linux/capability.h>
 #include <sys/mman.h>

@@ -1,4 +1,4 @@
-#include "sampled_data_observers/replay/bag_source.h"
+#include "replay/bag_source.h"
 
 #include <ros/names.h>
 #include <ros/serialization.h>
@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <map>
 
-#include "sampled_data_observers/ros/time_conversion.h"
+#include "messages/time_conversion.h"
 
 namespace sampled_data_observers {
 namespace {

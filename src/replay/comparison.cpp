@@ -1,10 +1,10 @@
-#include "sampled_data_observers/replay/comparison.h"
+#include "replay/comparison.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "sampled_data_observers/certificate/matrix_functions.h"
+#include "linear_algebra/matrix_functions.h"
 
 namespace sampled_data_observers {
 namespace {

@@ -1,4 +1,4 @@
-#include "sampled_data_observers/replay/estimate_comparison.h"
+#include "replay/estimate_comparison.h"
 
 #include <rosbag/view.h>
 #include <sampled_data_observers/StateEstimate.h>
@@ -7,8 +7,8 @@
 #include <cstring>
 #include <map>
 
-#include "sampled_data_observers/replay/bag_source.h"
-#include "sampled_data_observers/ros/time_conversion.h"
+#include "messages/time_conversion.h"
+#include "replay/bag_source.h"
 
 namespace sampled_data_observers {
 namespace {

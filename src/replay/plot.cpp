@@ -1,8 +1,8 @@
-#include "sampled_data_observers/replay/plot.h"
+#include "replay/plot.h"
 
 #include <nlohmann/json.hpp>
 
-#include "sampled_data_observers/replay/plot_program.h"
+#include "console/plot_program.h"
 
 namespace sampled_data_observers {
 namespace {

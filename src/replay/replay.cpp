@@ -1,4 +1,4 @@
-#include "sampled_data_observers/replay/replay.h"
+#include "replay/replay.h"
 
 #include <ros/names.h>
 #include <rosbag/view.h>
@@ -10,13 +10,15 @@
 #include <set>
 #include <sstream>
 
-#include "sampled_data_observers/replay/bag_source.h"
-#include "sampled_data_observers/replay/comparison.h"
-#include "sampled_data_observers/replay/progress_bar.h"
-#include "sampled_data_observers/replay/thinning.h"
-#include "sampled_data_observers/replay/truth.h"
-#include "sampled_data_observers/ros/event_intake.h"
-#include "sampled_data_observers/ros/time_conversion.h"
+#include "console/progress_bar.h"
+#include "messages/runtime_messages.h"
+#include "messages/time_conversion.h"
+#include "replay/bag_source.h"
+#include "replay/comparison.h"
+#include "replay/thinning.h"
+#include "replay/truth.h"
+#include "sampled_data_observers/config/event_channels.h"
+#include "sampled_data_observers/messages/event_intake.h"
 
 namespace sampled_data_observers {
 namespace {
@@ -172,10 +174,10 @@ class Replay {
 
   void handle(const EventChannel& channel, const Event& event, Reading reading,
               const std::string& missing) {
-    const EventReport report =
-        reading == Reading::kEvent
-            ? runtime_.receive(channel, event, *clock_, status_)
-            : runtime_.reject(channel, event, outcome_of(reading), missing, *clock_, status_);
+    const EventReport report = reading == Reading::kEvent
+                                   ? runtime_.receive(event, *clock_)
+                                   : runtime_.reject(event, outcome_of(reading), *clock_);
+    write(channel, event, report, missing, *clock_, status_);
     if (output_.isOpen()) output_.write(resolved("events"), to_ros_time(*clock_), status_);
     count(event, report);
     const bool is_measurement =
@@ -241,7 +243,7 @@ class Replay {
 
   void publish_due_at(Stamp now) {
     while (const Estimate* estimate = runtime_.next_due(now)) {
-      runtime_.write(*estimate, estimate_message_);
+      write(runtime_, *estimate, estimate_message_);
       final_is_held_ = estimate->held;
       ++summary_.estimates;
       note_bound(estimate->stamp, runtime_.bound(*estimate).loss);

@@ -1,13 +1,13 @@
-#include "sampled_data_observers/replay/simulation_bag.h"
+#include "replay/simulation_bag.h"
 
 #include <ros/names.h>
 #include <rosbag/bag.h>
 
 #include <vector>
 
-#include "sampled_data_observers/replay/bag_source.h"
-#include "sampled_data_observers/replay/progress_bar.h"
-#include "sampled_data_observers/ros/simulated_messages.h"
+#include "console/progress_bar.h"
+#include "messages/simulated_messages.h"
+#include "replay/bag_source.h"
 
 namespace sampled_data_observers {
 

@@ -1,4 +1,4 @@
-#include "sampled_data_observers/replay/summary.h"
+#include "replay/summary.h"
 
 #include <algorithm>
 #include <fstream>
@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "sampled_data_observers/replay/bag_source.h"
+#include "replay/bag_source.h"
 
 namespace sampled_data_observers {
 namespace {

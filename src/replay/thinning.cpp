@@ -1,10 +1,10 @@
-#include "sampled_data_observers/replay/thinning.h"
+#include "replay/thinning.h"
 
 #include <algorithm>
 #include <cstdlib>
 #include <numeric>
 
-#include "sampled_data_observers/simulation/random_numbers.h"
+#include "simulation/random_numbers.h"
 
 namespace sampled_data_observers {
 

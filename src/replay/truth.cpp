@@ -1,4 +1,4 @@
-#include "sampled_data_observers/replay/truth.h"
+#include "replay/truth.h"
 
 #include <ros/names.h>
 
@@ -6,7 +6,7 @@
 #include <memory>
 #include <utility>
 
-#include "sampled_data_observers/ros/time_conversion.h"
+#include "messages/time_conversion.h"
 
 namespace sampled_data_observers {
 namespace {

@@ -5,6 +5,8 @@
 
 #include <utility>
 
+#include "sampled_data_observers/runtime/no_clock.h"
+
 namespace sampled_data_observers {
 namespace {
 

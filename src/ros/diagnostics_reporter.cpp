@@ -4,8 +4,8 @@
 
 #include <utility>
 
-#include "sampled_data_observers/ros/observer_runtime.h"
-#include "sampled_data_observers/ros/time_conversion.h"
+#include "messages/time_conversion.h"
+#include "sampled_data_observers/config/event_channels.h"
 
 namespace sampled_data_observers {
 namespace {

@@ -1,6 +1,6 @@
 #include "sampled_data_observers/ros/estimate_outputs.h"
 
-#include "sampled_data_observers/ros/time_conversion.h"
+#include "messages/time_conversion.h"
 
 namespace sampled_data_observers {
 

@@ -4,10 +4,11 @@
 
 #include <utility>
 
-#include "sampled_data_observers/real_time/memory_lock.h"
-#include "sampled_data_observers/real_time/steady_deadline.h"
-#include "sampled_data_observers/real_time/thread_cpu_time.h"
-#include "sampled_data_observers/ros/queue_length.h"
+#include "messages/queue_length.h"
+#include "messages/runtime_messages.h"
+#include "real_time/memory_lock.h"
+#include "real_time/steady_deadline.h"
+#include "real_time/thread_cpu_time.h"
 
 namespace sampled_data_observers {
 namespace {
@@ -43,7 +44,7 @@ EstimatePublication::EstimatePublication(const ros::NodeHandle& handle, SharedRu
   StateEstimate prototype;
   {
     const SharedRuntime::Access access = runtime_.access();
-    access->write(access->estimator().make_estimate(), prototype);
+    write(*access, access->estimator().make_estimate(), prototype);
   }
   messages_ = std::make_unique<MessagePool<StateEstimate>>(prototype, kEstimatesHeld);
   publisher_ = handle_.advertise<StateEstimate>("estimate", kQueueLength);
@@ -104,7 +105,7 @@ std::optional<Duration> EstimatePublication::publish_next() {
     const SharedRuntime::Access access = runtime_.access();
     const Estimate* estimate = access->next_due(access.now());
     if (estimate == nullptr) return access->next_due_time(access.now()) - access.now();
-    access->write(*estimate, *message);
+    write(*access, *estimate, *message);
     const ObserverLaw& law = access->estimator().law();
     if (outputs_) outputs_->take(law, *estimate);
     runtime_.statistics().record_estimate(law, *estimate, access->bound(*estimate),

@@ -5,10 +5,12 @@
 #include <memory>
 #include <utility>
 
-#include "sampled_data_observers/ros/clock_watch.h"
-#include "sampled_data_observers/ros/diagnosis.h"
-#include "sampled_data_observers/ros/queue_length.h"
-#include "sampled_data_observers/ros/time_conversion.h"
+#include "messages/queue_length.h"
+#include "messages/runtime_messages.h"
+#include "messages/time_conversion.h"
+#include "sampled_data_observers/config/event_channels.h"
+#include "sampled_data_observers/runtime/diagnosis.h"
+#include "sampled_data_observers/runtime/no_clock.h"
 
 namespace sampled_data_observers {
 namespace {
@@ -128,18 +130,19 @@ void EventSubscriptions::run_deferred() {
 
 void EventSubscriptions::handle(const EventChannel& channel, const Event& event, Reading reading,
                                 const std::string& missing) {
-  const boost::shared_ptr<EventStatus> status = statuses_.take();
   EventReport report;
-  Duration latency = 0;
+  Stamp now = 0;
   {
     const SharedRuntime::Access access = runtime_.access();
-    report = reading == Reading::kEvent ? access->receive(channel, event, access.now(), *status)
-                                        : access->reject(channel, event, outcome_of(reading),
-                                                         missing, access.now(), *status);
+    report = reading == Reading::kEvent ? access->receive(event, access.now())
+                                        : access->reject(event, outcome_of(reading), access.now());
     if (!missing.empty()) runtime_.statistics().record_missing_transform(channel.index, missing);
-    latency = access.now() - event.stamp;
-    runtime_.statistics().record_event(channel.index, event, report, latency);
+    now = access.now();
+    runtime_.statistics().record_event(channel.index, event, report, now - event.stamp);
   }
+  const Duration latency = now - event.stamp;
+  const boost::shared_ptr<EventStatus> status = statuses_.take();
+  write(channel, event, report, missing, now, *status);
   if (!report.used()) {
     ROS_WARN_THROTTLE_NAMED(5.0, name_, "event from %s rejected: %s (stamp %.9f s, latency %.9f s)",
                             channel.name.c_str(), status->reason.c_str(), to_seconds(event.stamp),

@@ -4,10 +4,10 @@
 #include <stdexcept>
 #include <utility>
 
-#include "sampled_data_observers/config/confined_path.h"
-#include "sampled_data_observers/config/gain_replacement.h"
+#include "config/confined_path.h"
+#include "config/gain_replacement.h"
+#include "messages/plant_plugins.h"
 #include "sampled_data_observers/config/yaml_file.h"
-#include "sampled_data_observers/ros/plant_plugins.h"
 
 namespace sampled_data_observers {
 

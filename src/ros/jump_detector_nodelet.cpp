@@ -1,14 +1,14 @@
-#include "sampled_data_observers/ros/jump_detector_nodelet.h"
+#include "ros/jump_detector_nodelet.h"
 
 #include <sampled_data_observers/JumpEvent.h>
 
 #include <boost/make_shared.hpp>
 
+#include "messages/queue_length.h"
+#include "messages/time_conversion.h"
+#include "ros/parameter_tree.h"
 #include "sampled_data_observers/config/config_section.h"
-#include "sampled_data_observers/ros/observer_runtime.h"
-#include "sampled_data_observers/ros/parameter_tree.h"
-#include "sampled_data_observers/ros/queue_length.h"
-#include "sampled_data_observers/ros/time_conversion.h"
+#include "sampled_data_observers/runtime/event_report.h"
 
 namespace sampled_data_observers {
 
@@ -44,11 +44,9 @@ void JumpDetectorNodelet::receive(const MessagePointer& message, Stamp receipt) 
   const Reading reading = source_->read(message, receipt, event);
   if (reading == Reading::kPassedOver) return;
   if (reading != Reading::kEvent) {
-    EventReport report;
-    report.outcome = outcome_of(reading);
     NODELET_WARN_THROTTLE(5.0, "message on %s ignored: %s (stamp %.9f s, received %.9f s)",
-                          signal_topic_.c_str(), describe(report), to_seconds(event.stamp),
-                          to_seconds(receipt));
+                          signal_topic_.c_str(), describe(outcome_of(reading)),
+                          to_seconds(event.stamp), to_seconds(receipt));
     return;
   }
   const auto jump = boost::make_shared<JumpEvent>();

@@ -11,7 +11,7 @@
 
 #include <utility>
 
-#include "sampled_data_observers/ros/diagnosis.h"
+#include "sampled_data_observers/runtime/diagnosis.h"
 
 namespace sampled_data_observers {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <pluginlib/class_list_macros.hpp>
 
-#include "sampled_data_observers/ros/jump_detector_nodelet.h"
+#include "ros/jump_detector_nodelet.h"
+#include "ros/plant_simulator.h"
 #include "sampled_data_observers/ros/observer_nodelet.h"
-#include "sampled_data_observers/ros/plant_simulator.h"
 
 // One nodelet per observer type. They differ in their names only: the configuration makes the law.
 #define SDO_OBSERVER_NODELET(TYPE)               \

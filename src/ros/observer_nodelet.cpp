@@ -2,8 +2,9 @@
 
 #include <utility>
 
-#include "sampled_data_observers/ros/parameter_tree.h"
-#include "sampled_data_observers/ros/plant_plugins.h"
+#include "messages/plant_plugins.h"
+#include "ros/parameter_tree.h"
+#include "sampled_data_observers/config/event_channels.h"
 
 namespace sampled_data_observers {
 namespace {

@@ -4,8 +4,9 @@
 
 #include <utility>
 
-#include "sampled_data_observers/ros/clock_watch.h"
-#include "sampled_data_observers/ros/time_conversion.h"
+#include "messages/runtime_messages.h"
+#include "messages/time_conversion.h"
+#include "sampled_data_observers/runtime/no_clock.h"
 
 namespace sampled_data_observers {
 
@@ -51,7 +52,7 @@ bool ObserverServices::get_estimate(GetEstimate::Request& request,
   const Estimate* estimate = access->estimate_at(stamp, response.message);
   if (access.now() == 0) response.message = std::string("there is no time yet: ") + kNoClock;
   response.success = estimate != nullptr ? 1 : 0;
-  if (estimate != nullptr) access->write(*estimate, response.estimate);
+  if (estimate != nullptr) write(*access, *estimate, response.estimate);
   return true;
 }
 

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "sampled_data_observers/ros/time_conversion.h"
+#include "messages/time_conversion.h"
 
 namespace sampled_data_observers {
 

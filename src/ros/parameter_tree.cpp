@@ -1,4 +1,4 @@
-#include "sampled_data_observers/ros/parameter_tree.h"
+#include "ros/parameter_tree.h"
 
 #include <xmlrpcpp/XmlRpcValue.h>
 

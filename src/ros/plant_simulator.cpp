@@ -1,4 +1,4 @@
-#include "sampled_data_observers/ros/plant_simulator.h"
+#include "ros/plant_simulator.h"
 
 #include <rosgraph_msgs/Clock.h>
 
@@ -7,11 +7,11 @@
 #include <string>
 #include <utility>
 
+#include "messages/plant_plugins.h"
+#include "messages/simulated_messages.h"
+#include "ros/parameter_tree.h"
 #include "sampled_data_observers/config/config_section.h"
-#include "sampled_data_observers/ros/parameter_tree.h"
-#include "sampled_data_observers/ros/plant_plugins.h"
-#include "sampled_data_observers/ros/simulated_messages.h"
-#include "sampled_data_observers/simulation/scenario_config.h"
+#include "simulation/scenario_config.h"
 
 namespace sampled_data_observers {
 namespace {

@@ -6,7 +6,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "sampled_data_observers/ros/time_conversion.h"
+#include "messages/time_conversion.h"
+#include "sampled_data_observers/config/event_channels.h"
 
 namespace sampled_data_observers {
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "sampled_data_observers/ros/body_messages.h"
-#include "sampled_data_observers/ros/time_conversion.h"
+#include "messages/time_conversion.h"
+#include "sampled_data_observers/messages/body_messages.h"
 
 namespace sampled_data_observers {
 namespace {

@@ -1,4 +1,4 @@
-#include "sampled_data_observers/simulation/delivery.h"
+#include "simulation/delivery.h"
 
 #include <algorithm>
 

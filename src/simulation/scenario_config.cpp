@@ -1,13 +1,13 @@
-#include "sampled_data_observers/simulation/scenario_config.h"
+#include "simulation/scenario_config.h"
 
 #include <algorithm>
 #include <utility>
 
+#include "config/expression_config.h"
 #include "sampled_data_observers/config/config_section.h"
-#include "sampled_data_observers/config/expression_config.h"
 #include "sampled_data_observers/config/topic_config.h"
 #include "sampled_data_observers/config/yaml_file.h"
-#include "schedule_config.h"
+#include "simulation/schedule_config.h"
 
 namespace sampled_data_observers {
 namespace {

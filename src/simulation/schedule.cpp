@@ -1,4 +1,4 @@
-#include "sampled_data_observers/simulation/schedule.h"
+#include "simulation/schedule.h"
 
 #include <algorithm>
 #include <cmath>

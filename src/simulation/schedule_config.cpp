@@ -1,4 +1,4 @@
-#include "schedule_config.h"
+#include "simulation/schedule_config.h"
 
 #include <algorithm>
 #include <filesystem>

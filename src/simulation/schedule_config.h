@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "sampled_data_observers/config/config_section.h"
-#include "sampled_data_observers/simulation/schedule.h"
+#include "simulation/schedule.h"
 
 namespace sampled_data_observers {
 

@@ -1,11 +1,11 @@
-#include "sampled_data_observers/simulation/simulated_plant.h"
+#include "simulation/simulated_plant.h"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "sampled_data_observers/linear_algebra/ordered_product.h"
 #include "sampled_data_observers/plant/linear_flow.h"
-#include "sampled_data_observers/plant/ordered_product.h"
 #include "sampled_data_observers/plant/runge_kutta_flow.h"
 
 namespace sampled_data_observers {

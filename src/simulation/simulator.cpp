@@ -1,4 +1,4 @@
-#include "sampled_data_observers/simulation/simulator.h"
+#include "simulation/simulator.h"
 
 #include <algorithm>
 #include <cstdio>

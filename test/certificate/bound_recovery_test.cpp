@@ -7,7 +7,7 @@
 
 #include "certificate/certified_gains.h"
 #include "certificate/true_run.h"
-#include "sampled_data_observers/config/plant_fingerprint.h"
+#include "config/plant_fingerprint.h"
 
 namespace sampled_data_observers::test {
 namespace {

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "certificate/certified_gains.h"
-#include "sampled_data_observers/certificate/matrix_functions.h"
+#include "linear_algebra/matrix_functions.h"
 #include "support/law_runner.h"
 
 namespace sampled_data_observers::test {

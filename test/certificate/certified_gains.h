@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "sampled_data_observers/config/certificate_config.h"
+#include "config/certificate_config.h"
 #include "sampled_data_observers/config/observer_config.h"
 #include "sampled_data_observers/config/plant_config.h"
 #include "sampled_data_observers/config/yaml_file.h"

@@ -1,14 +1,14 @@
 // A claim is about what runs: the gains that the law computes with, outputs that are injected
 // included, and the plant that its formulas describe.
-#include "sampled_data_observers/config/claim_contradiction.h"
+#include "config/claim_contradiction.h"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 
 #include "certificate/certified_gains.h"
-#include "sampled_data_observers/config/design_config.h"
-#include "sampled_data_observers/config/plant_fingerprint.h"
+#include "config/design_config.h"
+#include "config/plant_fingerprint.h"
 #include "support/config_faults.h"
 
 namespace sampled_data_observers::test {

@@ -1,6 +1,6 @@
 // The floating-point check of conditions on matrices whose definiteness is known exactly: built of
 // whole numbers, of powers of two, and of formulas that are zero.
-#include "sampled_data_observers/certificate/condition.h"
+#include "certificate/condition.h"
 
 #include <gtest/gtest.h>
 

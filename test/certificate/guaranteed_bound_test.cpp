@@ -1,6 +1,6 @@
 // A bound beside an estimate: driven by the same events, a function of them, and lost where what it
 // rests on does not hold.
-#include "sampled_data_observers/certificate/guaranteed_bound.h"
+#include "certificate/guaranteed_bound.h"
 
 #include <gtest/gtest.h>
 
@@ -11,8 +11,8 @@
 #include <limits>
 
 #include "certificate/certified_gains.h"
-#include "sampled_data_observers/observer/gated_samples.h"
-#include "sampled_data_observers/observer/limited_jumps.h"
+#include "observer/gated_samples.h"
+#include "observer/limited_jumps.h"
 #include "support/allocation_counter.h"
 #include "support/law_runner.h"
 #include "support/random_events.h"

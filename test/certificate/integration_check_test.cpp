@@ -2,7 +2,7 @@
 // with Runge-Kutta steps.
 #include <gtest/gtest.h>
 
-#include "sampled_data_observers/config/plant_fingerprint.h"
+#include "config/plant_fingerprint.h"
 #include "support/config_faults.h"
 #include "support/law_runner.h"
 

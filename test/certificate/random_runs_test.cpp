@@ -12,7 +12,7 @@
 
 #include "certificate/certified_gains.h"
 #include "certificate/disturbed_flow.h"
-#include "sampled_data_observers/observer/estimator.h"
+#include "sampled_data_observers/runtime/estimator.h"
 
 namespace sampled_data_observers::test {
 namespace {

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "sampled_data_observers/config/observer_config.h"
-#include "sampled_data_observers/observer/estimator.h"
 #include "sampled_data_observers/plant/linear_flow.h"
+#include "sampled_data_observers/runtime/estimator.h"
 
 namespace sampled_data_observers::test {
 

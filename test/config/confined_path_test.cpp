@@ -1,4 +1,4 @@
-#include "sampled_data_observers/config/confined_path.h"
+#include "config/confined_path.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>

@@ -1,5 +1,5 @@
 // Gains with which a linear observer diverges are told of when they are loaded.
-#include "sampled_data_observers/config/contraction_check.h"
+#include "config/contraction_check.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "sampled_data_observers/config/gain_replacement.h"
+#include "config/gain_replacement.h"
 
 #include <gtest/gtest.h>
 

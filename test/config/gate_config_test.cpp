@@ -1,8 +1,8 @@
-#include "sampled_data_observers/config/gate_config.h"
+#include "config/gate_config.h"
 
 #include <gtest/gtest.h>
 
-#include "sampled_data_observers/observer/gated_samples.h"
+#include "observer/gated_samples.h"
 #include "support/config_faults.h"
 
 namespace sampled_data_observers {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "sampled_data_observers/observer/estimator.h"
+#include "sampled_data_observers/runtime/estimator.h"
 #include "support/config_faults.h"
 
 namespace sampled_data_observers {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "sampled_data_observers/plant/lipschitz_map.h"
+#include "plant/lipschitz_map.h"
 #include "support/config_faults.h"
 #include "support/law_runner.h"
 

@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "design/certified.h"
-#include "sampled_data_observers/certificate/matrix_functions.h"
-#include "sampled_data_observers/design/jump_observability.h"
-#include "sampled_data_observers/design/polytopic_embedding.h"
-#include "sampled_data_observers/design/synthesis.h"
-#include "sampled_data_observers/observer/observable_form.h"
+#include "design/jump_observability.h"
+#include "design/polytopic_embedding.h"
+#include "design/synthesis.h"
+#include "linear_algebra/matrix_functions.h"
+#include "observer/observable_form.h"
 
 namespace sampled_data_observers {
 namespace {

@@ -4,9 +4,9 @@
 #include <utility>
 #include <vector>
 
-#include "sampled_data_observers/design/certify.h"
-#include "sampled_data_observers/design/packing.h"
-#include "sampled_data_observers/design/workers.h"
+#include "design/certify.h"
+#include "design/packing.h"
+#include "design/workers.h"
 
 namespace sampled_data_observers {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "design/certified.h"
-#include "sampled_data_observers/certificate/matrix_functions.h"
-#include "sampled_data_observers/design/synthesis.h"
+#include "design/synthesis.h"
+#include "linear_algebra/matrix_functions.h"
 
 namespace sampled_data_observers {
 namespace {

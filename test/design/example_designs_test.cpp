@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "sampled_data_observers/config/certificate_config.h"
-#include "sampled_data_observers/config/design_config.h"
+#include "config/certificate_config.h"
+#include "config/design_config.h"
+#include "design/gain_file.h"
+#include "design/synthesis.h"
 #include "sampled_data_observers/config/observer_config.h"
 #include "sampled_data_observers/config/yaml_file.h"
-#include "sampled_data_observers/design/gain_file.h"
-#include "sampled_data_observers/design/synthesis.h"
 
 namespace sampled_data_observers {
 namespace {

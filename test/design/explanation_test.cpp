@@ -1,4 +1,4 @@
-#include "sampled_data_observers/design/explanation.h"
+#include "design/explanation.h"
 
 #include <gtest/gtest.h>
 
@@ -6,9 +6,9 @@
 #include <cmath>
 #include <sstream>
 
+#include "design/design_method.h"
 #include "design/ferrante2019_examples.h"
 #include "design/paper_plants.h"
-#include "sampled_data_observers/design/design_method.h"
 
 namespace sampled_data_observers {
 namespace {

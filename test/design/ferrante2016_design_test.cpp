@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "certificate/ferrante2016_bounds.h"
+#include "design/final_error.h"
+#include "design/polytopic_embedding.h"
+#include "design/run_time_figures.h"
+#include "linear_algebra/matrix_functions.h"
 #include "paper_plants.h"
-#include "sampled_data_observers/certificate/ferrante2016_bounds.h"
-#include "sampled_data_observers/certificate/matrix_functions.h"
-#include "sampled_data_observers/design/final_error.h"
-#include "sampled_data_observers/design/polytopic_embedding.h"
-#include "sampled_data_observers/design/run_time_figures.h"
 #include "support/allocation_counter.h"
 
 namespace sampled_data_observers::test {

@@ -1,8 +1,8 @@
 // ferrante2019: what can be proved of given gains, against numbers computed independently.
 #include <gtest/gtest.h>
 
+#include "design/analysis.h"
 #include "ferrante2019_examples.h"
-#include "sampled_data_observers/design/analysis.h"
 
 namespace sampled_data_observers {
 namespace {

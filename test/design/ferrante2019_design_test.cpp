@@ -3,12 +3,12 @@
 
 #include <limits>
 
+#include "design/parameter_search.h"
+#include "design/request_error.h"
+#include "design/synthesis.h"
+#include "design/workers.h"
 #include "ferrante2019_examples.h"
-#include "sampled_data_observers/certificate/matrix_functions.h"
-#include "sampled_data_observers/design/parameter_search.h"
-#include "sampled_data_observers/design/request_error.h"
-#include "sampled_data_observers/design/synthesis.h"
-#include "sampled_data_observers/design/workers.h"
+#include "linear_algebra/matrix_functions.h"
 
 namespace sampled_data_observers {
 namespace {

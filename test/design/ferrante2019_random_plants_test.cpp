@@ -7,10 +7,10 @@
 #include <random>
 #include <string>
 
-#include "sampled_data_observers/certificate/matrix_functions.h"
-#include "sampled_data_observers/design/rigorous_check.h"
-#include "sampled_data_observers/design/synthesis.h"
-#include "sampled_data_observers/design/workers.h"
+#include "design/rigorous_check.h"
+#include "design/synthesis.h"
+#include "design/workers.h"
+#include "linear_algebra/matrix_functions.h"
 
 namespace sampled_data_observers {
 namespace {

@@ -7,12 +7,12 @@
 #include <utility>
 #include <vector>
 
+#include "design/analysis.h"
+#include "design/attempts.h"
+#include "design/gain_file.h"
+#include "design/plant_scaling.h"
 #include "ferrante2019_examples.h"
 #include "paper_plants.h"
-#include "sampled_data_observers/design/analysis.h"
-#include "sampled_data_observers/design/attempts.h"
-#include "sampled_data_observers/design/gain_file.h"
-#include "sampled_data_observers/design/plant_scaling.h"
 
 namespace sampled_data_observers::test {
 namespace {

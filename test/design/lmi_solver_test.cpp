@@ -1,4 +1,4 @@
-#include "sampled_data_observers/design/lmi_solver.h"
+#include "design/lmi_solver.h"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "design/lmi_programs.h"
-#include "sampled_data_observers/certificate/matrix_functions.h"
-#include "sampled_data_observers/design/workers.h"
+#include "design/workers.h"
+#include "linear_algebra/matrix_functions.h"
 
 namespace sampled_data_observers {
 namespace {

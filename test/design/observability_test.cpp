@@ -1,11 +1,11 @@
 // Observability against closed forms.
-#include "sampled_data_observers/design/observability.h"
+#include "design/observability.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "sampled_data_observers/certificate/matrix_functions.h"
+#include "linear_algebra/matrix_functions.h"
 
 namespace sampled_data_observers {
 namespace {

@@ -2,11 +2,11 @@
 
 #include <string>
 
-#include "sampled_data_observers/certificate/certificate.h"
-#include "sampled_data_observers/design/certify.h"
-#include "sampled_data_observers/design/packing.h"
-#include "sampled_data_observers/design/synthesis.h"
-#include "sampled_data_observers/design/workers.h"
+#include "certificate/certificate.h"
+#include "design/certify.h"
+#include "design/packing.h"
+#include "design/synthesis.h"
+#include "design/workers.h"
 
 namespace sampled_data_observers::test {
 

@@ -1,5 +1,5 @@
 // The polytope around e^{Aτ} of ferrante2016, section 4.1.
-#include "sampled_data_observers/design/polytopic_embedding.h"
+#include "design/polytopic_embedding.h"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "linear_algebra/matrix_functions.h"
 #include "paper_plants.h"
-#include "sampled_data_observers/certificate/matrix_functions.h"
 
 namespace sampled_data_observers::test {
 namespace {

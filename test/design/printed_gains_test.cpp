@@ -5,13 +5,13 @@
 #include <ostream>
 #include <string>
 
-#include "sampled_data_observers/config/certificate_config.h"
-#include "sampled_data_observers/config/design_config.h"
-#include "sampled_data_observers/config/named_values.h"
+#include "config/certificate_config.h"
+#include "config/design_config.h"
+#include "config/named_values.h"
+#include "design/analysis.h"
+#include "design/workers.h"
 #include "sampled_data_observers/config/observer_config.h"
 #include "sampled_data_observers/config/yaml_file.h"
-#include "sampled_data_observers/design/analysis.h"
-#include "sampled_data_observers/design/workers.h"
 
 namespace sampled_data_observers::test {
 namespace {

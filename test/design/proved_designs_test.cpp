@@ -4,11 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include "design/attempts.h"
+#include "design/rigorous_check.h"
 #include "ferrante2019_examples.h"
+#include "linear_algebra/matrix_functions.h"
 #include "paper_plants.h"
-#include "sampled_data_observers/certificate/matrix_functions.h"
-#include "sampled_data_observers/design/attempts.h"
-#include "sampled_data_observers/design/rigorous_check.h"
 
 namespace sampled_data_observers::test {
 namespace {

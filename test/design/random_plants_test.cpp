@@ -7,9 +7,9 @@
 #include <random>
 #include <string>
 
+#include "linear_algebra/matrix_functions.h"
+#include "observer/time_varying_gain.h"
 #include "paper_plants.h"
-#include "sampled_data_observers/certificate/matrix_functions.h"
-#include "sampled_data_observers/observer/time_varying_gain.h"
 
 namespace sampled_data_observers::test {
 namespace {

@@ -1,15 +1,15 @@
 // Ball arithmetic on conditions whose truth is known in closed form, on those of the papers'
 // examples, and on designs.
-#include "sampled_data_observers/design/rigorous_check.h"
+#include "design/rigorous_check.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "config/design_config.h"
+#include "linear_algebra/matrix_functions.h"
 #include "paper_plants.h"
-#include "sampled_data_observers/certificate/matrix_functions.h"
-#include "sampled_data_observers/config/design_config.h"
 
 namespace sampled_data_observers::test {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstdlib>
 
 #include "design/lmi_programs.h"
-#include "sampled_data_observers/design/lmi_solver.h"
+#include "design/lmi_solver.h"
 
 namespace sampled_data_observers {
 namespace {

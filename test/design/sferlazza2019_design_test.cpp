@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "design/final_error.h"
+#include "design/sferlazza2019_verification.h"
+#include "linear_algebra/matrix_functions.h"
+#include "observer/time_varying_gain.h"
 #include "paper_plants.h"
-#include "sampled_data_observers/certificate/matrix_functions.h"
-#include "sampled_data_observers/design/final_error.h"
-#include "sampled_data_observers/design/sferlazza2019_verification.h"
-#include "sampled_data_observers/observer/time_varying_gain.h"
 #include "support/allocation_counter.h"
 
 namespace sampled_data_observers::test {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "certificate/certified_gains.h"
-#include "sampled_data_observers/design/rigorous_check.h"
+#include "design/rigorous_check.h"
 
 namespace sampled_data_observers::test {
 namespace {

@@ -1,11 +1,11 @@
-#include "sampled_data_observers/design/sweep.h"
+#include "design/sweep.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <stdexcept>
 
-#include "sampled_data_observers/design/csv.h"
+#include "design/csv.h"
 
 namespace sampled_data_observers {
 namespace {

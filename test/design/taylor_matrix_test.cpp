@@ -1,11 +1,11 @@
 // The polynomials enclose what they stand for, on intervals so long that their remainders count.
-#include "../../src/design/taylor_matrix.h"
+#include "design/taylor_matrix.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "sampled_data_observers/certificate/evaluate_expression.h"
+#include "certificate/evaluate_expression.h"
 
 namespace sampled_data_observers {
 namespace {

@@ -13,12 +13,12 @@
 #include <string>
 #include <vector>
 
-#include "sampled_data_observers/config/design_config.h"
+#include "config/design_config.h"
+#include "design/assumed_disturbance.h"
+#include "design/best_design.h"
+#include "design/gain_file.h"
+#include "design/workers.h"
 #include "sampled_data_observers/config/yaml_file.h"
-#include "sampled_data_observers/design/assumed_disturbance.h"
-#include "sampled_data_observers/design/best_design.h"
-#include "sampled_data_observers/design/gain_file.h"
-#include "sampled_data_observers/design/workers.h"
 #include "textbook_run.h"
 
 namespace sampled_data_observers::test {

@@ -8,7 +8,7 @@
 #include <map>
 #include <random>
 
-#include "sampled_data_observers/certificate/matrix_functions.h"
+#include "linear_algebra/matrix_functions.h"
 
 namespace sampled_data_observers::test {
 namespace {

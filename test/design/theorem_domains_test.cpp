@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "design/rigorous_check.h"
 #include "paper_plants.h"
-#include "sampled_data_observers/design/rigorous_check.h"
 
 namespace sampled_data_observers::test {
 namespace {

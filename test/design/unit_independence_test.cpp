@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "design/certificate_proof.h"
+#include "design/plant_scaling.h"
+#include "design/run_time_figures.h"
 #include "ferrante2019_examples.h"
+#include "linear_algebra/matrix_functions.h"
 #include "paper_plants.h"
-#include "sampled_data_observers/certificate/matrix_functions.h"
-#include "sampled_data_observers/design/certificate_proof.h"
-#include "sampled_data_observers/design/plant_scaling.h"
-#include "sampled_data_observers/design/run_time_figures.h"
 
 namespace sampled_data_observers::test {
 namespace {

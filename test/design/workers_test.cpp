@@ -1,4 +1,4 @@
-#include "sampled_data_observers/design/workers.h"
+#include "design/workers.h"
 
 #include <gtest/gtest.h>
 #include <poll.h>

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "sampled_data_observers/observer/estimator.h"
+#include "sampled_data_observers/runtime/estimator.h"
 #include "support/example_run.h"
 
 namespace sampled_data_observers::test {

@@ -2,8 +2,8 @@
 
 #include <utility>
 
+#include "sampled_data_observers/linear_algebra/ordered_product.h"
 #include "sampled_data_observers/observer/gain_check.h"
-#include "sampled_data_observers/plant/ordered_product.h"
 
 namespace my_observers {
 

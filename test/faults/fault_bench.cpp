@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "faults/messages.h"
-#include "sampled_data_observers/ros/time_conversion.h"
+#include "messages/time_conversion.h"
 
 namespace sampled_data_observers::test {
 namespace {

@@ -9,7 +9,7 @@
 #include <set>
 
 #include "faults/fault.h"
-#include "sampled_data_observers/ros/time_conversion.h"
+#include "messages/time_conversion.h"
 
 namespace sampled_data_observers::test {
 

@@ -1,7 +1,7 @@
 // Stamps that are no time, or the wrong one.
 #include "faults/fault.h"
 #include "faults/messages.h"
-#include "sampled_data_observers/ros/time_conversion.h"
+#include "messages/time_conversion.h"
 
 namespace sampled_data_observers::test {
 namespace {

@@ -1,7 +1,7 @@
 // What a simulated clock does: it stops, leaps, goes back, or says nonsense.
 #include "faults/fault.h"
 #include "faults/messages.h"
-#include "sampled_data_observers/ros/time_conversion.h"
+#include "messages/time_conversion.h"
 
 namespace sampled_data_observers::test {
 namespace {

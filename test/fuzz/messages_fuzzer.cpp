@@ -12,9 +12,11 @@
 #include <string>
 #include <vector>
 
+#include "messages/runtime_messages.h"
+#include "sampled_data_observers/config/event_channels.h"
 #include "sampled_data_observers/config/yaml_file.h"
-#include "sampled_data_observers/ros/message_source.h"
-#include "sampled_data_observers/ros/observer_runtime.h"
+#include "sampled_data_observers/messages/message_source.h"
+#include "sampled_data_observers/runtime/observer_runtime.h"
 
 using namespace sampled_data_observers;
 
@@ -95,7 +97,7 @@ class Observer {
         event.channel = channel.channel;
         if (source->read(message, now_, event) != Reading::kEvent) return;
         EventStatus status;
-        runtime_->receive(channel, event, now_, status);
+        write(channel, event, runtime_->receive(event, now_), "", now_, status);
       });
     }
   }
@@ -119,7 +121,7 @@ class Observer {
  private:
   void check(const Estimate& estimate) {
     StateEstimate message;
-    runtime_->write(estimate, message);
+    write(*runtime_, estimate, message);
     for (const double value : message.state) require_finite(value);
     for (const double value : message.covariance) require_finite(value);
   }

@@ -1,4 +1,4 @@
-#include "sampled_data_observers/observer/constant_gain_observer.h"
+#include "observer/constant_gain_observer.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <map>
 
-#include "sampled_data_observers/observer/gated_samples.h"
+#include "observer/gated_samples.h"
 #include "support/allocation_counter.h"
 #include "support/config_faults.h"
 #include "support/type_examples.h"

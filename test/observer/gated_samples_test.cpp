@@ -1,13 +1,13 @@
 // Gates: which samples are kept out, how a gate recovers, and what the Kalman filter's measure.
-#include "sampled_data_observers/observer/gated_samples.h"
+#include "observer/gated_samples.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "sampled_data_observers/observer/estimator.h"
-#include "sampled_data_observers/observer/hybrid_kalman_filter.h"
+#include "observer/hybrid_kalman_filter.h"
+#include "sampled_data_observers/runtime/estimator.h"
 #include "support/matrix_functions.h"
 #include "support/random_events.h"
 

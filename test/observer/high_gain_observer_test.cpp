@@ -1,4 +1,4 @@
-#include "sampled_data_observers/observer/high_gain_observer.h"
+#include "observer/high_gain_observer.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <random>
 #include <string>
 
-#include "sampled_data_observers/observer/estimator.h"
-#include "sampled_data_observers/observer/ordered_solve.h"
+#include "linear_algebra/ordered_solve.h"
 #include "sampled_data_observers/plant/expression_map.h"
+#include "sampled_data_observers/runtime/estimator.h"
 #include "support/allocation_counter.h"
 #include "support/random_events.h"
 

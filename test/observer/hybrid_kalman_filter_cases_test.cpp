@@ -6,8 +6,8 @@
 #include <cstring>
 #include <random>
 
+#include "observer/hybrid_kalman_filter.h"
 #include "sampled_data_observers/hybrid/timeline.h"
-#include "sampled_data_observers/observer/hybrid_kalman_filter.h"
 #include "support/matrix_functions.h"
 #include "support/random_events.h"
 

@@ -1,4 +1,4 @@
-#include "sampled_data_observers/observer/hybrid_kalman_filter.h"
+#include "observer/hybrid_kalman_filter.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "sampled_data_observers/observer/estimator.h"
+#include "sampled_data_observers/runtime/estimator.h"
 #include "support/law_runner.h"
 #include "support/matrix_functions.h"
 #include "support/random_events.h"

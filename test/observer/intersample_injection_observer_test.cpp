@@ -1,14 +1,14 @@
-#include "sampled_data_observers/observer/intersample_injection_observer.h"
+#include "observer/intersample_injection_observer.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "sampled_data_observers/observer/sample_and_hold_observer.h"
+#include "observer/sample_and_hold_observer.h"
+#include "plant/linear_plant.h"
+#include "plant/lipschitz_map.h"
 #include "sampled_data_observers/plant/expression_map.h"
-#include "sampled_data_observers/plant/linear_plant.h"
-#include "sampled_data_observers/plant/lipschitz_map.h"
 #include "support/law_runner.h"
 
 namespace sampled_data_observers {

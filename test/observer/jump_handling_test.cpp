@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "sampled_data_observers/observer/delayed_jumps.h"
-#include "sampled_data_observers/observer/estimator.h"
-#include "sampled_data_observers/observer/limited_jumps.h"
+#include "observer/delayed_jumps.h"
+#include "observer/limited_jumps.h"
+#include "sampled_data_observers/runtime/estimator.h"
 #include "support/law_runner.h"
 #include "support/random_events.h"
 

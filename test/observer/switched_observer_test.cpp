@@ -1,4 +1,4 @@
-#include "sampled_data_observers/observer/switched_observer.h"
+#include "observer/switched_observer.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <random>
 #include <string>
 
-#include "sampled_data_observers/observer/estimator.h"
 #include "sampled_data_observers/plant/expression_map.h"
 #include "sampled_data_observers/plant/linear_flow.h"
+#include "sampled_data_observers/runtime/estimator.h"
 #include "support/allocation_counter.h"
 #include "support/random_events.h"
 

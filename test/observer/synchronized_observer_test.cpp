@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sampled_data_observers/observer/estimator.h"
+#include "sampled_data_observers/runtime/estimator.h"
 #include "support/law_runner.h"
 #include "support/random_events.h"
 

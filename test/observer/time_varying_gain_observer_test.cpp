@@ -1,12 +1,12 @@
-#include "sampled_data_observers/observer/time_varying_gain_observer.h"
+#include "observer/time_varying_gain_observer.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "sampled_data_observers/plant/linear_plant.h"
-#include "sampled_data_observers/plant/lipschitz_map.h"
+#include "plant/linear_plant.h"
+#include "plant/lipschitz_map.h"
 #include "support/allocation_counter.h"
 #include "support/matrix_functions.h"
 

@@ -1,4 +1,4 @@
-#include "sampled_data_observers/plant/covariance_flow.h"
+#include "plant/covariance_flow.h"
 
 #include <gtest/gtest.h>
 

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "plant/lipschitz_map.h"
 #include "sampled_data_observers/plant/expression_map.h"
-#include "sampled_data_observers/plant/lipschitz_map.h"
 #include "sampled_data_observers/plant/runge_kutta_flow.h"
 #include "support/allocation_counter.h"
 

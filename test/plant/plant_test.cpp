@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "sampled_data_observers/plant/bias_states.h"
-#include "sampled_data_observers/plant/linear_plant.h"
+#include "plant/bias_states.h"
+#include "plant/linear_plant.h"
 
 namespace sampled_data_observers {
 namespace {

@@ -5,7 +5,7 @@
 #include <atomic>
 #include <memory>
 
-#include "sampled_data_observers/real_time/steady_deadline.h"
+#include "real_time/steady_deadline.h"
 
 namespace sampled_data_observers {
 namespace {

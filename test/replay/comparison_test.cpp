@@ -1,11 +1,11 @@
-#include "sampled_data_observers/replay/comparison.h"
+#include "replay/comparison.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "sampled_data_observers/plant/linear_plant.h"
+#include "plant/linear_plant.h"
 
 namespace sampled_data_observers {
 namespace {

@@ -1,4 +1,4 @@
-#include "sampled_data_observers/replay/thinning.h"
+#include "replay/thinning.h"
 
 #include <gtest/gtest.h>
 

@@ -7,10 +7,10 @@
 #include <cstring>
 #include <limits>
 
+#include "messages/time_conversion.h"
 #include "ros/observer_client.h"
 #include "sampled_data_observers/config/observer_config.h"
-#include "sampled_data_observers/ros/observer_runtime.h"
-#include "sampled_data_observers/ros/time_conversion.h"
+#include "sampled_data_observers/runtime/observer_runtime.h"
 
 namespace sampled_data_observers {
 namespace {

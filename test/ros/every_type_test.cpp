@@ -8,10 +8,10 @@
 #include <limits>
 #include <memory>
 
+#include "messages/time_conversion.h"
+#include "messages/value_reader.h"
 #include "ros/observer_client.h"
-#include "sampled_data_observers/ros/observer_runtime.h"
-#include "sampled_data_observers/ros/time_conversion.h"
-#include "sampled_data_observers/ros/value_reader.h"
+#include "sampled_data_observers/config/event_channels.h"
 #include "support/type_examples.h"
 
 namespace sampled_data_observers {

@@ -8,8 +8,8 @@
 
 #include <string>
 
+#include "messages/time_conversion.h"
 #include "ros/observer_client.h"
-#include "sampled_data_observers/ros/time_conversion.h"
 
 namespace sampled_data_observers {
 namespace {

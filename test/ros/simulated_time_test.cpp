@@ -4,8 +4,8 @@
 #include <rosgraph_msgs/Clock.h>
 #include <rosgraph_msgs/Log.h>
 
+#include "messages/time_conversion.h"
 #include "ros/observer_client.h"
-#include "sampled_data_observers/ros/time_conversion.h"
 
 namespace sampled_data_observers {
 namespace {

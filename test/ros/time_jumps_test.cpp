@@ -6,8 +6,8 @@
 
 #include <cmath>
 
+#include "messages/time_conversion.h"
 #include "ros/observer_client.h"
-#include "sampled_data_observers/ros/time_conversion.h"
 
 namespace sampled_data_observers {
 namespace {

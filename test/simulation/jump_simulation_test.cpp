@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "sampled_data_observers/simulation/simulator.h"
 #include "simulation/simulation_support.h"
+#include "simulation/simulator.h"
 
 namespace sampled_data_observers {
 namespace {

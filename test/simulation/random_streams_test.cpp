@@ -4,8 +4,8 @@
 #include <cmath>
 #include <set>
 
-#include "sampled_data_observers/simulation/delivery.h"
-#include "sampled_data_observers/simulation/schedule.h"
+#include "simulation/delivery.h"
+#include "simulation/schedule.h"
 
 namespace sampled_data_observers {
 namespace {

@@ -1,4 +1,4 @@
-#include "sampled_data_observers/simulation/scenario_config.h"
+#include "simulation/scenario_config.h"
 
 #include <gtest/gtest.h>
 

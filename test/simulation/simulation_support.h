@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "sampled_data_observers/config/yaml_file.h"
-#include "sampled_data_observers/simulation/scenario_config.h"
-#include "sampled_data_observers/simulation/simulator.h"
+#include "simulation/scenario_config.h"
+#include "simulation/simulator.h"
 
 namespace sampled_data_observers::test {
 

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "sampled_data_observers/config/yaml_file.h"
-#include "sampled_data_observers/observer/estimator.h"
-#include "sampled_data_observers/simulation/scenario_config.h"
+#include "sampled_data_observers/runtime/estimator.h"
+#include "simulation/scenario_config.h"
 
 namespace sampled_data_observers::test {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "sampled_data_observers/config/config_node.h"
 #include "sampled_data_observers/config/observer_config.h"
-#include "sampled_data_observers/simulation/scenario.h"
-#include "sampled_data_observers/simulation/simulator.h"
+#include "simulation/scenario.h"
+#include "simulation/simulator.h"
 #include "support/trajectory.h"
 
 namespace sampled_data_observers::test {

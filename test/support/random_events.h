@@ -6,9 +6,9 @@
 #include <random>
 #include <vector>
 
+#include "observer/constant_gain_observer.h"
+#include "plant/linear_plant.h"
 #include "sampled_data_observers/hybrid/event.h"
-#include "sampled_data_observers/observer/constant_gain_observer.h"
-#include "sampled_data_observers/plant/linear_plant.h"
 
 namespace sampled_data_observers::test {
 

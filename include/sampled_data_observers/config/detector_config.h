@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "sampled_data_observers/config/config_section.h"
-#include "sampled_data_observers/hybrid/jump_detector.h"
 #include "sampled_data_observers/plant/vector_map.h"
+#include "sampled_data_observers/runtime/jump_detector.h"
 
 namespace sampled_data_observers {
 

@@ -10,26 +10,15 @@
 #include "sampled_data_observers/config/outputs_config.h"
 #include "sampled_data_observers/config/plant_config.h"
 #include "sampled_data_observers/config/topic_config.h"
-#include "sampled_data_observers/observer/estimator.h"
-#include "sampled_data_observers/observer/observer_law.h"
-#include "sampled_data_observers/plant/plant.h"
 #include "sampled_data_observers/real_time/real_time_options.h"
+#include "sampled_data_observers/runtime/runtime_setup.h"
 
 namespace sampled_data_observers {
 
 /// Everything that a configuration says, checked. doc/configuration.md describes each key.
-struct ObserverConfig {
+struct ObserverConfig : RuntimeSetup {
   /// Observer type, such as "ConstantGainObserver".
   std::string type;
-  std::shared_ptr<const Plant> plant;
-  std::shared_ptr<const ObserverLaw> law;
-  Estimator::Options options;
-  /// Period of the published estimates, and how long after its stamp each is computed [ns].
-  Duration period = 0;
-  Duration publish_delay = 0;
-  /// Whether each event that is used is followed by an estimate at once.
-  bool publish_on_event = false;
-  std::string frame_id;
   RealTimeOptions real_time;
   /// What to do when time goes back by more than a tolerance [ns]: start anew, or only say so.
   bool reset_on_time_jump_back = false;

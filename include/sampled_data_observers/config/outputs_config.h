@@ -6,7 +6,7 @@
 
 #include "sampled_data_observers/config/config_section.h"
 #include "sampled_data_observers/hybrid/time.h"
-#include "sampled_data_observers/observer/body_estimate.h"
+#include "sampled_data_observers/runtime/body_estimate.h"
 
 namespace sampled_data_observers {
 

@@ -5,8 +5,8 @@
 
 #include <string>
 
-#include "sampled_data_observers/ros/body_messages.h"
-#include "sampled_data_observers/ros/message_pool.h"
+#include "sampled_data_observers/messages/body_messages.h"
+#include "sampled_data_observers/messages/message_pool.h"
 
 namespace sampled_data_observers {
 

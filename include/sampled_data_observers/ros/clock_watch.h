@@ -7,11 +7,6 @@
 
 namespace sampled_data_observers {
 
-/// What holds while a simulated clock has not begun, and what to do about it.
-constexpr const char* kNoClock =
-    "/use_sim_time is true, but nothing comes on /clock: start what publishes it, or run "
-    "`rosparam set /use_sim_time false` and start this again";
-
 /// Says in the log, every now and then, that a simulated clock has not begun: until it does, there
 /// is no estimate. /use_sim_time stays on the master when what published /clock is long gone.
 class ClockWatch {

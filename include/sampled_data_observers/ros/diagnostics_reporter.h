@@ -8,8 +8,8 @@
 #include <string>
 
 #include "sampled_data_observers/config/observer_config.h"
-#include "sampled_data_observers/observer/run_statistics.h"
-#include "sampled_data_observers/ros/diagnosis.h"
+#include "sampled_data_observers/runtime/diagnosis.h"
+#include "sampled_data_observers/runtime/run_statistics.h"
 
 namespace sampled_data_observers {
 

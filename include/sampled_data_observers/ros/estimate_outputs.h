@@ -6,10 +6,10 @@
 #include <optional>
 
 #include "sampled_data_observers/config/outputs_config.h"
-#include "sampled_data_observers/observer/estimator.h"
 #include "sampled_data_observers/ros/body_output.h"
 #include "sampled_data_observers/ros/odometry_listener.h"
 #include "sampled_data_observers/ros/transform_publisher.h"
+#include "sampled_data_observers/runtime/estimator.h"
 
 namespace sampled_data_observers {
 

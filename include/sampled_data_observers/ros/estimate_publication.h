@@ -9,9 +9,9 @@
 #include <optional>
 #include <string>
 
+#include "sampled_data_observers/messages/message_pool.h"
 #include "sampled_data_observers/real_time/deadline_thread.h"
 #include "sampled_data_observers/ros/estimate_outputs.h"
-#include "sampled_data_observers/ros/message_pool.h"
 #include "sampled_data_observers/ros/shared_runtime.h"
 
 namespace sampled_data_observers {

@@ -12,10 +12,10 @@
 #include <string>
 #include <vector>
 
+#include "sampled_data_observers/messages/event_intake.h"
+#include "sampled_data_observers/messages/message_pool.h"
+#include "sampled_data_observers/messages/message_source.h"
 #include "sampled_data_observers/ros/estimate_publication.h"
-#include "sampled_data_observers/ros/event_intake.h"
-#include "sampled_data_observers/ros/message_pool.h"
-#include "sampled_data_observers/ros/message_source.h"
 #include "sampled_data_observers/ros/shared_runtime.h"
 
 namespace sampled_data_observers {

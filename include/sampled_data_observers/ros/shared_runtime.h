@@ -6,9 +6,9 @@
 #include <string>
 #include <utility>
 
-#include "sampled_data_observers/observer/run_statistics.h"
 #include "sampled_data_observers/real_time/priority_inheritance_mutex.h"
-#include "sampled_data_observers/ros/observer_runtime.h"
+#include "sampled_data_observers/runtime/observer_runtime.h"
+#include "sampled_data_observers/runtime/run_statistics.h"
 
 namespace sampled_data_observers {
 

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "sampled_data_observers/config/outputs_config.h"
-#include "sampled_data_observers/ros/message_pool.h"
-#include "sampled_data_observers/ros/odom_frame.h"
+#include "sampled_data_observers/messages/message_pool.h"
+#include "sampled_data_observers/runtime/odom_frame.h"
 
 namespace sampled_data_observers {
 

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "builders.h"
-#include "sampled_data_observers/config/expression_config.h"
-#include "sampled_data_observers/observer/high_gain_observer.h"
+#include "config/expression_config.h"
+#include "config/gains/builders.h"
+#include "observer/high_gain_observer.h"
 
 namespace sampled_data_observers {
 namespace {

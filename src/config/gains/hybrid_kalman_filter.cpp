@@ -1,6 +1,6 @@
-#include "sampled_data_observers/observer/hybrid_kalman_filter.h"
+#include "observer/hybrid_kalman_filter.h"
 
-#include "builders.h"
+#include "config/gains/builders.h"
 #include "sampled_data_observers/config/gains_config.h"
 
 namespace sampled_data_observers {

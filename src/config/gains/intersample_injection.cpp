@@ -1,6 +1,6 @@
-#include "builders.h"
+#include "config/gains/builders.h"
+#include "observer/intersample_injection_observer.h"
 #include "sampled_data_observers/config/gains_config.h"
-#include "sampled_data_observers/observer/intersample_injection_observer.h"
 
 namespace sampled_data_observers {
 namespace {

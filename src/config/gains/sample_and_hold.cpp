@@ -1,6 +1,6 @@
-#include "builders.h"
+#include "config/gains/builders.h"
+#include "observer/sample_and_hold_observer.h"
 #include "sampled_data_observers/config/gains_config.h"
-#include "sampled_data_observers/observer/sample_and_hold_observer.h"
 
 namespace sampled_data_observers {
 

@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <utility>
 
-#include "builders.h"
-#include "sampled_data_observers/config/expression_config.h"
+#include "config/expression_config.h"
+#include "config/gains/builders.h"
+#include "observer/switched_observer.h"
 #include "sampled_data_observers/config/gains_config.h"
-#include "sampled_data_observers/observer/switched_observer.h"
 
 namespace sampled_data_observers {
 namespace {

@@ -1,4 +1,4 @@
-#include "builders.h"
+#include "config/gains/builders.h"
 #include "sampled_data_observers/config/gains_config.h"
 #include "sampled_data_observers/observer/synchronized_observer.h"
 

@@ -1,8 +1,8 @@
 #include <optional>
 #include <utility>
 
-#include "builders.h"
-#include "sampled_data_observers/observer/time_varying_gain_observer.h"
+#include "config/gains/builders.h"
+#include "observer/time_varying_gain_observer.h"
 
 namespace sampled_data_observers {
 

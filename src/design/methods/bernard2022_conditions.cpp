@@ -1,10 +1,10 @@
 #include <cmath>
 #include <utility>
 
-#include "bernard2022_parameters.h"
-#include "gain_bound.h"
-#include "methods.h"
-#include "sampled_data_observers/certificate/matrix_functions.h"
+#include "design/methods/bernard2022_parameters.h"
+#include "design/methods/gain_bound.h"
+#include "design/methods/methods.h"
+#include "linear_algebra/matrix_functions.h"
 
 namespace sampled_data_observers {
 namespace {

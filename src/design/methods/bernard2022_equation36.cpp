@@ -1,9 +1,9 @@
 #include <cmath>
 
-#include "bernard2022_jump_based.h"
-#include "methods.h"
-#include "sampled_data_observers/certificate/matrix_functions.h"
-#include "sampled_data_observers/design/polytopic_embedding.h"
+#include "design/methods/bernard2022_jump_based.h"
+#include "design/methods/methods.h"
+#include "design/polytopic_embedding.h"
+#include "linear_algebra/matrix_functions.h"
 
 namespace sampled_data_observers {
 namespace {

@@ -1,9 +1,9 @@
 #include <cmath>
 #include <utility>
 
-#include "bernard2022_parameters.h"
-#include "methods.h"
-#include "sampled_data_observers/design/certify.h"
+#include "design/certify.h"
+#include "design/methods/bernard2022_parameters.h"
+#include "design/methods/methods.h"
 
 namespace sampled_data_observers {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "bernard2022_parameters.h"
+#include "design/methods/bernard2022_parameters.h"
 
 namespace sampled_data_observers {
 

@@ -1,11 +1,11 @@
 #include <cmath>
 
-#include "bernard2022_jump_based.h"
-#include "bernard2022_parameters.h"
-#include "gain_bound.h"
-#include "methods.h"
-#include "sampled_data_observers/certificate/matrix_functions.h"
-#include "sampled_data_observers/design/polytopic_embedding.h"
+#include "design/methods/bernard2022_jump_based.h"
+#include "design/methods/bernard2022_parameters.h"
+#include "design/methods/gain_bound.h"
+#include "design/methods/methods.h"
+#include "design/polytopic_embedding.h"
+#include "linear_algebra/matrix_functions.h"
 
 namespace sampled_data_observers {
 namespace {

@@ -2,9 +2,9 @@
 #include <functional>
 #include <vector>
 
-#include "methods.h"
-#include "sampled_data_observers/certificate/matrix_functions.h"
-#include "sampled_data_observers/certificate/wirtinger.h"
+#include "certificate/wirtinger.h"
+#include "design/methods/methods.h"
+#include "linear_algebra/matrix_functions.h"
 
 namespace sampled_data_observers {
 namespace {

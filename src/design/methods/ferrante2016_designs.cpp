@@ -3,13 +3,13 @@
 #include <optional>
 #include <vector>
 
-#include "methods.h"
-#include "sampled_data_observers/certificate/matrix_functions.h"
-#include "sampled_data_observers/design/assumed_disturbance.h"
-#include "sampled_data_observers/design/certify.h"
-#include "sampled_data_observers/design/final_error.h"
-#include "sampled_data_observers/design/polytopic_embedding.h"
-#include "sampled_plant.h"
+#include "design/assumed_disturbance.h"
+#include "design/certify.h"
+#include "design/final_error.h"
+#include "design/methods/methods.h"
+#include "design/methods/sampled_plant.h"
+#include "design/polytopic_embedding.h"
+#include "linear_algebra/matrix_functions.h"
 
 namespace sampled_data_observers {
 namespace {

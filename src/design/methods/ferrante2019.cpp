@@ -1,8 +1,8 @@
-#include "ferrante2019.h"
+#include "design/methods/ferrante2019.h"
 
-#include "sampled_data_observers/certificate/matrix_functions.h"
-#include "sampled_data_observers/design/assumed_disturbance.h"
-#include "sampled_data_observers/design/final_error.h"
+#include "design/assumed_disturbance.h"
+#include "design/final_error.h"
+#include "linear_algebra/matrix_functions.h"
 
 namespace sampled_data_observers {
 

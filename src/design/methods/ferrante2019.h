@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "sampled_data_observers/design/design_method.h"
+#include "design/design_method.h"
 
 namespace sampled_data_observers {
 

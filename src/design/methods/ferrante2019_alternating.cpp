@@ -4,11 +4,11 @@
 #include <utility>
 #include <vector>
 
-#include "ferrante2019.h"
-#include "gain_bound.h"
-#include "methods.h"
-#include "sampled_data_observers/certificate/ferrante2019_matrix.h"
-#include "sampled_data_observers/design/certify.h"
+#include "certificate/ferrante2019_matrix.h"
+#include "design/certify.h"
+#include "design/methods/ferrante2019.h"
+#include "design/methods/gain_bound.h"
+#include "design/methods/methods.h"
 
 namespace sampled_data_observers {
 namespace {

@@ -1,10 +1,10 @@
 #include <cmath>
 
-#include "ferrante2019.h"
-#include "gain_bound.h"
-#include "methods.h"
-#include "sampled_data_observers/certificate/ferrante2019_matrix.h"
-#include "sampled_data_observers/certificate/matrix_functions.h"
+#include "certificate/ferrante2019_matrix.h"
+#include "design/methods/ferrante2019.h"
+#include "design/methods/gain_bound.h"
+#include "design/methods/methods.h"
+#include "linear_algebra/matrix_functions.h"
 
 namespace sampled_data_observers {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "sampled_data_observers/design/lmi_program.h"
+#include "design/lmi_program.h"
 
 namespace sampled_data_observers {
 

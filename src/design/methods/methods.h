@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sampled_data_observers/design/design_method.h"
+#include "design/design_method.h"
 
 namespace sampled_data_observers {
 

@@ -1,9 +1,9 @@
-#include "sampled_plant.h"
+#include "design/methods/sampled_plant.h"
 
 #include <locale>
 #include <sstream>
 
-#include "sampled_data_observers/design/observability.h"
+#include "design/observability.h"
 
 namespace sampled_data_observers {
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "sampled_data_observers/certificate/certificate.h"
+#include "certificate/certificate.h"
 
 namespace sampled_data_observers {
 

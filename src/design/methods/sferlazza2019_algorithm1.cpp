@@ -3,12 +3,12 @@
 #include <string>
 #include <vector>
 
-#include "methods.h"
-#include "sampled_data_observers/certificate/matrix_functions.h"
-#include "sampled_data_observers/design/certify.h"
-#include "sampled_data_observers/design/final_error.h"
-#include "sampled_data_observers/design/run_time_figures.h"
-#include "sampled_plant.h"
+#include "design/certify.h"
+#include "design/final_error.h"
+#include "design/methods/methods.h"
+#include "design/methods/sampled_plant.h"
+#include "design/run_time_figures.h"
+#include "linear_algebra/matrix_functions.h"
 
 namespace sampled_data_observers {
 namespace {

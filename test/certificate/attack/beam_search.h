@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "certificate/attack/played_run.h"
-#include "sampled_data_observers/certificate/certificate.h"
+#include "certificate/certificate.h"
 
 namespace sampled_data_observers::test {
 

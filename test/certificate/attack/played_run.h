@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "certificate/attack/attacked_observer.h"
-#include "sampled_data_observers/certificate/error_bound.h"
+#include "certificate/error_bound.h"
 
 namespace sampled_data_observers::test {
 

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include <boost/shared_ptr.hpp>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "sampled_data_observers/config/topic_config.h"
+#include "sampled_data_observers/hybrid/event.h"
+#include "sampled_data_observers/messages/transform_buffer.h"
+#include "sampled_data_observers/runtime/estimator.h"
+
+namespace sampled_data_observers {
+
+/// What a source made of a message.
+enum class Reading : std::uint8_t {
+  kEvent,       ///< an event
+  kPassedOver,  ///< nothing: the source is thinned, or no jump is detected
+  kNoField,     ///< nothing: the message does not hold a field that is configured
+  kInFuture,    ///< nothing: a detector's signal from beyond the tolerated future
+  kOutOfOrder,  ///< nothing: a detector's signal whose stamp is not after the one before
+  kNotFinite,   ///< nothing: a detector's signal that is NaN or infinite
+  kNoTransform  ///< nothing yet: the transform into a configured frame is not known; stamp is set
+};
+
+/// Why there is no event in a message.
+/// @pre reading is neither kEvent nor kPassedOver
+EventOutcome outcome_of(Reading reading);
+
+/// A message of the type that its source has.
+using MessagePointer = boost::shared_ptr<const void>;
+
+/// Messages of one configured type from one topic, and the events that they are. The only place
+/// that knows their type: live observers and replay read them alike.
+class MessageSource {
+ public:
+  virtual ~MessageSource() = default;
+
+  /// Takes each message and the time of its receipt.
+  using Receiver = std::function<void(const MessagePointer&, Stamp)>;
+
+  /// Subscribes to the configured topic.
+  virtual ros::Subscriber subscribe(ros::NodeHandle& handle, std::uint32_t queue_length,
+                                    const Receiver& receive) const = 0;
+
+  /// The checksum of the type's definition.
+  virtual const char* md5sum() const = 0;
+
+  /// The message that these bytes are, as roscpp sends it.
+  /// @throws ros::Exception, std::bad_alloc for bytes that are none
+  virtual MessagePointer deserialize(std::uint8_t* data, std::uint32_t size) const = 0;
+
+  /// Sets stamp, values and size of an event whose kind is set, and what else the message says. The
+  /// values live until the next call, or as long as the message.
+  /// @param message  one that this source gave
+  /// @param receipt  the event's stamp where the source is configured so
+  virtual Reading read(const MessagePointer& message, Stamp receipt, Event& event) = 0;
+
+  /// Writes which transform a message lacks (see write_pair()).
+  /// @pre read() gave kNoTransform for it, and this stamp
+  virtual void name_missing_transform(const MessagePointer& message, Stamp stamp,
+                                      std::string& text) const = 0;
+};
+
+/// The source that a configuration asks for.
+/// @param transforms  where a source with frames finds what it needs; else it may be null
+/// @throws ConfigError for a message type, field or stamp that does not exist; it lists those that
+/// do. The same for frames of a type that has none.
+std::unique_ptr<MessageSource> make_message_source(
+    const TopicSource& source, std::shared_ptr<const TransformBuffer> transforms = nullptr);
+
+}  // namespace sampled_data_observers

@@ -1,0 +1,116 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sampled_data_observers/hybrid/event.h"
+#include "sampled_data_observers/runtime/run_statistics.h"
+
+namespace sampled_data_observers {
+
+/// The levels of diagnostic_msgs/DiagnosticStatus.
+enum class HealthLevel : std::uint8_t { kOk = 0, kWarn = 1, kError = 2, kStale = 3 };
+
+/// One line of diagnostics: what is the matter and what to do, and the figures behind it.
+struct Finding {
+  HealthLevel level = HealthLevel::kOk;
+  std::string message;
+  std::vector<std::pair<std::string, std::string>> values;
+};
+
+/// What an observer is configured to do, as far as diagnostics compare it with what it does.
+struct DiagnosisSubject {
+  struct Channel {
+    /// As in EventStatus.
+    std::string name;
+    std::string topic;
+    EventKind kind = EventKind::kSample;
+    /// Of its messages, as "package/Type".
+    std::string type;
+  };
+
+  std::vector<Channel> channels;
+  /// Of the estimates [ns].
+  Duration period = 0;
+  SamplingBounds sampling;
+  /// The history window [ns].
+  Duration history = 0;
+  /// As in ObserverConfig.
+  std::string guarantee;
+  std::string warning;
+};
+
+/// Judges what an observer did in a time, for people who ask why there is no estimate, or why a
+/// measurement was not used. It keeps what it needs to tell since when something is so.
+class Diagnosis {
+ public:
+  explicit Diagnosis(DiagnosisSubject subject);
+
+  /// Takes in what was recorded since the last call.
+  /// @param now      ROS time; 0 while there is none
+  /// @param elapsed  ROS time since the last call [ns]; 0 where time stands still
+  void update(const RunStatistics& window, Stamp now, Duration elapsed);
+
+  /// Takes in the type under which the topic of a channel is published; empty where nobody does.
+  void set_published_type(std::size_t channel, std::string type);
+
+  /// "estimates": whether they come at their rate and in time.
+  Finding estimates() const;
+  /// What becomes of the messages of one channel.
+  Finding channel(std::size_t index) const;
+  /// Whether what the certificate rests on holds.
+  Finding certificate() const;
+
+  /// Whether what the certificate rests on does not hold now.
+  bool is_suspended() const { return suspension_.has_value(); }
+
+  const DiagnosisSubject& subject() const { return subject_; }
+
+ private:
+  struct ChannelMemory {
+    std::string published_type;
+    /// When the last window with a message, and the last with a used one, ended; 0: never.
+    Stamp received = 0;
+    Stamp used = 0;
+    /// How far all stamps of the last window with a message lie behind the clock, where that is
+    /// more than the history window; 0: they do not.
+    Duration behind = 0;
+
+    void forget_events() { received = used = behind = 0; }
+  };
+  /// What the certificate rests on and does not hold.
+  struct Suspension {
+    Stamp since = 0;
+    std::string reason;
+  };
+
+  std::optional<Suspension> find_suspension() const;
+  std::string why_bound_is_lost() const;
+  std::string why_no_estimate() const;
+  std::string why_it_diverges(InnovationTrend trend) const;
+  std::string wrong_type(std::size_t channel) const;
+  std::string why_stamps_are_old() const;
+  std::string rejections(const ChannelStatistics& statistics) const;
+
+  const DiagnosisSubject subject_;
+  RunStatistics window_;
+  RunStatistics totals_;
+  std::vector<ChannelMemory> memory_;
+  Stamp now_ = 0;
+  Duration elapsed_ = 0;
+  std::optional<Suspension> suspension_;
+  /// When the last suspension ended, and what it was.
+  Stamp restored_ = 0;
+  Suspension last_suspension_;
+};
+
+/// What is said of a topic with another type of messages than what is configured.
+std::string describe_wrong_type(const std::string& topic, const std::string& published,
+                                const std::string& expected);
+
+/// What is said of a topic whose stamps lie so far behind the clock.
+std::string describe_old_stamps(const std::string& topic, Duration behind);
+
+}  // namespace sampled_data_observers

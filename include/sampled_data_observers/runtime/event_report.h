@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+#include "sampled_data_observers/hybrid/hybrid_system.h"
+#include "sampled_data_observers/observer/innovation_watch.h"
+#include "sampled_data_observers/runtime/event_outcome.h"
+
+namespace sampled_data_observers {
+
+/// How the time since the previous sample compares with the configured bounds.
+enum class IntervalCheck : std::uint8_t {
+  kNone = 0,    ///< not a sample or jump that was used, the first one, or a jump beside samples
+  kWithin = 1,  ///< in [T1, T2]
+  kShort = 2,   ///< below T1
+  kLong = 3     ///< above T2
+};
+
+/// What an event did.
+struct EventReport {
+  EventOutcome outcome = EventOutcome::kUsed;
+  /// Number of later events that were applied again.
+  std::size_t rewound = 0;
+  /// What the event did, where it was taken in.
+  Effect effect = Effect::kApplied;
+  /// Time since the newest sample of the same sensor, or the newest jump, that was used and has an
+  /// earlier stamp; used samples and jumps only.
+  std::optional<Duration> interval;
+  IntervalCheck interval_check = IntervalCheck::kNone;
+  /// The norm of the innovation of a sample or a continuous output, before it took effect; NaN for
+  /// other events, and where there was no estimate.
+  double innovation = std::numeric_limits<double>::quiet_NaN();
+  /// Whether an estimate of its stamp or a later one was published with a finite bound before this
+  /// input or jump came: that bound was one of a run without it.
+  bool came_after_bound = false;
+  /// What the innovations of its sensor do.
+  InnovationTrend trend = InnovationTrend::kSteady;
+
+  bool used() const { return outcome == EventOutcome::kUsed || outcome == EventOutcome::kUsedLate; }
+  /// Whether the sample was used since its gate had kept out all others for too long.
+  bool recovers() const { return effect == Effect::kPastGate || effect == Effect::kRestarted; }
+};
+
+/// The outcome in a few words, and whether a gate recovered.
+const char* describe(const EventReport& report);
+
+}  // namespace sampled_data_observers

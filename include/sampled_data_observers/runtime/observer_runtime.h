@@ -1,0 +1,93 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sampled_data_observers/observer/innovation_watch.h"
+#include "sampled_data_observers/runtime/publication_grid.h"
+#include "sampled_data_observers/runtime/runtime_setup.h"
+
+namespace sampled_data_observers {
+
+/// What a nodelet and a replay do alike: events in, their statuses and the estimates that are due
+/// out. Only where messages come from and go to, and what time it is, differs.
+/// To be used by one thread at a time.
+class ObserverRuntime {
+ public:
+  explicit ObserverRuntime(const RuntimeSetup& setup);
+
+  /// Takes in an event that arrived at `now`.
+  EventReport receive(const Event& event, Stamp now);
+
+  /// Takes note of what can't be taken in as an event, with the stamp of `event`.
+  EventReport reject(const Event& event, EventOutcome outcome, Stamp now);
+
+  /// The next estimate due at `now`, if any: to be called until there is none. With
+  /// `publish_on_event` the last one is that of `now`, where an event was used since the last call.
+  const Estimate* next_due(Stamp now);
+
+  /// The time at which the estimate after those due at `now` becomes due.
+  Stamp next_due_time(Stamp now) const { return grid_.next_due_time(now); }
+
+  /// How long the estimate of a stamp is overdue at `now` [ns].
+  Duration lateness(Stamp stamp, Stamp now) const { return now - stamp - setup_.publish_delay; }
+
+  /// The estimate at any stamp; nothing, and why in `reason`, where there is none.
+  const Estimate* estimate_at(Stamp stamp, std::string& reason);
+
+  /// Starts again at `now`: from the configured initial estimate where `estimate` is empty.
+  /// Returns why nothing was changed, or an empty text.
+  std::string restart(Stamp now, const std::vector<double>& estimate);
+
+  /// Starts again at the next sample stamped after `now` (Estimator::restart_at_next_sample()).
+  /// Returns why nothing was changed, or an empty text.
+  std::string restart_at_next_sample(Stamp now);
+
+  /// Forgets everything, since time went back to `now`: estimates begin again with the first event.
+  void start_anew(Stamp now);
+
+  /// Off: no estimates, and every event is rejected as disabled. Switched on again, estimates go on
+  /// at `now` (Estimator::resume()), with their bound where no input or jump was rejected.
+  void set_enabled(bool enabled, Stamp now);
+
+  /// Off: every event of this sensor is rejected as disabled. Returns why nothing was changed, or
+  /// an empty text.
+  std::string enable_sensor(const std::string& name, bool enabled);
+
+  /// Goes on at `now` where `other` is, a runtime of the same configuration but for its gains.
+  void take_over(ObserverRuntime& other, Stamp now);
+
+  /// The bound on the error of an estimate as it can be given now (Estimator::bound()).
+  PublishedBound bound(const Estimate& estimate) const { return estimator_.bound(estimate, now_); }
+
+  const Estimator& estimator() const { return estimator_; }
+  const RuntimeSetup& setup() const { return setup_; }
+
+  /// What the innovations of a sensor do.
+  InnovationTrend innovation_trend(std::size_t sensor) const { return watches_[sensor].trend(); }
+
+ private:
+  bool is_enabled(const Event& event) const;
+  bool comes_after_bound(const Event& event, const EventReport& report) const;
+  void watch_innovation(const Event& event, EventReport& report);
+  void forget_innovations();
+
+  const RuntimeSetup setup_;
+  Estimator estimator_;
+  PublicationGrid grid_;
+  Estimate estimate_;
+  /// The time of the last call that told it.
+  Stamp now_ = 0;
+  /// The newest stamp of an estimate that was given out with a finite bound.
+  Stamp bounded_until_ = 0;
+  bool enabled_ = true;
+  /// One per sensor.
+  std::vector<bool> sensors_enabled_;
+  /// One per sensor, of those since the estimate began.
+  std::vector<InnovationWatch> watches_;
+  /// Whether an event asks for an estimate at once.
+  bool event_waits_ = false;
+};
+
+}  // namespace sampled_data_observers

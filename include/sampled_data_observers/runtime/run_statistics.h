@@ -1,0 +1,125 @@
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <limits>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sampled_data_observers/runtime/estimator.h"
+#include "sampled_data_observers/runtime/range_recorder.h"
+
+namespace sampled_data_observers {
+
+/// What became of the events of one channel.
+struct ChannelStatistics {
+  /// By the codes of EventOutcome.
+  std::array<std::uint64_t, kEventOutcomes> outcomes{};
+  /// Time of arrival minus stamp [ns].
+  Range latency;
+  /// Time between used samples of this sensor [ns], and how many were outside of [T1, T2].
+  Range interval;
+  std::uint64_t short_intervals = 0;
+  std::uint64_t long_intervals = 0;
+  /// Stamps of the first and last samples whose interval was outside.
+  Range violations;
+  /// Numbers of later events that were applied again, for each late event.
+  Range rewound;
+  /// How many came after a bound that rested on their absence (EventReport::came_after_bound).
+  std::uint64_t after_bound = 0;
+  /// The transform for which an event was rejected last, ever; empty: none was.
+  std::string missing_transform;
+  /// Of the last sample: the norm of its innovation, and what these do; NaN without.
+  double innovation = std::numeric_limits<double>::quiet_NaN();
+  InnovationTrend trend = InnovationTrend::kSteady;
+
+  std::uint64_t received() const;
+  std::uint64_t count(EventOutcome outcome) const {
+    return outcomes[static_cast<std::size_t>(outcome)];
+  }
+  std::uint64_t used() const { return count(EventOutcome::kUsed) + count(EventOutcome::kUsedLate); }
+
+  void add(const ChannelStatistics& other);
+};
+
+/// What an observer did in some time.
+struct RunStatistics {
+  explicit RunStatistics(std::size_t channels) : channels(channels) {}
+
+  std::vector<ChannelStatistics> channels;
+  /// Of each estimate published: how long after it was due [ns].
+  Range lateness;
+  /// How many of them were held.
+  std::uint64_t held = 0;
+  /// How many of them stood at a bound of the observer's saturations.
+  std::uint64_t saturated = 0;
+  /// CPU time that each tick of the publishing thread took [ns].
+  Range tick_cpu_time;
+  /// Of the newest estimate.
+  std::optional<Stamp> newest_estimate;
+  double error_bound = 0.0;
+  /// Stamp of the first estimate without finite error bound since the last one that had one.
+  std::optional<Stamp> bound_lost_since;
+  /// Why the last published estimate has none.
+  BoundLoss bound_loss = BoundLoss::kNone;
+
+  /// @pre as many channels
+  void add(const RunStatistics& later);
+};
+
+/// Records what an observer does. Any thread may record, without lock, allocation or waiting; one
+/// thread at a time may take.
+class StatisticsRecorder {
+ public:
+  explicit StatisticsRecorder(std::size_t channels);
+
+  /// @param latency  time of arrival minus stamp [ns]
+  void record_event(std::size_t channel, const Event& event, const EventReport& report,
+                    Duration latency) noexcept;
+
+  /// The transform for which an event is rejected. Left out where take() just reads the last one.
+  void record_missing_transform(std::size_t channel, const std::string& transform) noexcept;
+
+  /// An estimate that was published.
+  /// @param lateness  how long after it was due [ns]
+  void record_estimate(const ObserverLaw& law, const Estimate& estimate,
+                       const PublishedBound& bound, Duration lateness) noexcept;
+
+  /// @param cpu_time  of the thread, in one tick [ns]
+  void record_tick(Duration cpu_time) noexcept { tick_cpu_time_.record(cpu_time); }
+
+  /// What was recorded since the last call. @pre as many channels
+  void take(RunStatistics& statistics) noexcept;
+
+ private:
+  struct Channel {
+    std::array<std::atomic<std::uint64_t>, kEventOutcomes> outcomes{};
+    RangeRecorder latency;
+    RangeRecorder interval;
+    std::atomic<std::uint64_t> short_intervals{0};
+    std::atomic<std::uint64_t> long_intervals{0};
+    RangeRecorder violations;
+    RangeRecorder rewound;
+    std::atomic<std::uint64_t> after_bound{0};
+    std::atomic<double> innovation{std::numeric_limits<double>::quiet_NaN()};
+    std::atomic<InnovationTrend> trend{InnovationTrend::kSteady};
+    std::mutex missing_transform_mutex;
+    std::string missing_transform;
+  };
+
+  std::vector<Channel> channels_;
+  RangeRecorder lateness_;
+  RangeRecorder tick_cpu_time_;
+  std::atomic<std::uint64_t> held_{0};
+  std::atomic<std::uint64_t> saturated_{0};
+  /// 0 where there is none.
+  std::atomic<Stamp> newest_estimate_{0};
+  std::atomic<Stamp> bound_lost_since_{0};
+  std::atomic<double> error_bound_{0.0};
+  std::atomic<BoundLoss> bound_loss_{BoundLoss::kNone};
+};
+
+}  // namespace sampled_data_observers

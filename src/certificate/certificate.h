@@ -1,0 +1,138 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "certificate/condition.h"
+#include "certificate/error_bound.h"
+#include "certificate/plant_matrices.h"
+
+namespace sampled_data_observers {
+
+/// What a claim is about: the plant, and the bounds on the time between samples or jumps [s].
+struct CertificateSubject {
+  PlantMatrices plant;
+  double T1 = 0.0;
+  double T2 = 0.0;
+};
+
+/// A matrix or a number that a theorem speaks of. In files, a name "L_d/1" stands below two keys.
+struct NamedShape {
+  enum class Form { kScalar, kMatrix, kSymmetric };
+  std::string name;
+  Eigen::Index rows = 1;
+  Eigen::Index cols = 1;
+  Form form = Form::kScalar;
+};
+NamedShape scalar_shape(const std::string& name);
+NamedShape matrix_shape(const std::string& name, Eigen::Index rows, Eigen::Index cols);
+NamedShape symmetric_shape(const std::string& name, Eigen::Index n);
+
+/// Values between which a scalar is searched for.
+struct SearchRange {
+  double low = 0.0;
+  double high = 0.0;
+  bool is_logarithmic = true;
+};
+struct NamedRange {
+  std::string name;
+  SearchRange range;
+};
+
+/// A number that follows from a proof, such as the gain from the noise to the error.
+struct GuaranteedFigure {
+  std::string meaning;  ///< with its unit
+  double value = 0.0;
+};
+
+/// A theorem of a paper: what it demands of gains and of the matrices that prove them, and what it
+/// then guarantees. Stateless.
+class Theorem {
+ public:
+  Theorem() = default;
+  Theorem(const Theorem&) = delete;
+  Theorem& operator=(const Theorem&) = delete;
+  virtual ~Theorem() = default;
+
+  /// Paper key and number: "ferrante2019_theorem2".
+  virtual std::string name() const = 0;
+
+  /// What it guarantees, in one sentence.
+  virtual std::string guarantee() const = 0;
+
+  /// The observer types whose gains it is about.
+  virtual std::vector<std::string> observer_types() const = 0;
+
+  /// @throws std::invalid_argument saying why, for a plant or times that it is not about.
+  virtual void require_applicable(const CertificateSubject& subject) const = 0;
+
+  // The shapes of all that has a value in a certificate, for an applicable subject.
+
+  /// Gains of the observer.
+  virtual std::vector<NamedShape> gains(const CertificateSubject& subject) const = 0;
+  /// What else the section `gains` of its observer must say: the form of a HighGainObserver.
+  virtual std::map<std::string, std::string> gain_choices() const { return {}; }
+  /// Keys of the section `gains` with which the observer's law would be another one.
+  virtual std::vector<std::string> excluded_gains() const { return {}; }
+  /// Matrices and multipliers in which the conditions are linear where all else is fixed.
+  virtual std::vector<NamedShape> multipliers(const CertificateSubject& subject) const = 0;
+  /// Scalars that are chosen: rates, levels, and those searched for.
+  virtual std::vector<NamedShape> parameters(const CertificateSubject& subject) const = 0;
+
+  /// The parameter that is the guaranteed rate of convergence; empty where there is none. What
+  /// holds for a rate holds for smaller ones.
+  virtual std::string decay_parameter() const { return ""; }
+
+  /// The parameters that say nothing of the guarantee and only help to prove it, with the values
+  /// among which a proof for given gains is searched.
+  virtual std::vector<NamedRange> search_ranges(const CertificateSubject&) const { return {}; }
+
+  /// Whether the conditions hold for all positive multiples of the multipliers as well.
+  virtual bool is_homogeneous(const CertificateSubject& subject) const = 0;
+
+  /// The original inequalities of the theorem, in the symbols of gains(), multipliers() and
+  /// parameters(). Together they imply what it guarantees.
+  virtual std::vector<Condition> conditions(const CertificateSubject& subject) const = 0;
+
+  /// What it guarantees in numbers besides its parameters.
+  /// @pre the conditions hold
+  virtual std::vector<GuaranteedFigure> guaranteed_figures(const CertificateSubject&,
+                                                           const NamedMatrices& /*values*/) const {
+    return {};
+  }
+
+  /// What the objective min-gamma makes least, for a theorem that has a gamma.
+  /// @pre the conditions hold
+  virtual GuaranteedFigure gain_figure(const NamedMatrices& values) const;
+  /// What the objective max-decay makes largest, for a theorem that has a decay_parameter().
+  virtual GuaranteedFigure decay_figure(const NamedMatrices& values) const;
+
+  /// The bound that it gives at run time; null where it gives none.
+  /// @pre the conditions hold
+  /// @throws std::invalid_argument saying why, for assumptions that the theorem can't deal with.
+  virtual std::unique_ptr<const ErrorBound> error_bound(
+      const CertificateSubject& subject, const NamedMatrices& values,
+      const ErrorAssumptions& assumptions) const = 0;
+};
+
+/// All theorems, and the one of a name; null where there is none.
+const std::vector<const Theorem*>& theorems();
+const Theorem* find_theorem(const std::string& name);
+
+/// A claim with its proof.
+struct Certificate {
+  const Theorem* theorem = nullptr;
+  CertificateSubject subject;
+  /// Of all that the theorem names.
+  NamedMatrices values;
+};
+
+/// Checks the original inequalities in floating point.
+std::vector<ConditionCheck> check(const Certificate& certificate);
+
+/// The theorem's name and guarantee, and the numbers that the guarantee speaks of.
+std::string statement(const Certificate& certificate);
+
+}  // namespace sampled_data_observers

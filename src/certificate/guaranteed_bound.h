@@ -1,0 +1,78 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "certificate/error_bound.h"
+#include "observer/law_decorator.h"
+#include "sampled_data_observers/plant/plant.h"
+
+namespace sampled_data_observers {
+
+/// A law with a guaranteed bound on its error: an ErrorBound that the same events drive, so that
+/// the bound is a function of the events as the estimate is.
+///
+/// The bound is lost, that is infinite, until the estimate begins anew:
+/// - where the ErrorBound says so;
+/// - where the timeline holds the estimate, since its flow is not finite, or a jump is without
+///   effect, since its result is not;
+/// - after an input or a jump that was rejected: an event of kind kRejected says so;
+/// - at a jump whose angular outputs may be wrapped by another number of turns than the error, and
+///   at such a sample where the law goes on injecting it; elsewhere such a sample moves the
+///   estimate by what is known, and the bound with it. Which number of turns fits is known where
+///   |C_i| times the bound, plus the noise, is less than 2π minus the innovation.
+/// Samples that are refused were not taken. Of a jump that the law refuses, nobody knows whether
+/// the plant has jumped: the bound is one for both. Wherever an estimate begins, whether configured
+/// or given, the assumption on the initial error is taken to hold anew; where it goes on from that
+/// of another law, what was known of that one's error (keep_bound()).
+///
+/// A share of 64 n ε of |x̂| is added for the rounding of the estimate, n the number of its states.
+class GuaranteedBound : public LawDecorator {
+ public:
+  /// @param law    of that plant
+  /// @param plant  without formulas in its angular outputs
+  /// @param noise  |η| <= this at every measurement
+  GuaranteedBound(const std::shared_ptr<const ObserverLaw>& law,
+                  std::unique_ptr<const ErrorBound> bound, std::shared_ptr<const Plant> plant,
+                  double noise);
+
+  Eigen::Index workspace_size() const override;
+  Eigen::Index event_size(EventKind kind, int channel) const override;
+  void initialize(double* state) const override;
+  void flow(Duration duration, double* state, double* workspace) const override;
+  Effect reset(const Event& event, double* state, double* workspace) const override;
+  void hold(double* state) const override;
+  double error_bound(const double* state) const override;
+  BoundLoss bound_loss(const double* state) const override;
+  void keep_bound(const PublishedBound& bound, double* state) const override;
+
+ private:
+  double* before(double* state) const;
+  double* then(double* state) const;
+  double* now(double* state) const;
+  const double* now(const double* state) const;
+  double bound_of(const double* part) const;
+  void settle(double* part) const;
+  void lose(double* part, BoundLoss reason) const;
+  void give_up(double* state, BoundLoss reason) const;
+  void take_over(const double* from, double* to) const;
+  void flow_part(double* state) const;
+  void begin_interval(double* state) const;
+  double moved_since_before(double* state) const;
+  bool may_be_wrapped(double error, std::size_t sensor, const double* innovation) const;
+  bool may_be_wrapped(const Event& event, double* state, double* workspace) const;
+  void sample(double* state, double* workspace, bool is_wrapped) const;
+  void jump(const Event& event, double* state) const;
+  void take_jump(double* state) const;
+  void refuse_jump(double* state) const;
+  void go_on_from_moved(double* state) const;
+
+  std::unique_ptr<const ErrorBound> bound_;
+  std::shared_ptr<const Plant> plant_;
+  double noise_;
+  /// |C_i| of each angular output of each sensor, the largest of all modes; 0 of one that is none.
+  std::vector<Eigen::VectorXd> angles_;
+  bool jumps_are_measured_;
+};
+
+}  // namespace sampled_data_observers

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "certificate/certificate.h"
+#include "sampled_data_observers/config/config_section.h"
+#include "sampled_data_observers/plant/plant.h"
+
+namespace sampled_data_observers {
+
+/// The section `certificate` of a gain file.
+struct CertificateConfig {
+  Certificate certificate;
+  /// The plant that the claim is about: its file, relative to the gain file, and its fingerprint.
+  std::string plant_file;
+  std::string plant_hash;
+  /// |w| that the gains were designed for, where the file says so.
+  std::optional<double> disturbance;
+  std::string origin;
+  /// Whether the file records a proof in ball arithmetic of just these numbers.
+  bool is_proved = false;
+};
+
+/// Reads the claim that `root` makes of its gains; nothing where it has no certificate. Does not
+/// check it.
+/// @throws ConfigError for a section that is no certificate for this plant.
+std::optional<CertificateConfig> read_certificate(ConfigSection& root, const Plant& plant);
+
+}  // namespace sampled_data_observers

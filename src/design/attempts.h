@@ -1,0 +1,30 @@
+#pragma once
+
+#include <vector>
+
+#include "design/design_method.h"
+#include "design/workers.h"
+
+namespace sampled_data_observers {
+
+/// Of what norm a gain may be: gain_bound as it is, where the user gave it, or in the units of
+/// scaling_of(), where it is a default and must not depend on units.
+enum class GainBound { kGiven, kOfScaledPlant };
+
+/// One attempt at a design in the units of scaling_of(), in the calling process, which is a worker.
+/// A candidate of which is_verified() holds has gains within their bound, and all conditions of its
+/// theorem are proved in ball arithmetic; where one of them is not, the message says which. For the
+/// least gamma, larger ones are tried before a candidate is given up.
+DesignCandidate proved_attempt(const DesignMethod& method, const CertificateSubject& subject,
+                               const Parameters& parameters, Objective objective,
+                               GainBound gain_bound);
+
+/// An attempt for each choice of the parameters, each in a worker process of its own. One that is
+/// lost says why in its message.
+std::vector<DesignCandidate> proved_attempts(const DesignMethod& method,
+                                             const CertificateSubject& subject,
+                                             const std::vector<Parameters>& choices,
+                                             Objective objective, GainBound gain_bound,
+                                             const WorkerOptions& workers);
+
+}  // namespace sampled_data_observers

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "sampled_data_observers/config/detector_config.h"
+#include "sampled_data_observers/messages/message_source.h"
+
+namespace sampled_data_observers {
+
+/// Jumps that show in a signal: reads its messages from another source, and makes an event of each
+/// crossing. When the time of receipt goes back, the clock was set: the detector starts again.
+class DetectedJumps : public MessageSource {
+ public:
+  /// @param signal  its values are those that the formula of the signal takes
+  DetectedJumps(std::unique_ptr<MessageSource> signal, const DetectorConfig& config);
+
+  ros::Subscriber subscribe(ros::NodeHandle& handle, std::uint32_t queue_length,
+                            const Receiver& receive) const override;
+  const char* md5sum() const override { return signal_->md5sum(); }
+  MessagePointer deserialize(std::uint8_t* data, std::uint32_t size) const override;
+  Reading read(const MessagePointer& message, Stamp receipt, Event& event) override;
+  void name_missing_transform(const MessagePointer& message, Stamp stamp,
+                              std::string& text) const override {
+    signal_->name_missing_transform(message, stamp, text);
+  }
+
+ private:
+  std::unique_ptr<MessageSource> signal_;
+  std::shared_ptr<const VectorMap> formula_;
+  std::shared_ptr<const VectorMap> outputs_;
+  JumpDetector detector_;
+  Duration future_tolerance_;
+  std::vector<double> values_;
+  Stamp last_receipt_ = 0;
+};
+
+}  // namespace sampled_data_observers

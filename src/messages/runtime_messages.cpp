@@ -1,0 +1,73 @@
+#include "messages/runtime_messages.h"
+
+#include <limits>
+
+#include "messages/time_conversion.h"
+
+namespace sampled_data_observers {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace
+
+static_assert(EventStatus::INPUT == static_cast<int>(EventKind::kInput));
+static_assert(EventStatus::JUMP_OUTPUT == static_cast<int>(EventKind::kJumpOutput));
+static_assert(EventStatus::OUTPUT == static_cast<int>(EventKind::kOutput));
+static_assert(EventStatus::JUMP == static_cast<int>(EventKind::kJump));
+static_assert(EventStatus::SAMPLE == static_cast<int>(EventKind::kSample));
+static_assert(EventStatus::USED == static_cast<int>(EventOutcome::kUsed));
+static_assert(EventStatus::USED_LATE == static_cast<int>(EventOutcome::kUsedLate));
+static_assert(EventStatus::DUPLICATE == static_cast<int>(EventOutcome::kDuplicate));
+static_assert(EventStatus::TOO_OLD == static_cast<int>(EventOutcome::kTooOld));
+static_assert(EventStatus::IN_FUTURE == static_cast<int>(EventOutcome::kInFuture));
+static_assert(EventStatus::NO_STAMP == static_cast<int>(EventOutcome::kNoStamp));
+static_assert(EventStatus::WRONG_SIZE == static_cast<int>(EventOutcome::kWrongSize));
+static_assert(EventStatus::NOT_FINITE == static_cast<int>(EventOutcome::kNotFinite));
+static_assert(EventStatus::WOULD_OVERFLOW == static_cast<int>(EventOutcome::kWouldOverflow));
+static_assert(EventStatus::UNKNOWN_MODE == static_cast<int>(EventOutcome::kUnknownMode));
+static_assert(EventStatus::TOO_FREQUENT == static_cast<int>(EventOutcome::kTooFrequent));
+static_assert(EventStatus::GATED == static_cast<int>(EventOutcome::kGated));
+static_assert(EventStatus::DISABLED == static_cast<int>(EventOutcome::kDisabled));
+static_assert(EventStatus::NO_TRANSFORM == static_cast<int>(EventOutcome::kNoTransform));
+static_assert(EventStatus::NO_FIELD == static_cast<int>(EventOutcome::kNoField));
+static_assert(EventStatus::OUT_OF_ORDER == static_cast<int>(EventOutcome::kOutOfOrder));
+static_assert(EventStatus::INTERVAL_NONE == static_cast<int>(IntervalCheck::kNone));
+static_assert(EventStatus::INTERVAL_WITHIN == static_cast<int>(IntervalCheck::kWithin));
+static_assert(EventStatus::INTERVAL_SHORT == static_cast<int>(IntervalCheck::kShort));
+static_assert(EventStatus::INTERVAL_LONG == static_cast<int>(IntervalCheck::kLong));
+
+void write(const EventChannel& channel, const Event& event, const EventReport& report,
+           const std::string& detail, Stamp now, EventStatus& status) {
+  status.header.stamp = to_ros_time(event.stamp);
+  status.source = channel.name;
+  status.kind = static_cast<std::uint8_t>(event.kind);
+  status.outcome = static_cast<std::uint8_t>(report.outcome);
+  status.reason = describe(report);
+  if (!detail.empty()) status.reason.append(": ").append(detail);
+  status.latency = to_seconds(now - event.stamp);
+  status.rewound = static_cast<std::uint32_t>(report.rewound);
+  status.interval = report.interval ? to_seconds(*report.interval) : kNone;
+  status.interval_check = static_cast<std::uint8_t>(report.interval_check);
+}
+
+void write(const ObserverRuntime& runtime, const Estimate& estimate, StateEstimate& message) {
+  const ObserverLaw& law = runtime.estimator().law();
+  const Eigen::Index size = law.estimate_size();
+  message.header.stamp = to_ros_time(estimate.stamp);
+  message.header.frame_id = runtime.setup().frame_id;
+  message.names = law.estimate_names();
+  message.state.assign(estimate.state.data(), estimate.state.data() + size);
+  const double* covariance = law.covariance(estimate.state.data());
+  if (covariance != nullptr) message.covariance.assign(covariance, covariance + size * size);
+  message.error_bound = runtime.bound(estimate).value;
+  message.time_since_sample = estimate.counts.last_sample
+                                  ? to_seconds(estimate.stamp - *estimate.counts.last_sample)
+                                  : kNone;
+  message.events = estimate.counts.events;
+  message.samples = estimate.counts.samples;
+  message.jumps = estimate.counts.jumps;
+  message.held = estimate.held ? 1 : 0;
+}
+
+}  // namespace sampled_data_observers

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <memory>
+
+#include "observer/law_decorator.h"
+
+namespace sampled_data_observers {
+
+/// A law that learns of jumps late and does not rewind (bernard2022 (41)): at the stamp of a jump
+/// the reset G(z, y_d) is computed and kept as μ, while z flows on; when the release comes, at the
+/// time at which the jump was known, z⁺ = μ. The time of the release is an event of its own, so
+/// that the estimate stays a function of events.
+///
+/// What is held (inputs, continuous outputs) stays as it is at the release. What samples changed
+/// between a jump and its release is lost, as it is in (41). Jumps must lie further apart than
+/// their delays: a jump that comes while another is pending applies that one first.
+class DelayedJumps : public LawDecorator {
+ public:
+  explicit DelayedJumps(const std::shared_ptr<const ObserverLaw>& law);
+
+  Eigen::Index event_size(EventKind kind, int channel) const override;
+  Eigen::Index max_event_size() const override;
+  void initialize(double* state) const override;
+  void flow(Duration duration, double* state, double* workspace) const override;
+  Effect reset(const Event& event, double* state, double* workspace) const override;
+  bool delays_jumps() const override { return true; }
+
+ private:
+  void release(double* state) const;
+};
+
+}  // namespace sampled_data_observers

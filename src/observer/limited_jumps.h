@@ -1,0 +1,34 @@
+#pragma once
+
+#include <memory>
+
+#include "observer/law_decorator.h"
+#include "sampled_data_observers/hybrid/time.h"
+
+namespace sampled_data_observers {
+
+/// Bounds on how fast jumps may follow each other: Zeno plants, bouncing contacts and mad detectors
+/// must not take the observer along.
+struct JumpLimits {
+  /// Shortest time between two jumps that take effect [ns], >= 0.
+  Duration min_separation = 0;
+  /// Largest number of jumps in a second, in the long run; as many may come at once.
+  double max_per_second = 0.0;
+};
+
+/// A law whose jumps take effect only within limits; the others leave the state alone. Which ones
+/// do is a function of the jumps' stamps, not of their arrival.
+class LimitedJumps : public LawDecorator {
+ public:
+  /// @throws std::invalid_argument for a negative separation or a rate below 1.
+  LimitedJumps(std::shared_ptr<const ObserverLaw> law, const JumpLimits& limits);
+
+  void initialize(double* state) const override;
+  void flow(Duration duration, double* state, double* workspace) const override;
+  Effect reset(const Event& event, double* state, double* workspace) const override;
+
+ private:
+  JumpLimits limits_;
+};
+
+}  // namespace sampled_data_observers

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "replay/summary.h"
+#include "sampled_data_observers/config/observer_config.h"
+
+namespace sampled_data_observers {
+
+struct ReplayOptions {
+  std::string bag;
+  /// Bag to write: the estimates and event statuses, and the messages that the observer received.
+  /// Empty: none.
+  std::string output;
+  /// Topic of the truth; empty: none, or the samples themselves when thinning.
+  std::string truth_topic;
+  /// State name to field path of the truth's messages.
+  std::map<std::string, std::string> truth_fields;
+  struct Thinning {
+    double T1 = 0.0;  ///< s
+    double T2 = 0.0;  ///< s
+    std::uint64_t seed = 0;
+  };
+  std::optional<Thinning> thinning;
+  /// The comparison is limited to these times after the first truth stamp [s].
+  double from = 0.0;
+  double to = std::numeric_limits<double>::infinity();
+  /// Whether a bag without the topic of the input will do: the input is zero then.
+  bool may_lack_input = false;
+};
+
+/// Runs the observer over a bag: its messages in the order and at the times in which the bag
+/// received them, without waiting.
+/// @throws ReplayError, ConfigError, rosbag::BagException
+ReplaySummary replay(const ObserverConfig& config, const ReplayOptions& options);
+
+}  // namespace sampled_data_observers

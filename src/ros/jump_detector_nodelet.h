@@ -1,0 +1,35 @@
+#pragma once
+
+#include <nodelet/nodelet.h>
+#include <ros/ros.h>
+
+#include <memory>
+#include <string>
+
+#include "sampled_data_observers/messages/message_source.h"
+#include "sampled_data_observers/ros/callback_threads.h"
+
+namespace sampled_data_observers {
+
+/// Detects jumps of a plant in a signal, a field or formula of fields of a standard message type,
+/// and publishes a JumpEvent on `jumps` for each.
+///
+/// Private parameters: the section `detector` of a configuration (read_parameter_tree()).
+class JumpDetectorNodelet : public nodelet::Nodelet {
+ public:
+  JumpDetectorNodelet();
+  ~JumpDetectorNodelet() override;
+
+ private:
+  /// @throws ConfigError for a bad configuration, after reporting it: the nodelet does not start.
+  void onInit() override;
+  void receive(const MessagePointer& message, Stamp receipt);
+
+  CallbackThreads threads_;
+  std::unique_ptr<MessageSource> source_;
+  std::string signal_topic_;
+  ros::Publisher publisher_;
+  ros::Subscriber subscriber_;
+};
+
+}  // namespace sampled_data_observers

@@ -1,0 +1,260 @@
+#include "sampled_data_observers/runtime/estimator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace sampled_data_observers {
+namespace {
+
+IntervalCheck check(Duration interval, const SamplingBounds& bounds) {
+  if (interval < bounds.T1) return IntervalCheck::kShort;
+  if (interval > bounds.T2) return IntervalCheck::kLong;
+  return IntervalCheck::kWithin;
+}
+
+EventOutcome outcome_of(const Timeline::InsertReport& report) {
+  switch (report.insertion) {
+    case Timeline::Insertion::kDuplicate:
+      return EventOutcome::kDuplicate;
+    case Timeline::Insertion::kBeforeWindow:
+      return EventOutcome::kTooOld;
+    case Timeline::Insertion::kAppended:
+    case Timeline::Insertion::kRewound:
+      break;
+  }
+  switch (report.effect) {
+    case Effect::kNotFinite:
+      return EventOutcome::kWouldOverflow;
+    case Effect::kRefused:
+      return EventOutcome::kTooFrequent;
+    case Effect::kGated:
+      return EventOutcome::kGated;
+    case Effect::kApplied:
+    case Effect::kPastGate:
+    case Effect::kRestarted:
+      break;
+  }
+  return report.insertion == Timeline::Insertion::kAppended ? EventOutcome::kUsed
+                                                            : EventOutcome::kUsedLate;
+}
+
+bool is_sampled(const ObserverLaw& law) {
+  for (std::size_t i = 0; i < law.sensors(); ++i) {
+    if (law.event_size(EventKind::kSample, static_cast<int>(i)) >= 0) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+bool is_admissible(const Eigen::Ref<const Eigen::VectorXd>& values) {
+  return values.allFinite() &&
+         (values.size() == 0 || values.cwiseAbs().maxCoeff() <= kLargestValue);
+}
+
+Estimator::Estimator(std::shared_ptr<const ObserverLaw> law, const Options& options)
+    : law_(std::move(law)),
+      options_(options),
+      timeline_(law_, options.history),
+      before_restart_(make_estimate()),
+      restart_state_(law_->state_size()),
+      workspace_(law_->workspace_size()),
+      innovation_(law_->max_event_size()),
+      is_sampled_(is_sampled(*law_)),
+      has_other_events_(law_->event_size(EventKind::kInput, 0) > 0 ||
+                        law_->event_size(EventKind::kJump, kPlainJump) >= 0) {
+  if (options_.sampling.T1 <= 0 || options_.sampling.T1 > options_.sampling.T2) {
+    throw std::invalid_argument("Estimator: 0 < T1 <= T2 must hold");
+  }
+  if (options_.future_tolerance < 0) {
+    throw std::invalid_argument("Estimator: future_tolerance must not be negative");
+  }
+  if (options_.latency < 0) {
+    throw std::invalid_argument("Estimator: latency must not be negative");
+  }
+}
+
+std::optional<EventOutcome> Estimator::objection(const Event& event, Stamp now) const {
+  if (event.stamp <= 0) return EventOutcome::kNoStamp;
+  if (event.size != law_->event_size(event.kind, event.channel)) return EventOutcome::kWrongSize;
+  if (!is_admissible(event.vector())) return EventOutcome::kNotFinite;
+  if (!law_->knows_mode(event)) return EventOutcome::kUnknownMode;
+  if (std::max(event.stamp, event.release) - now > options_.future_tolerance) {
+    return EventOutcome::kInFuture;
+  }
+  return std::nullopt;
+}
+
+EventReport Estimator::submit(const Event& event, Stamp now) {
+  EventReport report;
+  if (const std::optional<EventOutcome> outcome = objection(event, now)) {
+    report.outcome = *outcome;
+    note_rejected(event, now);
+    return report;
+  }
+  if (awaits_sample_ && event.kind == EventKind::kSample && event.stamp > *timeline_.earliest()) {
+    begin_at(event);
+  }
+  if (event.kind == EventKind::kSample || event.kind == EventKind::kOutput) {
+    report.innovation = innovation_of(event);
+  }
+  const Timeline::InsertReport inserted = timeline_.insert(event);
+  report.outcome = outcome_of(inserted);
+  report.rewound = inserted.rewound;
+  report.effect = inserted.effect;
+  // Even where the jump has no effect now: whether it has is known for sure only when all events
+  // are.
+  const bool is_in_log = inserted.insertion == Timeline::Insertion::kAppended ||
+                         inserted.insertion == Timeline::Insertion::kRewound;
+  if (is_in_log && event.kind == EventKind::kJump && law_->delays_jumps()) {
+    insert_release(event.stamp, std::max(event.stamp, event.release > 0 ? event.release : now));
+  }
+  if (report.outcome == EventOutcome::kTooOld) note_rejected(event, now);
+  const bool tells_input = is_in_log && event.kind == EventKind::kInput;
+  if (tells_input && event.stamp > input_unknown_since_.value_or(event.stamp)) {
+    input_unknown_since_.reset();
+  }
+  if (report.used() && inserted.previous) {
+    report.interval = event.stamp - *inserted.previous;
+    if (event.kind == EventKind::kSample || !is_sampled_) {
+      report.interval_check = check(*report.interval, options_.sampling);
+    }
+  }
+  return report;
+}
+
+double Estimator::innovation_of(const Event& measured) {
+  const Timeline::Query query =
+      timeline_.state_at(measured.stamp, before_restart_.state, before_restart_.counts);
+  if (query != Timeline::Query::kOk && query != Timeline::Query::kHeld) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  law_->innovation(measured, before_restart_.state.data(), innovation_.data());
+  return innovation_.head(measured.size).norm();
+}
+
+void Estimator::note_rejected(const Event& event, Stamp now) {
+  if (law_->event_size(EventKind::kRejected, static_cast<int>(event.kind)) < 0) return;
+  const Stamp stamp = event.stamp > 0 ? std::min(event.stamp, now) : now;
+  if (stamp <= 0) return;
+  if (event.kind == EventKind::kInput) {
+    input_unknown_since_ = std::max(stamp, input_unknown_since_.value_or(stamp));
+  } else if (stamp <= began_at_.value_or(0)) {
+    return;  // Somebody vouches for what came after this jump.
+  }
+  insert_rejected(event.kind, stamp);
+}
+
+void Estimator::insert_rejected(EventKind kind, Stamp stamp) {
+  stamp = std::max(stamp, timeline_.earliest_insertion().value_or(stamp));
+  timeline_.insert({stamp, EventKind::kRejected, static_cast<int>(kind), nullptr, 0});
+}
+
+PublishedBound Estimator::bound(const Estimate& estimate, Stamp now) const {
+  const double* state = estimate.state.data();
+  const double value = law_->error_bound(state);
+  const bool may_change = has_other_events_ && now - estimate.stamp < options_.latency;
+  if (may_change && std::isfinite(value)) {
+    return {std::numeric_limits<double>::infinity(), BoundLoss::kStillOnTheirWay};
+  }
+  return {value, law_->bound_loss(state)};
+}
+
+void Estimator::insert_release(Stamp jump, Stamp release) {
+  const auto delay = static_cast<double>(release - jump);
+  timeline_.insert({release, EventKind::kRelease, 0, &delay, 1});
+}
+
+Timeline::Query Estimator::estimate_at(Stamp stamp, Estimate& estimate) const {
+  if (awaits_sample_) return Timeline::Query::kNoEvent;
+  const Timeline::Query query = timeline_.state_at(stamp, estimate.state, estimate.counts);
+  estimate.stamp = stamp;
+  estimate.held = query == Timeline::Query::kHeld;
+  return query;
+}
+
+std::optional<Stamp> Estimator::earliest() const {
+  return awaits_sample_ ? std::nullopt : timeline_.earliest();
+}
+
+Estimate Estimator::make_estimate() const {
+  Estimate estimate;
+  estimate.state = Eigen::VectorXd::Zero(law_->state_size());
+  return estimate;
+}
+
+/// Sets the state to start from: the configured one, with what is held and the mode of `from` at
+/// `stamp`. Returns whether that has a state there, which it leaves in from.before_restart_.
+bool Estimator::prepare_restart(Estimator& from, Stamp stamp) {
+  law_->initialize(restart_state_.data());
+  Estimate& before = from.before_restart_;
+  const Timeline::Query query = from.timeline_.state_at(stamp, before.state, before.counts);
+  if (query != Timeline::Query::kOk && query != Timeline::Query::kHeld) return false;
+  law_->keep_held(from.law_->held_part(before.state.data()), restart_state_.data());
+  law_->keep_mode(from.law_->mode_of(before.state.data()), restart_state_.data());
+  return true;
+}
+
+void Estimator::restart(Stamp stamp) {
+  prepare_restart(*this, stamp);
+  begin(stamp);
+}
+
+void Estimator::restart(Stamp stamp, Timeline::ConstStateRef estimate) {
+  prepare_restart(*this, stamp);
+  law_->start_from(estimate.data(), restart_state_.data());
+  begin(stamp);
+}
+
+void Estimator::begin(Stamp stamp) {
+  began_at_ = stamp;
+  timeline_.restart(stamp, restart_state_);
+  if (input_unknown_since_) insert_rejected(EventKind::kInput, stamp + 1);
+  awaits_sample_ = false;
+}
+
+void Estimator::restart_at_next_sample(Stamp stamp) {
+  restart(stamp);
+  awaits_sample_ = true;
+}
+
+/// The sample itself is not part of the start, but the first event after it: so laws that keep
+/// track of samples (the time since the last, a held innovation) see it.
+void Estimator::begin_at(const Event& sample) {
+  const Stamp start = sample.stamp - 1;
+  prepare_restart(*this, start);
+  law_->fit_to(sample, restart_state_.data(), workspace_.data());
+  began_at_ = start;
+  timeline_.rebase(start, restart_state_);
+  if (input_unknown_since_) insert_rejected(EventKind::kInput, sample.stamp);
+  awaits_sample_ = false;
+}
+
+void Estimator::resume(Stamp stamp) {
+  const Timeline::Query query = timeline_.state_at(stamp, restart_state_, before_restart_.counts);
+  if (query != Timeline::Query::kOk && query != Timeline::Query::kHeld) return;
+  timeline_.restart(stamp, restart_state_);
+}
+
+void Estimator::take_over(Estimator& other, Stamp stamp) {
+  awaits_sample_ = other.awaits_sample_;
+  input_unknown_since_ = other.input_unknown_since_;
+  began_at_ = other.began_at_;
+  if (!prepare_restart(other, stamp)) return;
+  law_->start_from(other.before_restart_.state.data(), restart_state_.data());
+  const double* before = other.before_restart_.state.data();
+  law_->keep_bound({other.law_->error_bound(before), other.law_->bound_loss(before)},
+                   restart_state_.data());
+  timeline_.restart(stamp, restart_state_);
+}
+
+void Estimator::clear() {
+  timeline_.clear();
+  input_unknown_since_.reset();
+  began_at_.reset();
+  awaits_sample_ = false;
+}
+
+}  // namespace sampled_data_observers

@@ -1,0 +1,176 @@
+#include "sampled_data_observers/runtime/observer_runtime.h"
+
+#include <algorithm>
+#include <cmath>
+namespace sampled_data_observers {
+
+ObserverRuntime::ObserverRuntime(const RuntimeSetup& setup)
+    : setup_(setup),
+      estimator_(setup.law, setup.options),
+      grid_(setup.period, setup.publish_delay, setup.options.history.history),
+      estimate_(estimator_.make_estimate()),
+      sensors_enabled_(setup.has_topic.size(), true),
+      watches_(setup.has_topic.size()) {}
+
+bool ObserverRuntime::is_enabled(const Event& event) const {
+  if (event.kind == EventKind::kInput || event.kind == EventKind::kJump) return enabled_;
+  return enabled_ && sensors_enabled_[static_cast<std::size_t>(event.channel)];
+}
+
+EventReport ObserverRuntime::receive(const Event& event, Stamp now) {
+  now_ = now;
+  EventReport report;
+  if (is_enabled(event)) {
+    report = estimator_.submit(event, now);
+    watch_innovation(event, report);
+  } else {
+    report.outcome = EventOutcome::kDisabled;
+    estimator_.note_rejected(event, now);
+  }
+  report.came_after_bound = comes_after_bound(event, report);
+  if (setup_.publish_on_event && report.used()) event_waits_ = true;
+  return report;
+}
+
+/// The plant had it, whatever became of it here. At its own stamp an input changes nothing yet, as
+/// a jump does.
+bool ObserverRuntime::comes_after_bound(const Event& event, const EventReport& report) const {
+  const bool is_of_plant = event.kind == EventKind::kInput || event.kind == EventKind::kJump;
+  return is_of_plant && report.outcome != EventOutcome::kDuplicate && event.stamp > 0 &&
+         (event.kind == EventKind::kInput ? event.stamp < bounded_until_
+                                          : event.stamp <= bounded_until_);
+}
+
+/// A sample that a gate keeps out says as much of the estimate as one that is used.
+void ObserverRuntime::watch_innovation(const Event& event, EventReport& report) {
+  const bool counts = report.used() || report.outcome == EventOutcome::kGated;
+  if (!counts || std::isnan(report.innovation)) return;
+  InnovationWatch& watch = watches_[static_cast<std::size_t>(event.channel)];
+  report.trend = watch.add(report.innovation, event.vector().norm());
+}
+
+void ObserverRuntime::forget_innovations() {
+  std::fill(watches_.begin(), watches_.end(), InnovationWatch());
+}
+
+EventReport ObserverRuntime::reject(const Event& event, EventOutcome outcome, Stamp now) {
+  now_ = now;
+  estimator_.note_rejected(event, now);
+  EventReport report;
+  report.outcome = outcome;
+  report.came_after_bound = comes_after_bound(event, report);
+  return report;
+}
+
+const Estimate* ObserverRuntime::next_due(Stamp now) {
+  now_ = now;
+  const std::optional<Stamp> earliest = estimator_.earliest();
+  if (!enabled_ || !earliest) return nullptr;
+  std::optional<Stamp> stamp = grid_.next(now, *earliest);
+  if (!stamp) {
+    const bool at_once = event_waits_ && *earliest <= now && grid_.insert(now);
+    event_waits_ = false;
+    if (!at_once) return nullptr;
+    stamp = now;
+  }
+  switch (estimator_.estimate_at(*stamp, estimate_)) {
+    case Timeline::Query::kOk:
+    case Timeline::Query::kHeld:
+      if (std::isfinite(bound(estimate_).value)) {
+        bounded_until_ = std::max(bounded_until_, *stamp);
+      }
+      return &estimate_;
+    default:
+      return nullptr;
+  }
+}
+
+const Estimate* ObserverRuntime::estimate_at(Stamp stamp, std::string& reason) {
+  if (!enabled_ || estimator_.awaits_sample()) {
+    reason = enabled_ ? "the estimate begins with the next sample" : "the observer is switched off";
+    return nullptr;
+  }
+  switch (estimator_.estimate_at(stamp, estimate_)) {
+    case Timeline::Query::kOk:
+    case Timeline::Query::kHeld:
+      return &estimate_;
+    case Timeline::Query::kNoEvent:
+      reason = "no event was received yet";
+      break;
+    case Timeline::Query::kBeforeStart:
+      reason = "the stamp is before the first event or the last reset";
+      break;
+    case Timeline::Query::kBeforeWindow:
+      reason = "the stamp is before the history window (see history/duration and max_events)";
+      break;
+  }
+  return nullptr;
+}
+
+std::string ObserverRuntime::restart(Stamp now, const std::vector<double>& estimate) {
+  const Eigen::Map<const Eigen::VectorXd> values(estimate.data(),
+                                                 static_cast<Eigen::Index>(estimate.size()));
+  const Eigen::Index expected = estimator_.law().estimate_size();
+  if (!estimate.empty() && values.size() != expected) {
+    return "expected " + std::to_string(expected) + " values or none, found " +
+           std::to_string(estimate.size());
+  }
+  if (!is_admissible(values)) return "expected finite values up to 1e100, found another";
+  if (estimate.empty()) {
+    estimator_.restart(now);
+  } else {
+    estimator_.restart(now, values);
+  }
+  forget_innovations();
+  grid_.restart(now);
+  return "";
+}
+
+std::string ObserverRuntime::restart_at_next_sample(Stamp now) {
+  if (setup_.plant->outputs(SensorTiming::kSampled) == 0) {
+    return "expected a plant with a sensor that is sampled, found none";
+  }
+  estimator_.restart_at_next_sample(now);
+  forget_innovations();
+  grid_.restart(now);
+  return "";
+}
+
+void ObserverRuntime::start_anew(Stamp now) {
+  estimator_.clear();
+  bounded_until_ = 0;
+  forget_innovations();
+  grid_.restart(now);
+}
+
+void ObserverRuntime::set_enabled(bool enabled, Stamp now) {
+  if (enabled && !enabled_) {
+    estimator_.resume(now);
+    grid_.skip_to(now);
+  }
+  enabled_ = enabled;
+}
+
+std::string ObserverRuntime::enable_sensor(const std::string& name, bool enabled) {
+  std::string known;
+  for (std::size_t i = 0; i < sensors_enabled_.size(); ++i) {
+    if (!setup_.has_topic[i]) continue;
+    const std::string& sensor = setup_.plant->sensors()[i].name;
+    known += (known.empty() ? "" : ", ") + sensor;
+    if (sensor != name) continue;
+    sensors_enabled_[i] = enabled;
+    return "";
+  }
+  return "expected a sensor with a topic of its own (" + known + "), found '" + name + "'";
+}
+
+void ObserverRuntime::take_over(ObserverRuntime& other, Stamp now) {
+  estimator_.take_over(other.estimator_, now);
+  grid_ = other.grid_;
+  bounded_until_ = other.bounded_until_;
+  enabled_ = other.enabled_;
+  sensors_enabled_ = other.sensors_enabled_;
+  event_waits_ = other.event_waits_;
+}
+
+}  // namespace sampled_data_observers

@@ -1,0 +1,125 @@
+#include "sampled_data_observers/runtime/run_statistics.h"
+
+#include <cmath>
+#include <numeric>
+
+namespace sampled_data_observers {
+namespace {
+
+constexpr std::memory_order kRelaxed = std::memory_order_relaxed;
+
+/// So many characters of a missing transform are kept.
+constexpr std::size_t kLongestTransform = 160;
+
+void increment(std::atomic<std::uint64_t>& counter) { counter.fetch_add(1, kRelaxed); }
+
+std::optional<Stamp> as_stamp(Stamp stamp) {
+  return stamp == 0 ? std::nullopt : std::optional<Stamp>(stamp);
+}
+
+}  // namespace
+
+std::uint64_t ChannelStatistics::received() const {
+  return std::accumulate(outcomes.begin(), outcomes.end(), std::uint64_t{0});
+}
+
+void ChannelStatistics::add(const ChannelStatistics& other) {
+  for (std::size_t i = 0; i < outcomes.size(); ++i) outcomes[i] += other.outcomes[i];
+  latency.add(other.latency);
+  interval.add(other.interval);
+  short_intervals += other.short_intervals;
+  long_intervals += other.long_intervals;
+  violations.add(other.violations);
+  rewound.add(other.rewound);
+  after_bound += other.after_bound;
+  missing_transform = other.missing_transform;
+  innovation = other.innovation;
+  trend = other.trend;
+}
+
+void RunStatistics::add(const RunStatistics& later) {
+  for (std::size_t i = 0; i < channels.size(); ++i) channels[i].add(later.channels[i]);
+  lateness.add(later.lateness);
+  held += later.held;
+  saturated += later.saturated;
+  tick_cpu_time.add(later.tick_cpu_time);
+  newest_estimate = later.newest_estimate;
+  error_bound = later.error_bound;
+  bound_lost_since = later.bound_lost_since;
+  bound_loss = later.bound_loss;
+}
+
+StatisticsRecorder::StatisticsRecorder(std::size_t channels) : channels_(channels) {
+  for (Channel& channel : channels_) channel.missing_transform.reserve(kLongestTransform);
+}
+
+void StatisticsRecorder::record_missing_transform(std::size_t index,
+                                                  const std::string& transform) noexcept {
+  Channel& channel = channels_[index];
+  const std::unique_lock<std::mutex> lock(channel.missing_transform_mutex, std::try_to_lock);
+  if (lock.owns_lock()) channel.missing_transform.assign(transform, 0, kLongestTransform);
+}
+
+void StatisticsRecorder::record_event(std::size_t index, const Event& event,
+                                      const EventReport& report, Duration latency) noexcept {
+  Channel& channel = channels_[index];
+  increment(channel.outcomes[static_cast<std::size_t>(report.outcome)]);
+  if (report.outcome != EventOutcome::kNoStamp) channel.latency.record(latency);
+  if (report.rewound > 0) channel.rewound.record(static_cast<std::int64_t>(report.rewound));
+  if (report.came_after_bound) increment(channel.after_bound);
+  if (!std::isnan(report.innovation)) {
+    channel.innovation.store(report.innovation, kRelaxed);
+    channel.trend.store(report.trend, kRelaxed);
+  }
+  if (!report.interval) return;
+  channel.interval.record(*report.interval);
+  if (report.interval_check == IntervalCheck::kShort) increment(channel.short_intervals);
+  if (report.interval_check == IntervalCheck::kLong) increment(channel.long_intervals);
+  if (report.interval_check != IntervalCheck::kWithin) channel.violations.record(event.stamp);
+}
+
+void StatisticsRecorder::record_estimate(const ObserverLaw& law, const Estimate& estimate,
+                                         const PublishedBound& bound, Duration lateness) noexcept {
+  lateness_.record(lateness);
+  if (estimate.held) increment(held_);
+  if (law.is_saturated(estimate.state.data())) increment(saturated_);
+  newest_estimate_.store(estimate.stamp, kRelaxed);
+  error_bound_.store(bound.value, kRelaxed);
+  bound_loss_.store(bound.loss, kRelaxed);
+  if (!std::isinf(bound.value)) {
+    bound_lost_since_.store(0, kRelaxed);
+  } else if (bound_lost_since_.load(kRelaxed) == 0) {
+    bound_lost_since_.store(estimate.stamp, kRelaxed);
+  }
+}
+
+void StatisticsRecorder::take(RunStatistics& statistics) noexcept {
+  for (std::size_t i = 0; i < channels_.size(); ++i) {
+    Channel& from = channels_[i];
+    ChannelStatistics& to = statistics.channels[i];
+    for (std::size_t code = 0; code < kEventOutcomes; ++code) {
+      to.outcomes[code] = from.outcomes[code].exchange(0, kRelaxed);
+    }
+    to.latency = from.latency.take();
+    to.interval = from.interval.take();
+    to.short_intervals = from.short_intervals.exchange(0, kRelaxed);
+    to.long_intervals = from.long_intervals.exchange(0, kRelaxed);
+    to.violations = from.violations.take();
+    to.rewound = from.rewound.take();
+    to.after_bound = from.after_bound.exchange(0, kRelaxed);
+    to.innovation = from.innovation.load(kRelaxed);
+    to.trend = from.trend.load(kRelaxed);
+    const std::lock_guard<std::mutex> lock(from.missing_transform_mutex);
+    to.missing_transform = from.missing_transform;
+  }
+  statistics.lateness = lateness_.take();
+  statistics.held = held_.exchange(0, kRelaxed);
+  statistics.saturated = saturated_.exchange(0, kRelaxed);
+  statistics.tick_cpu_time = tick_cpu_time_.take();
+  statistics.newest_estimate = as_stamp(newest_estimate_.load(kRelaxed));
+  statistics.error_bound = error_bound_.load(kRelaxed);
+  statistics.bound_loss = bound_loss_.load(kRelaxed);
+  statistics.bound_lost_since = as_stamp(bound_lost_since_.load(kRelaxed));
+}
+
+}  // namespace sampled_data_observers

@@ -1,0 +1,130 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <queue>
+#include <string>
+#include <vector>
+
+#include "simulation/scenario.h"
+#include "simulation/simulated_plant.h"
+
+namespace sampled_data_observers {
+
+/// A topic on which a simulation sends.
+struct SimulatedChannel {
+  enum class Kind { kMeasurement, kSignal, kInput, kJump, kTruth };
+
+  Kind kind = Kind::kMeasurement;
+  std::string topic;
+  /// Of the truth: names of the states.
+  std::vector<std::string> names;
+};
+
+/// A message that a robot's sensors would send.
+struct SimulatedMessage {
+  /// Position in Simulator::channels().
+  std::size_t channel = 0;
+  Stamp stamp = 0;
+  /// When it is received.
+  Stamp arrival = 0;
+  /// The outputs, inputs or true states. Of jump events: the outputs measured at jumps, where any
+  /// of them has no topic of its own.
+  std::vector<double> values;
+  /// Label of the mode after a jump.
+  int mode = 0;
+  /// Number of jumps up to the stamp.
+  std::uint64_t jumps = 0;
+  /// Its place among the messages sent, which is that among those that arrive together.
+  std::uint64_t number = 0;
+};
+
+/// Runs a scenario and gives its messages in the order of their arrival. The same scenario gives
+/// the same messages, bit for bit.
+///
+/// What happens at one instant: the input changes, the plant jumps, continuous outputs and samples
+/// are taken. So an input is computed from the state before a jump, and outputs from the one after
+/// it; outputs measured at jumps are those just before.
+class Simulator {
+ public:
+  enum class End {
+    kNone,      ///< it goes on
+    kDuration,  ///< all of it was simulated
+    kZeno,      ///< jumps came too close together
+    kNotFinite  ///< a state is not finite any more, or the formula `when` has no value
+  };
+
+  explicit Simulator(Scenario scenario);
+  Simulator(const Simulator&) = delete;
+  Simulator& operator=(const Simulator&) = delete;
+
+  const Scenario& scenario() const { return scenario_; }
+  const std::vector<SimulatedChannel>& channels() const { return channels_; }
+
+  /// The next message; nothing when all were given.
+  std::optional<SimulatedMessage> next();
+
+  /// Why the simulation has ended.
+  End end() const { return end_; }
+  /// The same in words, with the time.
+  std::string describe_end() const;
+  /// How far it came since the start [ns].
+  Duration time() const { return plant_.time(); }
+  std::uint64_t jumps() const { return jumps_; }
+
+ private:
+  /// A sensor that measures on a schedule or at jumps, or a signal.
+  struct SensorStream {
+    std::optional<std::size_t> sensor;
+    const SignalScenario* signal;
+    const Noise* added;
+    std::optional<std::size_t> channel;
+    std::optional<ScheduledTimes> times;
+    std::optional<Duration> next;
+    RandomNumbers noise;
+    DeliveryLine delivery;
+  };
+
+  struct LaterArrival {
+    bool operator()(const SimulatedMessage& a, const SimulatedMessage& b) const {
+      return a.arrival != b.arrival ? a.arrival > b.arrival : a.number > b.number;
+    }
+  };
+
+  RandomNumbers stream(const std::string& name) const { return {scenario_.seed, name}; }
+  std::size_t add_channel(SimulatedChannel::Kind kind, const std::string& topic);
+  void add_sensor(std::size_t sensor);
+  void add_signal(const SignalScenario& signal);
+  Duration next_time() const;
+  void step();
+  void change_input();
+  void jump();
+  void measure(SensorStream& stream);
+  std::vector<double> exact_outputs(const SensorStream& stream) const;
+  std::vector<double> outputs(SensorStream& stream);
+  void send(std::size_t channel, std::vector<double> values, const std::vector<Stamp>& arrivals);
+  Stamp now() const { return scenario_.start + plant_.time(); }
+  bool is_sampled(const SensorStream& stream) const;
+
+  const Scenario scenario_;
+  SimulatedPlant plant_;
+  std::vector<SimulatedChannel> channels_;
+  std::vector<SensorStream> sensors_;
+  std::size_t input_channel_ = 0;
+  std::size_t jump_channel_ = 0;
+  std::size_t truth_channel_ = 0;
+  Duration next_input_ = 0;
+  Duration next_truth_ = 0;
+  std::optional<ScheduledTimes> jump_times_;
+  std::optional<Duration> next_jump_;
+  std::optional<Duration> last_jump_;
+  bool values_in_jumps_ = false;
+  DeliveryLine jump_delivery_;
+  std::uint64_t jumps_ = 0;
+  std::uint64_t sent_ = 0;
+  std::priority_queue<SimulatedMessage, std::vector<SimulatedMessage>, LaterArrival> messages_;
+  End end_ = End::kNone;
+};
+
+}  // namespace sampled_data_observers

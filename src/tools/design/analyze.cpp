@@ -1,0 +1,229 @@
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "config/certificate_config.h"
+#include "config/design_config.h"
+#include "config/named_values.h"
+#include "console/option_checks.h"
+#include "design/analysis.h"
+#include "design/assumed_disturbance.h"
+#include "design/request_error.h"
+#include "design/workers.h"
+#include "messages/plant_plugins.h"
+#include "sampled_data_observers/config/yaml_file.h"
+#include "tools/design/commands.h"
+#include "tools/design/gain_files.h"
+#include "tools/design/run_time_report.h"
+
+namespace sampled_data_observers {
+namespace {
+
+struct AnalyzeArguments {
+  std::string gains;
+  std::vector<std::string> plant;
+  std::string theorem;
+  std::string objective;
+  std::string output;
+  double T1 = 0.0;
+  double T2 = 0.0;
+  std::vector<std::string> assignments;
+  unsigned jobs = default_jobs();
+  double time_limit = 20.0;
+};
+
+/// All theorems: those that a design for the least gain would prove first, then those of other
+/// designs.
+std::vector<const Theorem*> in_order_of_use(const CertificateSubject& subject) {
+  std::vector<const Theorem*> all = theorems();
+  const auto rank = [&](const Theorem* theorem) {
+    int best = 2;
+    for (const DesignMethod* method : design_methods()) {
+      if (&method->theorem() != theorem) continue;
+      const auto objectives = method->objectives(subject);
+      const bool has_gain =
+          std::find(objectives.begin(), objectives.end(), Objective::kMinGamma) != objectives.end();
+      best = std::min(best, has_gain ? 0 : 1);
+    }
+    return best;
+  };
+  std::stable_sort(all.begin(), all.end(), [&](const Theorem* first, const Theorem* second) {
+    return rank(first) < rank(second);
+  });
+  return all;
+}
+
+const Theorem& theorem_for(ConfigSection& root, const std::string& name,
+                           const CertificateSubject& subject) {
+  if (!name.empty()) return *find_theorem(name);
+  const std::string type = root.text("observer");
+  std::string reasons;
+  for (const Theorem* theorem : in_order_of_use(subject)) {
+    const auto types = theorem->observer_types();
+    if (std::find(types.begin(), types.end(), type) == types.end()) continue;
+    try {
+      theorem->require_applicable(subject);
+      return *theorem;
+    } catch (const std::invalid_argument& fault) {
+      reasons += (reasons.empty() ? "" : "; ") + theorem->name() + ": " + fault.what();
+    }
+  }
+  throw root.error("observer", "an observer that a theorem is about, for this plant",
+                   type + (reasons.empty() ? "" : " (" + reasons + ")"));
+}
+
+/// Keeps what the theorem knows of the parameters.
+void take(const Parameters& parameters, const Theorem& theorem, AnalysisProblem& problem) {
+  for (const NamedShape& shape : theorem.parameters(problem.subject)) {
+    const auto found = parameters.find(shape.name);
+    if (found != parameters.end()) problem.given[shape.name] = found->second;
+  }
+}
+
+/// What a certificate claims in numbers: all parameters but those that only help to prove it. The
+/// gain is what is asked for.
+Parameters claimed(const Certificate& certificate) {
+  Parameters parameters;
+  for (const NamedShape& shape : certificate.theorem->parameters(certificate.subject)) {
+    parameters[shape.name] = scalar_value(certificate.values, shape.name);
+  }
+  for (const NamedRange& range : certificate.theorem->search_ranges(certificate.subject)) {
+    parameters.erase(range.name);
+  }
+  parameters.erase("gamma");
+  return parameters;
+}
+
+AnalysisProblem read_problem(const AnalyzeArguments& arguments, const DesignConfig& config) {
+  const ConfigNode tree = read_yaml_file(arguments.gains);
+  ConfigSection root(tree, "");
+  AnalysisProblem problem;
+  problem.subject = config.subject;
+  const auto claim = read_certificate(root, *config.plant);
+  if (claim) {
+    problem.subject = claim->certificate.subject;
+  } else if (root.has("sampling")) {
+    ConfigSection sampling = root.section("sampling");
+    problem.subject.T1 = sampling.number("T1");
+    problem.subject.T2 = sampling.number("T2");
+  }
+  if (arguments.T1 > 0.0) problem.subject.T1 = arguments.T1;
+  if (arguments.T2 > 0.0) problem.subject.T2 = arguments.T2;
+  if (!(problem.subject.T2 > 0.0 && problem.subject.T1 <= problem.subject.T2)) {
+    throw root.error("sampling", "0 <= T1 <= T2, or --T1 and --T2", "other times");
+  }
+  problem.theorem = claim && arguments.theorem.empty()
+                        ? claim->certificate.theorem
+                        : &theorem_for(root, arguments.theorem, problem.subject);
+  take(config.parameters, *problem.theorem, problem);
+  if (claim) take(claimed(claim->certificate), *problem.theorem, problem);
+  for (const std::string& assignment : arguments.assignments) assign(assignment, problem.given);
+  ConfigSection gains = root.section("gains");
+  problem.gains = read_gain_values(gains, problem.theorem->gains(problem.subject), problem.subject);
+  return problem;
+}
+
+void print_result(Objective objective, const Design& design) {
+  const Certificate& certificate = design.certificate;
+  const Theorem& theorem = *certificate.theorem;
+  std::printf("  %-9s", to_string(objective));
+  const char* separator = "  ";
+  for (const NamedShape& shape : theorem.parameters(certificate.subject)) {
+    std::printf("%s%s = %.6g", separator, shape.name.c_str(),
+                scalar_value(certificate.values, shape.name));
+    separator = ", ";
+  }
+  std::printf("%sT2 = %.6g s\n", separator, certificate.subject.T2);
+  if (design.has_no_maximum) {
+    std::printf("             the search ended here: no largest value was found\n");
+  }
+}
+
+void analyze_command(const AnalyzeArguments& arguments, const std::string& command_line) {
+  const std::vector<std::string> files = plant_files_of(arguments.gains, arguments.plant);
+  const DesignConfig config = read_design_config(files, load_plant_plugin);
+  AnalysisProblem problem = read_problem(arguments, config);
+  std::vector<Objective> objectives = {objective_of(arguments.objective)};
+  if (arguments.objective.empty()) {
+    objectives = analysis_objectives(*problem.theorem, problem.subject);
+  }
+  if (objectives.front() == Objective::kMinFinalError) {
+    DesignProblem assumed;
+    assumed.subject = problem.subject;
+    assume({config.noise, config.disturbance}, assumed);
+    problem.subject = assumed.subject;
+    problem.assumptions = assumed.assumptions;
+  }
+  SynthesisOptions options;
+  options.jobs = arguments.jobs;
+  options.time_limit = arguments.time_limit;
+
+  std::printf("%s: %s\n", problem.theorem->name().c_str(), problem.theorem->guarantee().c_str());
+  std::optional<Design> main;
+  for (const Objective objective : objectives) {
+    problem.objective = objective;
+    try {
+      const Design found = analyze(problem, options);
+      print_result(objective, found);
+      if (!main) main = found;
+    } catch (const RequestError&) {
+      throw;
+    } catch (const DesignError& error) {
+      std::printf("  %-9s  no proof: %s\n", to_string(objective), error.what());
+    }
+  }
+  if (!main) throw ExitStatus{kNoDesign};
+  DesignProblem assumed;
+  assumed.subject = problem.subject;
+  assume({config.noise, config.disturbance}, assumed);
+  print_run_time_figures(*main, assumed.assumptions);
+  if (arguments.output.empty()) return;
+  save_gain_file(*main, files.front(), config.plant_hash, command_line, arguments.output);
+  std::printf("written to %s\n", arguments.output.c_str());
+}
+
+}  // namespace
+
+void add_analyze(CLI::App& app, const std::string& command_line) {
+  CLI::App* command = app.add_subcommand(
+      "analyze", "Find what can be proved of given gains: least gain, fastest rate, largest T2");
+  auto arguments = std::make_shared<AnalyzeArguments>();
+  std::vector<std::string> names;
+  for (const Theorem* theorem : theorems()) names.push_back(theorem->name());
+  command->add_option("gains", arguments->gains, "Gain file, with or without certificate")
+      ->required()
+      ->type_name("GAINS");
+  command
+      ->add_option("--plant", arguments->plant,
+                   "Files with the plant, instead of the one that the gain file names")
+      ->type_name("PLANT");
+  command
+      ->add_option("--theorem", arguments->theorem,
+                   "Instead of the one of the certificate, or of the first one that is about the "
+                   "observer type and the plant")
+      ->check(CLI::IsMember(names));
+  command
+      ->add_option("--objective", arguments->objective,
+                   "What to look for (default: all that have a meaning)")
+      ->check(CLI::IsMember({"feasible", "min-gamma", "max-T2", "max-decay", "min-final-error"}));
+  command->add_option("-o,--output", arguments->output,
+                      "Gain file to write, with the first of the proofs found");
+  command->add_option("--T1", arguments->T1, "Instead of that of the gain file [s]")
+      ->check(number_above(0));
+  command->add_option("--T2", arguments->T2, "Instead of that of the gain file [s]")
+      ->check(number_above(0));
+  command->add_option("--set", arguments->assignments,
+                      "Fix a parameter of the theorem, NAME=NUMBER; may be given several times");
+  command->add_option("--jobs", arguments->jobs, "Solvers at a time (default: all processors)")
+      ->check(whole_number_at_least(1));
+  command->add_option("--time-limit", arguments->time_limit, "For one attempt [s]")
+      ->check(number_at_least(0));
+  command->callback([arguments, command_line] { analyze_command(*arguments, command_line); });
+}
+
+}  // namespace sampled_data_observers

@@ -1,0 +1,251 @@
+#include "design/sweep.h"
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <vector>
+
+#include "config/design_config.h"
+#include "console/option_checks.h"
+#include "console/plot_program.h"
+#include "console/progress_bar.h"
+#include "design/csv.h"
+#include "design/sweep_folder.h"
+#include "design/workers.h"
+#include "messages/plant_plugins.h"
+#include "tools/design/commands.h"
+#include "tools/design/gain_files.h"
+
+namespace sampled_data_observers {
+namespace {
+
+/// Where the plant file has one time between samples only, T2 begins at this part of it.
+constexpr double kShortest = 0.1;
+/// From this ratio of values on, they are drawn on a logarithmic axis.
+constexpr double kLogarithmicFrom = 8.0;
+
+struct SweepArguments {
+  std::vector<std::string> files;
+  std::vector<std::string> methods;
+  std::string objective;
+  std::string output;
+  std::vector<double> T2;
+  double T1 = 0.0;
+  std::size_t points = 20;
+  std::vector<std::string> assignments;
+  unsigned jobs = default_jobs();
+  double time_limit = 20.0;
+};
+
+volatile std::sig_atomic_t interrupted = 0;
+
+/// From here on, Ctrl-C (and the end that a system sends) is noted; a second one ends at once.
+void note_interruptions() {
+  struct sigaction action = {};
+  action.sa_handler = [](int) { interrupted = 1; };
+  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  ::sigaction(SIGINT, &action, nullptr);
+  ::sigaction(SIGTERM, &action, nullptr);
+}
+
+Objective objective_for(const SweepArguments& arguments, const CertificateSubject& subject) {
+  if (!arguments.objective.empty()) return objective_of(arguments.objective);
+  return methods_for(subject, Objective::kMinGamma).empty() ? Objective::kMaxDecay
+                                                            : Objective::kMinGamma;
+}
+
+SweepRequest request_of(const SweepArguments& arguments, const DesignConfig& config) {
+  SweepRequest request;
+  request.subject = config.subject;
+  double low = 0.0;
+  double high = 0.0;
+  if (!arguments.T2.empty()) {
+    low = arguments.T2[0];
+    high = arguments.T2[1];
+  } else if (config.subject.T2 > 0.0) {
+    high = config.subject.T2;
+    low = config.subject.T1 < high ? config.subject.T1 : kShortest * high;
+  } else {
+    throw DesignError(
+        "the times between samples are missing: give --T2 LOW HIGH, or "
+        "design/sampling in " +
+        arguments.files.front());
+  }
+  request.T2 = sweep_times(low, high, arguments.points);
+  const double T1 = arguments.T1 > 0.0 ? arguments.T1 : config.subject.T1;
+  if (arguments.T1 > request.T2.front()) {
+    throw DesignError("T1 = " + shortest_decimal(T1) + " s: expected at most the least T2, " +
+                      shortest_decimal(request.T2.front()) + " s");
+  }
+  request.subject.T1 = T1 > 0.0 ? std::min(T1, request.T2.front()) : request.T2.front();
+  request.subject.T2 = request.T2.back();
+  request.objective = objective_for(arguments, request.subject);
+  for (const std::string& name : arguments.methods) {
+    request.methods.push_back(find_design_method(name));
+  }
+  if (request.methods.empty()) request.methods = methods_for(request.subject, request.objective);
+  if (request.methods.empty()) {
+    throw DesignError(std::string("no method serves the objective ") +
+                      to_string(request.objective) +
+                      " for this plant; `design explain` tells why not");
+  }
+  request.given = config.parameters;
+  for (const std::string& assignment : arguments.assignments) assign(assignment, request.given);
+  require_sense(request);
+  return request;
+}
+
+void draw(const SweepRequest& request, const std::vector<CurvePoint>& curves,
+          const SweepArguments& arguments) {
+  nlohmann::json json;
+  json["title"] = arguments.files.front();
+  for (const auto& [name, value] : request.given) {
+    json["title"] =
+        json["title"].get<std::string>() + ", " + name + " = " + shortest_decimal(value);
+  }
+  json["x_label"] = "$T_2$, longest time between samples [s]";
+  json["y_label"] = drawn_quantity(*request.methods.front(), request.subject, request.objective);
+  json["curves"] = nlohmann::json::array();
+  double least = std::numeric_limits<double>::infinity();
+  double largest = 0.0;
+  for (const DesignMethod* method : request.methods) {
+    nlohmann::json x = nlohmann::json::array();
+    nlohmann::json y = nlohmann::json::array();
+    nlohmann::json crosses = nlohmann::json::array();
+    for (const CurvePoint& point : curves) {
+      if (point.method != method->name()) continue;
+      if (point.design.value) {
+        x.push_back(point.T2);
+        y.push_back(*point.design.value);
+        least = std::min(least, *point.design.value);
+        largest = std::max(largest, *point.design.value);
+      } else {
+        crosses.push_back(point.T2);
+      }
+    }
+    json["curves"].push_back({{"label", method->name()}, {"x", x}, {"y", y}, {"crosses", crosses}});
+  }
+  json["logarithmic"] = largest > kLogarithmicFrom * least;
+  for (const char* ending : {"png", "svg"}) {
+    run_plot_program("plot_curves", json.dump(), arguments.output + "/curve." + ending);
+  }
+}
+
+void print_summary(const SweepRequest& request, const std::vector<CurvePoint>& curves) {
+  std::printf("%-34s %8s  %12s  %s\n", "method", "designs", "largest T2",
+              request.objective == Objective::kMinGamma ? "gain at least and largest T2"
+                                                        : "rate at least and largest T2");
+  for (const DesignMethod* method : request.methods) {
+    std::vector<const CurvePoint*> designs;
+    std::size_t points = 0;
+    for (const CurvePoint& point : curves) {
+      if (point.method != method->name()) continue;
+      ++points;
+      if (point.design.value) designs.push_back(&point);
+    }
+    const std::string count = std::to_string(designs.size()) + "/" + std::to_string(points);
+    if (designs.empty()) {
+      std::printf("%-34s %8s\n", method->name().c_str(), count.c_str());
+      continue;
+    }
+    std::printf("%-34s %8s  %10.6g s  %.4g ... %.4g\n", method->name().c_str(), count.c_str(),
+                designs.back()->T2, *designs.front()->design.value, *designs.back()->design.value);
+  }
+}
+
+void sweep_command(const SweepArguments& arguments, const std::string& command_line) {
+  const DesignConfig config = read_design_config(arguments.files, load_plant_plugin);
+  const SweepRequest request = request_of(arguments, config);
+  SweepFolder folder(arguments.output, request, config.plant_hash);
+  const GainFileOrigin origin = origin_of(arguments.output + "/gains/design.yaml",
+                                          arguments.files.front(), config.plant_hash, command_line);
+  note_interruptions();
+  SweepOptions options;
+  options.jobs = arguments.jobs;
+  options.time_limit = arguments.time_limit;
+  options.is_done = [&](const std::string& method, double T2) { return folder.has(method, T2); };
+  options.is_cancelled = [] { return interrupted != 0; };
+  std::size_t lost = 0;
+  try {
+    ProgressBar progress("sweep", remaining_points(request, options));
+    options.on_point = [&](const SweepPoint& point, const Design* design) {
+      folder.add(point, design, origin);
+      progress.advance();
+    };
+    lost = run_sweep(request, options);
+  } catch (const Cancelled&) {
+    folder.write_curve();
+    std::fprintf(stderr,
+                 "design: interrupted; %zu of %zu points are in %s. The same command goes on.\n",
+                 folder.points().size(), request.methods.size() * request.T2.size(),
+                 arguments.output.c_str());
+    throw ExitStatus{kInterrupted};
+  }
+  folder.write_curve();
+  const std::vector<CurvePoint> curves = best_curves(folder.points(), request.objective);
+  draw(request, curves, arguments);
+  print_summary(request, curves);
+  std::printf("written to %s: curve.csv, curve.png, curve.svg, points.csv, gains/\n",
+              arguments.output.c_str());
+  if (lost > 0) {
+    throw std::runtime_error(std::to_string(lost) +
+                             " points were lost with their process; the same command tries again");
+  }
+  if (std::none_of(curves.begin(), curves.end(),
+                   [](const CurvePoint& point) { return point.design.value.has_value(); })) {
+    std::fprintf(stderr, "design: no design at any point; points.csv says why\n");
+    throw ExitStatus{kNoDesign};
+  }
+}
+
+}  // namespace
+
+void add_sweep(CLI::App& app, const std::string& command_line) {
+  CLI::App* command = app.add_subcommand(
+      "sweep", "Trade-off curves: the best designs over the longest time between samples");
+  auto arguments = std::make_shared<SweepArguments>();
+  std::vector<std::string> names;
+  for (const DesignMethod* method : design_methods()) names.push_back(method->name());
+  command->add_option("plant", arguments->files, "Files with plant, sensors and design")
+      ->required()
+      ->type_name("PLANT");
+  command
+      ->add_option("-o,--output", arguments->output,
+                   "Folder for curves and gain files; what is finished in it is kept")
+      ->required();
+  command
+      ->add_option("--method", arguments->methods,
+                   "As for synthesize; may be given several times (default: all that are about the "
+                   "plant and serve the objective)")
+      ->check(CLI::IsMember(names));
+  command
+      ->add_option("--objective", arguments->objective,
+                   "What is drawn over T2 (default: min-gamma where the plant has N)")
+      ->check(CLI::IsMember({"min-gamma", "max-decay"}));
+  command
+      ->add_option("--T2", arguments->T2,
+                   "LOW and HIGH of T2 [s] (default: design/sampling T1 and T2)")
+      ->expected(2)
+      ->check(number_above(0));
+  command
+      ->add_option("--T1", arguments->T1,
+                   "T1 of all designs [s] (default: design/sampling, at most LOW)")
+      ->check(number_above(0));
+  command->add_option("--points", arguments->points, "Number of T2")->check(CLI::Range(1, 100000));
+  command->add_option("--set", arguments->assignments,
+                      "Fix a parameter of the methods, NAME=NUMBER; may be given several times");
+  command->add_option("--jobs", arguments->jobs, "Points at a time (default: all processors)")
+      ->check(whole_number_at_least(1));
+  command->add_option("--time-limit", arguments->time_limit, "For one attempt [s]")
+      ->check(number_at_least(0));
+  command->callback([arguments, command_line] { sweep_command(*arguments, command_line); });
+}
+
+}  // namespace sampled_data_observers

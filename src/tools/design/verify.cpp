@@ -1,0 +1,171 @@
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <memory>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "config/certificate_config.h"
+#include "config/claim_contradiction.h"
+#include "config/plant_fingerprint.h"
+#include "console/progress_bar.h"
+#include "design/certificate_proof.h"
+#include "design/gain_file.h"
+#include "design/rigorous_check.h"
+#include "messages/plant_plugins.h"
+#include "sampled_data_observers/config/plant_config.h"
+#include "sampled_data_observers/config/yaml_file.h"
+#include "tools/design/commands.h"
+#include "tools/design/gain_files.h"
+
+namespace sampled_data_observers {
+namespace {
+
+struct VerifyArguments {
+  std::string gains;
+  std::vector<std::string> plant;
+  bool is_rigorous = false;
+  bool records = false;
+  double time_limit = ProofOptions().time_limit;  // [s]
+};
+
+/// The claim of a gain file together with its plant: the one named, or the one given.
+CertificateConfig read_claim(const VerifyArguments& arguments) {
+  const ConfigNode gains = read_yaml_file(arguments.gains);
+  const std::vector<std::string> files = plant_files_of(arguments.gains, arguments.plant);
+  std::vector<ConfigNode> trees;
+  for (const std::string& file : files) trees.push_back(read_yaml_file(file));
+  const ConfigNode plant_tree = merge(trees);
+  ConfigSection plant_root(plant_tree, "");
+  const PlantConfig plant = read_plant(plant_root, load_plant_plugin);
+  ConfigSection root(gains, "");
+  auto config = read_certificate(root, *plant.plant);
+  if (!config) throw root.error("certificate", "a gain file with a certificate", "none");
+  ConfigSection plant_section = plant_root.section("plant");
+  ConfigSection section = root.section("certificate");
+  require_no_contradiction(*plant.plant, config->certificate.subject.plant.stated, plant_section,
+                           section);
+  const std::string hash = plant_fingerprint(plant_tree);
+  if (hash != config->plant_hash) {
+    throw ConfigError(config->origin, "certificate/plant/hash",
+                      "the fingerprint of " + files.front() + ", " + hash, config->plant_hash);
+  }
+  return *config;
+}
+
+void verify_in_floating_point(const Certificate& certificate) {
+  const auto checks = check(certificate);
+  for (const ConditionCheck& check : checks) {
+    std::printf("  %-9s %s", check.holds() ? "holds" : "VIOLATED", check.name.c_str());
+    if (check.kind == Condition::Kind::kDefinite) {
+      std::printf(", least eigenvalue %.3g (scaled, rounding %.1e)", check.min_eigenvalue,
+                  check.rounding);
+    } else {
+      std::printf(", by %.6g", std::abs(check.min_eigenvalue));
+    }
+    if (check.tau) std::printf(" at tau = %.6g s", *check.tau);
+    std::printf("\n");
+  }
+  if (!all_hold(checks)) throw ExitStatus{kNotVerified};
+}
+
+/// Returns the number of conditions, all of which are proved.
+std::size_t verify_rigorously(const Certificate& certificate, double time_limit) {
+  const auto conditions = certificate.theorem->conditions(certificate.subject);
+  std::vector<ConditionProof> proofs;
+  {
+    constexpr std::size_t kSteps = 1000;
+    ProgressBar progress("verify", kSteps);
+    ProofOptions options;
+    options.time_limit = time_limit;
+    options.on_progress = [&](double share) {
+      progress.advance_to(static_cast<std::size_t>(share * static_cast<double>(kSteps)));
+    };
+    proofs = prove(certificate, options);
+  }
+  bool is_disproved = false;
+  bool is_undecided = false;
+  for (std::size_t i = 0; i < proofs.size(); ++i) {
+    const ConditionProof& proof = proofs[i];
+    std::printf("  %-9s %s", to_string(proof.status), proof.name.c_str());
+    switch (proof.status) {
+      case ProofStatus::kProved:
+        if (proof.intervals > 1) std::printf(", on %zu intervals of tau", proof.intervals);
+        break;
+      case ProofStatus::kDisproved:
+        is_disproved = true;
+        std::printf(conditions[i].is_domain() ? ", by %.17g" : ", an eigenvalue <= %.17g",
+                    proof.value);
+        if (proof.tau) std::printf(" at tau = %.17g s", *proof.tau);
+        break;
+      case ProofStatus::kUndecided:
+        is_undecided = true;
+        std::printf(": %s", proof.reason.c_str());
+        break;
+    }
+    std::printf("\n");
+  }
+  if (is_disproved) throw ExitStatus{kNotVerified};
+  if (is_undecided) throw ExitStatus{kUndecided};
+  return proofs.size();
+}
+
+void record_proof(const std::string& file, const Certificate& certificate, std::size_t conditions) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  std::string recorded;
+  try {
+    recorded = with_proof_record(text.str(), proof_record(certificate, conditions));
+  } catch (const std::invalid_argument& fault) {
+    throw std::runtime_error(file + ": certificate: " + fault.what());
+  }
+  replace_file(file, recorded);
+  std::printf("recorded in %s\n", file.c_str());
+}
+
+void verify_command(const VerifyArguments& arguments) {
+  const CertificateConfig config = read_claim(arguments);
+  const Certificate& certificate = config.certificate;
+  std::printf("%s\n", statement(certificate).c_str());
+  if (arguments.is_rigorous) {
+    const std::size_t proved = verify_rigorously(certificate, arguments.time_limit);
+    if (arguments.records) record_proof(arguments.gains, certificate, proved);
+  } else {
+    verify_in_floating_point(certificate);
+  }
+}
+
+}  // namespace
+
+void add_verify(CLI::App& app) {
+  CLI::App* command =
+      app.add_subcommand("verify", "Check the original inequalities of a gain file's theorem");
+  auto arguments = std::make_shared<VerifyArguments>();
+  command->add_option("gains", arguments->gains, "Gain file")->required()->type_name("GAINS");
+  command
+      ->add_option("--plant", arguments->plant,
+                   "Files with the plant, instead of the one that the gain file names")
+      ->type_name("PLANT");
+  CLI::Option* rigorous =
+      command->add_flag("--rigorous", arguments->is_rigorous,
+                        "Prove or disprove them in ball arithmetic, for all tau and for the "
+                        "decimals in the files, instead of a check in floating point");
+  command
+      ->add_flag("--record", arguments->records,
+                 "Write into the gain file that all is proved, as 'synthesize' does")
+      ->needs(rigorous);
+  command
+      ->add_option("--time-limit", arguments->time_limit,
+                   "With --rigorous: what is not decided after this time [s] is undecided")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber)
+      ->type_name("SECONDS");
+  command->callback([arguments] { verify_command(*arguments); });
+}
+
+}  // namespace sampled_data_observers

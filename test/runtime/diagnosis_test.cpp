@@ -1,0 +1,276 @@
+// What diagnostics say of what was recorded.
+#include "sampled_data_observers/runtime/diagnosis.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace sampled_data_observers {
+namespace {
+
+constexpr Duration kSecond = kNanosecondsPerSecond;
+
+/// Names found in a finding's message, all of which must be there.
+void expect(HealthLevel level, const std::vector<const char*>& parts, const Finding& finding) {
+  EXPECT_EQ(level, finding.level) << finding.message;
+  for (const char* part : parts) {
+    EXPECT_NE(std::string::npos, finding.message.find(part)) << part << " | " << finding.message;
+  }
+}
+
+std::string value(const Finding& finding, const std::string& key) {
+  for (const auto& entry : finding.values) {
+    if (entry.first == key) return entry.second;
+  }
+  return "no " + key;
+}
+
+class DiagnosisTest : public ::testing::Test {
+ protected:
+  static DiagnosisSubject subject() {
+    DiagnosisSubject subject;
+    subject.channels = {{"position", "/position", EventKind::kSample, "geometry_msgs/PoseStamped"},
+                        {"input", "/input", EventKind::kInput, "geometry_msgs/TwistStamped"},
+                        {"jumps", "/jumps", EventKind::kJump, "sampled_data_observers/JumpEvent"}};
+    subject.history = 2 * kSecond;
+    subject.period = kSecond / 100;
+    subject.sampling = {kSecond / 100, kSecond / 2};
+    subject.guarantee = "a theorem";
+    return subject;
+  }
+
+  /// A second in which all went well.
+  static RunStatistics good() {
+    RunStatistics window(3);
+    window.channels[0].outcomes[0] = 10;
+    window.lateness = {100, 100'000, 500, 2000};
+    window.newest_estimate = 99 * kSecond;
+    window.error_bound = 0.5;
+    return window;
+  }
+
+  static std::uint64_t& outcome(RunStatistics& window, EventOutcome outcome) {
+    return window.channels[0].outcomes[static_cast<std::size_t>(outcome)];
+  }
+
+  void update(const RunStatistics& window) {
+    now_ += kSecond;
+    diagnosis_.update(window, now_, kSecond);
+  }
+
+  Diagnosis diagnosis_{subject()};
+  Stamp now_ = 100 * kSecond;
+};
+
+TEST_F(DiagnosisTest, AllIsWell) {
+  update(good());
+  expect(HealthLevel::kOk, {"published"}, diagnosis_.estimates());
+  EXPECT_EQ("100", value(diagnosis_.estimates(), "rate [Hz]"));
+  EXPECT_EQ("0.0015 ms", value(diagnosis_.estimates(), "jitter"));
+  expect(HealthLevel::kOk, {"used"}, diagnosis_.channel(0));
+  expect(HealthLevel::kOk, {"nothing received on /jumps"}, diagnosis_.channel(2));
+  expect(HealthLevel::kOk, {"valid"}, diagnosis_.certificate());
+}
+
+TEST_F(DiagnosisTest, SaysWhyThereIsNoEstimate) {
+  diagnosis_.update(RunStatistics(3), 0, 0);
+  expect(HealthLevel::kStale, {"/clock", "rosparam set /use_sim_time false"},
+         diagnosis_.estimates());
+  update(RunStatistics(3));
+  expect(HealthLevel::kStale, {"nothing was received", "/position", "rostopic"},
+         diagnosis_.estimates());
+  expect(HealthLevel::kStale, {"/position", "rostopic"}, diagnosis_.channel(0));
+  expect(HealthLevel::kWarn, {"/input"}, diagnosis_.channel(1));
+  RunStatistics window(3);
+  outcome(window, EventOutcome::kNoStamp) = 5;
+  update(window);
+  expect(HealthLevel::kError, {"/position", "stamp is zero", "header.stamp"},
+         diagnosis_.estimates());
+  expect(HealthLevel::kError, {"all rejected", "header.stamp"}, diagnosis_.channel(0));
+}
+
+TEST_F(DiagnosisTest, SaysWhatIsWrongWithTheEstimates) {
+  RunStatistics window = good();
+  window.lateness = Range();
+  update(window);
+  expect(HealthLevel::kError, {"no estimate since 99.000 s"}, diagnosis_.estimates());
+  window = good();
+  window.lateness.count = 60;
+  update(window);
+  expect(HealthLevel::kWarn, {"60 Hz instead of 100 Hz"}, diagnosis_.estimates());
+  window = good();
+  window.lateness.largest = 150'000'000;
+  update(window);
+  expect(HealthLevel::kWarn, {"150 ms late"}, diagnosis_.estimates());
+  window = good();
+  window.held = 3;
+  update(window);
+  expect(HealthLevel::kWarn, {"not finite"}, diagnosis_.estimates());
+  window = good();
+  window.saturated = 4;
+  update(window);
+  expect(HealthLevel::kWarn, {"4 of 100", "bound of saturations"}, diagnosis_.estimates());
+  window = good();
+  window.channels[0].trend = InnovationTrend::kGrowing;
+  window.channels[0].innovation = 12.5;
+  update(window);
+  expect(HealthLevel::kWarn, {"innovations of position grow", "12.5", "does the estimate diverge?"},
+         diagnosis_.estimates());
+  EXPECT_EQ("12.5", value(diagnosis_.channel(0), "innovation, last"));
+  window.channels[0].trend = InnovationTrend::kDiverging;
+  window.held = 3;
+  update(window);
+  expect(HealthLevel::kError, {"the estimate diverges", "position", "signs of the gains"},
+         diagnosis_.estimates());
+  diagnosis_.update(good(), now_, 0);
+  expect(HealthLevel::kStale, {"time stands still", "/use_sim_time"}, diagnosis_.estimates());
+}
+
+TEST_F(DiagnosisTest, SaysWhySamplesWereRejected) {
+  RunStatistics window = good();
+  outcome(window, EventOutcome::kInFuture) = 1;
+  outcome(window, EventOutcome::kTooOld) = 3;
+  outcome(window, EventOutcome::kDuplicate) = 9;
+  update(window);
+  const Finding finding = diagnosis_.channel(0);
+  expect(HealthLevel::kWarn, {"4 of 23 rejected", "history window", "clocks"}, finding);
+  EXPECT_EQ("3", value(finding,
+                       "in all: older than the history window, the start or the last "
+                       "reset"));
+  EXPECT_EQ("9", value(finding, "in all: duplicate of an event taken in before"));
+  update(good());
+  expect(HealthLevel::kOk, {"used"}, diagnosis_.channel(0));
+  EXPECT_EQ("3", value(diagnosis_.channel(0),
+                       "in all: older than the history window, the start or the last reset"));
+}
+
+TEST_F(DiagnosisTest, NamesTheTransformThatIsMissing) {
+  RunStatistics window(3);
+  outcome(window, EventOutcome::kNoTransform) = 4;
+  window.channels[0].missing_transform = "gps_origin -> mapp";
+  update(window);
+  expect(HealthLevel::kError, {"in time: gps_origin -> mapp (", "tf_echo"}, diagnosis_.channel(0));
+  expect(HealthLevel::kError, {"gps_origin -> mapp"}, diagnosis_.estimates());
+  outcome(window, EventOutcome::kNoStamp) = 5;
+  update(window);
+  EXPECT_EQ(std::string::npos, diagnosis_.channel(0).message.find("mapp"));
+}
+
+TEST_F(DiagnosisTest, NamesTheWrongTypeOfATopicThatNothingComesFrom) {
+  diagnosis_.set_published_type(0, "sensor_msgs/Imu");
+  diagnosis_.set_published_type(1, "geometry_msgs/TwistStamped");
+  update(RunStatistics(3));
+  const char* wrong =
+      "/position is published as sensor_msgs/Imu, expected geometry_msgs/PoseStamped";
+  expect(HealthLevel::kError, {wrong}, diagnosis_.channel(0));
+  expect(HealthLevel::kWarn, {"nothing received on /input"}, diagnosis_.channel(1));
+  expect(HealthLevel::kStale, {wrong}, diagnosis_.estimates());
+  diagnosis_.set_published_type(0, "");
+  expect(HealthLevel::kStale, {"nothing received on /position"}, diagnosis_.channel(0));
+  diagnosis_.set_published_type(0, "sensor_msgs/Imu");
+  update(good());  // from another publisher
+  expect(HealthLevel::kOk, {"used"}, diagnosis_.channel(0));
+}
+
+TEST_F(DiagnosisTest, StampsOlderThanTheHistoryAreTheCauseAndNotTheModel) {
+  RunStatistics window = good();
+  window.held = 50;
+  window.channels[0].latency = {10, 0, 3 * kSecond, 9 * kSecond};
+  update(window);
+  const std::vector<const char*> cause = {"stamps on /position are 3 s older than the clock",
+                                          "--clock", "/use_sim_time true"};
+  expect(HealthLevel::kWarn, cause, diagnosis_.estimates());
+  expect(HealthLevel::kWarn, cause, diagnosis_.channel(0));
+  window.channels[0] = ChannelStatistics();  // a second without messages changes nothing
+  update(window);
+  expect(HealthLevel::kWarn, cause, diagnosis_.estimates());
+  update(good());
+  expect(HealthLevel::kOk, {"published"}, diagnosis_.estimates());
+  window = good();
+  window.channels[0].latency = {10, 0, kSecond, 9 * kSecond};  // one was late, but not all
+  update(window);
+  expect(HealthLevel::kOk, {"published"}, diagnosis_.estimates());
+}
+
+TEST_F(DiagnosisTest, DuplicatesAloneAreNoFault) {
+  RunStatistics window = good();
+  window.channels[0].outcomes[0] = 0;
+  outcome(window, EventOutcome::kDuplicate) = 2;
+  update(window);
+  expect(HealthLevel::kOk, {}, diagnosis_.channel(0));
+}
+
+TEST_F(DiagnosisTest, ASensorThatFallsSilentIsStale) {
+  update(good());
+  RunStatistics silent = good();
+  silent.channels[0] = ChannelStatistics();
+  update(silent);
+  expect(HealthLevel::kOk, {"nothing lately"}, diagnosis_.channel(0));
+  for (int i = 0; i < 3; ++i) update(silent);
+  expect(HealthLevel::kStale, {"nothing for 4 s on /position", "rostopic hz"},
+         diagnosis_.channel(0));
+  expect(HealthLevel::kWarn, {"suspended since 101.000 s", "no sample of position", "T2 = 0.5 s"},
+         diagnosis_.certificate());
+}
+
+TEST_F(DiagnosisTest, IntervalsOutsideSuspendTheCertificateUntilTheyAreWithin) {
+  RunStatistics window = good();
+  window.channels[0].interval = {10, 3 * kSecond, kSecond / 10, 2 * kSecond};
+  window.channels[0].long_intervals = 1;
+  window.channels[0].violations = {1, 0, 100'700'000'000, 100'700'000'000};
+  update(window);
+  expect(HealthLevel::kWarn, {"1 times", "[0.01 s, 0.5 s]"}, diagnosis_.channel(0));
+  expect(
+      HealthLevel::kWarn,
+      {"suspended since 100.700 s", "a time between events of position of 2 s, above T2 = 0.5 s"},
+      diagnosis_.certificate());
+  update(good());
+  expect(HealthLevel::kOk, {"restored at 102.000 s", "suspended since 100.700 s"},
+         diagnosis_.certificate());
+}
+
+TEST_F(DiagnosisTest, WhatComesAfterABoundThatRestedOnItsAbsenceSuspendsTheCertificate) {
+  RunStatistics window = good();
+  window.channels[0].after_bound = 2;
+  window.channels[0].latency = {3, 160'000'000, 50'000'000, 60'000'000};
+  update(window);
+  EXPECT_TRUE(diagnosis_.is_suspended());
+  const std::string message = diagnosis_.certificate().message;
+  EXPECT_NE(std::string::npos, message.find("2 events of ")) << message;
+  EXPECT_NE(std::string::npos, message.find("set error_assumptions/latency")) << message;
+  update(good());
+  EXPECT_FALSE(diagnosis_.is_suspended());
+  bool is_told = false;
+  for (const auto& [key, value] : diagnosis_.channel(0).values) {
+    is_told = is_told || (key == "after a published bound, in all" && value == "2");
+  }
+  EXPECT_TRUE(is_told);
+}
+
+TEST_F(DiagnosisTest, ALostBoundSuspendsTheCertificateUntilAReset) {
+  RunStatistics lost = good();
+  lost.error_bound = std::numeric_limits<double>::infinity();
+  lost.bound_lost_since = 100'250'000'000;
+  lost.bound_loss = BoundLoss::kUnknownInput;
+  update(lost);
+  expect(HealthLevel::kWarn, {"suspended since 100.250 s", "an input was rejected", "reset"},
+         diagnosis_.certificate());
+  EXPECT_TRUE(diagnosis_.is_suspended());
+  update(lost);
+  expect(HealthLevel::kWarn, {"suspended since 100.250 s", "an input was rejected", "reset"},
+         diagnosis_.certificate());
+  update(good());
+  expect(HealthLevel::kOk, {"restored at 103.000 s"}, diagnosis_.certificate());
+}
+
+TEST(DiagnosisOfConfigurationsTest, WithoutCertificateThereIsNoneToSuspend) {
+  Diagnosis without{DiagnosisSubject()};
+  expect(HealthLevel::kOk, {"none configured"}, without.certificate());
+  DiagnosisSubject subject;
+  subject.warning = "the plant is another";
+  expect(HealthLevel::kWarn, {"the plant is another"}, Diagnosis(subject).certificate());
+}
+
+}  // namespace
+}  // namespace sampled_data_observers

@@ -1,0 +1,243 @@
+#include "sampled_data_observers/runtime/estimator.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "observer/delayed_jumps.h"
+#include "support/allocation_counter.h"
+#include "support/random_events.h"
+
+namespace sampled_data_observers {
+namespace {
+
+using test::OwnedEvent;
+
+constexpr Stamp kStart = 1'600'000'000'000'000'000;
+constexpr Duration kSecond = kNanosecondsPerSecond;
+
+class EstimatorTest : public ::testing::Test {
+ protected:
+  static Estimator::Options options() {
+    Estimator::Options result;
+    result.history = {10 * kSecond, 1000};
+    result.sampling = {kSecond / 10, kSecond};
+    result.future_tolerance = kSecond / 2;
+    return result;
+  }
+  EventReport submit(const OwnedEvent& event) { return estimator_.submit(event.view(), now_); }
+  static OwnedEvent sample(Stamp stamp, double value = 1.0) {
+    return {stamp, EventKind::kSample, 0, {value}};
+  }
+
+  Stamp now_ = kStart + 5 * kSecond;
+  Estimator estimator_{test::example_law(), options()};
+};
+
+TEST_F(EstimatorTest, SaysWhatBecameOfEachEvent) {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(EventOutcome::kUsed, submit(sample(kStart)).outcome);
+  EXPECT_EQ(EventOutcome::kUsed, submit(sample(kStart + kSecond)).outcome);
+  EXPECT_EQ(EventOutcome::kUsedLate, submit(sample(kStart + kSecond / 2)).outcome);
+  EXPECT_EQ(EventOutcome::kDuplicate, submit(sample(kStart)).outcome);
+  EXPECT_EQ(EventOutcome::kTooOld, submit(sample(kStart - 20 * kSecond)).outcome);
+  EXPECT_EQ(EventOutcome::kInFuture, submit(sample(now_ + kSecond)).outcome);
+  EXPECT_EQ(EventOutcome::kNoStamp, submit(sample(0)).outcome);
+  EXPECT_EQ(EventOutcome::kNotFinite, submit(sample(kStart + 1, kNaN)).outcome);
+  EXPECT_EQ(EventOutcome::kNotFinite, submit(sample(kStart + 1, -kInfinity)).outcome);
+  EXPECT_EQ(EventOutcome::kWrongSize, submit({kStart + 1, EventKind::kSample, 0, {}}).outcome);
+  EXPECT_EQ(EventOutcome::kWrongSize,
+            submit({kStart + 1, EventKind::kSample, 0, {1.0, 2.0}}).outcome);
+  Estimate estimate = estimator_.make_estimate();
+  estimator_.estimate_at(now_, estimate);
+  EXPECT_EQ(3u, estimate.counts.events);
+}
+
+TEST_F(EstimatorTest, AnEventInTheNearFutureIsTakenInButHasNoEffectYet) {
+  submit(sample(kStart));
+  EXPECT_EQ(EventOutcome::kUsed, submit(sample(now_ + kSecond / 4)).outcome);
+  Estimate estimate = estimator_.make_estimate();
+  estimator_.estimate_at(now_, estimate);
+  EXPECT_EQ(1u, estimate.counts.events);
+}
+
+TEST_F(EstimatorTest, ChecksTheIntervalsBetweenSamples) {
+  EXPECT_EQ(IntervalCheck::kNone, submit(sample(kStart)).interval_check);
+  const EventReport within = submit(sample(kStart + kSecond / 2));
+  EXPECT_EQ(IntervalCheck::kWithin, within.interval_check);
+  EXPECT_EQ(kSecond / 2, *within.interval);
+  EXPECT_EQ(IntervalCheck::kLong, submit(sample(kStart + 2 * kSecond)).interval_check);
+  EXPECT_EQ(IntervalCheck::kShort, submit(sample(kStart + 2 * kSecond + 1)).interval_check);
+  // Each sensor has intervals of its own.
+  EXPECT_FALSE(submit({kStart + kSecond / 2, EventKind::kSample, 1, {0.0, 0.0}}).interval);
+  EXPECT_EQ(kSecond,
+            *submit({kStart + 3 * kSecond / 2, EventKind::kSample, 1, {0.0, 0.0}}).interval);
+  EXPECT_FALSE(submit({kStart + 3 * kSecond, EventKind::kJump, 0, {}}).interval);
+}
+
+TEST_F(EstimatorTest, RestartsFromTheConfiguredOrAGivenEstimate) {
+  submit(sample(kStart));
+  estimator_.restart(kStart + kSecond);
+  Estimate estimate = estimator_.make_estimate();
+  EXPECT_EQ(Timeline::Query::kOk, estimator_.estimate_at(kStart + kSecond, estimate));
+  EXPECT_EQ(Eigen::Vector3d(0.3, -0.2, 3.0), Eigen::Vector3d(estimate.state.head(3)));
+  EXPECT_EQ(EventOutcome::kTooOld, submit(sample(kStart + kSecond)).outcome);
+  const Eigen::VectorXd given = Eigen::Vector3d(1.0, 2.0, 3.0);
+  estimator_.restart(kStart + 2 * kSecond, given);
+  estimator_.estimate_at(kStart + 2 * kSecond, estimate);
+  EXPECT_EQ(given, estimate.state.head(3));
+}
+
+TEST_F(EstimatorTest, TheIntervalReachesBackBeyondTheWindow) {
+  submit(sample(kStart));
+  submit({kStart + kSecond, EventKind::kInput, 0, {1.0, 2.0}});
+  now_ = kStart + 60 * kSecond;
+  EXPECT_EQ(60 * kSecond, *submit(sample(now_)).interval);
+}
+
+TEST_F(EstimatorTest, NoSampleHoweverLargeMakesItDeaf) {
+  LinearPlantDescription plant;  // x' = x: an unstable one, corrected by half at each sample
+  plant.state_names = {"x"};
+  plant.A = Eigen::MatrixXd::Ones(1, 1);
+  plant.B = Eigen::MatrixXd::Zero(1, 0);
+  plant.sensors = {{"s", Eigen::MatrixXd::Ones(1, 1), {false}}};
+  const auto law = std::make_shared<const ConstantGainObserver>(
+      ObserverContext{make_linear_plant(plant), Eigen::VectorXd::Zero(1), Eigen::VectorXd::Zero(0)},
+      std::vector<Eigen::MatrixXd>{Eigen::MatrixXd::Constant(1, 1, 0.5)});
+  Estimator estimator(law, options());
+  const auto take = [&](Stamp stamp, double value) {
+    return estimator.submit(sample(stamp, value).view(), stamp).outcome;
+  };
+  EXPECT_EQ(EventOutcome::kUsed, take(kStart, 1.0));
+  EXPECT_EQ(EventOutcome::kNotFinite, take(kStart + 1, 2e307));
+  EXPECT_EQ(EventOutcome::kUsed, take(kStart + 2, 1e100));
+  for (int i = 1; i < 1000; ++i) {
+    EXPECT_EQ(EventOutcome::kUsed, take(kStart + i * kSecond / 10, 1.0));
+  }
+  Estimate estimate = estimator.make_estimate();
+  estimator.estimate_at(kStart + 999 * kSecond / 10, estimate);
+  EXPECT_NEAR(1.0, estimate.state(0), 0.2);
+}
+
+TEST_F(EstimatorTest, ARestartKeepsTheInput) {
+  submit(sample(kStart));
+  submit({kStart + 1, EventKind::kInput, 0, {7.0, -3.0}});
+  estimator_.restart(kStart + kSecond);
+  Estimate estimate = estimator_.make_estimate();
+  estimator_.estimate_at(kStart + kSecond, estimate);
+  EXPECT_EQ(Eigen::Vector2d(7.0, -3.0), Eigen::Vector2d(estimate.state.segment<2>(5)));
+}
+
+TEST_F(EstimatorTest, EventsAndEstimatesAllocateNothing) {
+  if (!test::allocations_are_counted()) GTEST_SKIP() << "a sanitizer owns the allocator";
+  std::mt19937_64 generator(5);
+  const std::vector<OwnedEvent> events = test::random_events(generator, 300, kStart, 5 * kSecond);
+  Estimate estimate = estimator_.make_estimate();
+  const std::size_t before = test::allocations();
+  for (const OwnedEvent& event : events) {
+    submit(event);
+    estimator_.estimate_at(event.stamp, estimate);
+  }
+  EXPECT_EQ(before, test::allocations());
+}
+
+TEST_F(EstimatorTest, RefusesBoundsThatMakeNoSense) {
+  Estimator::Options bad = options();
+  bad.sampling.T1 = 0;
+  EXPECT_THROW(Estimator(test::example_law(), bad), std::invalid_argument);
+  bad = options();
+  bad.sampling.T1 = bad.sampling.T2 + 1;
+  EXPECT_THROW(Estimator(test::example_law(), bad), std::invalid_argument);
+  bad = options();
+  bad.future_tolerance = -1;
+  EXPECT_THROW(Estimator(test::example_law(), bad), std::invalid_argument);
+}
+
+TEST_F(EstimatorTest, AtTheNextSampleItStartsAsNearTheConfiguredEstimateAsTheSampleAllows) {
+  submit(sample(kStart));
+  submit({kStart + 1, EventKind::kInput, 0, {7.0, -3.0}});
+  estimator_.restart_at_next_sample(kStart + kSecond);
+  Estimate estimate = estimator_.make_estimate();
+  EXPECT_TRUE(estimator_.awaits_sample());
+  EXPECT_FALSE(estimator_.earliest());
+  EXPECT_EQ(Timeline::Query::kNoEvent, estimator_.estimate_at(now_, estimate));
+  EXPECT_EQ(EventOutcome::kTooOld, submit(sample(kStart + kSecond)).outcome);
+  // An input that came before the sample, but is stamped after it, goes on counting.
+  submit({kStart + 2 * kSecond, EventKind::kInput, 0, {5.0, 0.0}});
+  EXPECT_TRUE(estimator_.awaits_sample());
+
+  // y = (p + 0.5 v, yaw), with yaw an angle: 3 and -3.2 + 2 pi are 0.083 apart.
+  const Stamp start = kStart + 3 * kSecond / 2;
+  EXPECT_EQ(EventOutcome::kUsedLate, submit({start, EventKind::kSample, 1, {2.0, -3.2}}).outcome);
+  EXPECT_FALSE(estimator_.awaits_sample());
+  estimator_.estimate_at(start, estimate);
+  const Eigen::Vector2d correction = 1.8 * Eigen::Vector2d(1.0, 0.5) / 1.25;
+  EXPECT_NEAR(0.3 + correction(0), estimate.state(0), 1e-7);
+  EXPECT_NEAR(-0.2 + correction(1), estimate.state(1), 1e-7);
+  EXPECT_NEAR(2.0 * std::acos(-1.0) - 3.2, estimate.state(2), 1e-7);
+  EXPECT_EQ(1u, estimate.counts.samples);
+  EXPECT_EQ(Eigen::Vector2d(7.0, -3.0), Eigen::Vector2d(estimate.state.segment<2>(5)));
+  estimator_.estimate_at(kStart + 2 * kSecond, estimate);
+  EXPECT_EQ(Eigen::Vector2d(5.0, 0.0), Eigen::Vector2d(estimate.state.segment<2>(5)));
+  EXPECT_EQ(EventOutcome::kTooOld, submit(sample(start - kSecond / 4)).outcome);
+  EXPECT_EQ(EventOutcome::kUsedLate, submit(sample(start)).outcome);
+}
+
+TEST_F(EstimatorTest, GoesOnAfterATimeOfUnknownEventsFromWhereTheModelFlowed) {
+  submit(sample(kStart));
+  Estimate expected = estimator_.make_estimate();
+  estimator_.estimate_at(kStart + kSecond, expected);
+  estimator_.resume(kStart + kSecond);
+  Estimate estimate = estimator_.make_estimate();
+  EXPECT_EQ(Timeline::Query::kOk, estimator_.estimate_at(kStart + kSecond, estimate));
+  EXPECT_EQ(expected.state, estimate.state);
+  EXPECT_EQ(EventOutcome::kTooOld, submit(sample(kStart + kSecond / 2)).outcome);
+}
+
+TEST_F(EstimatorTest, AnotherLawTakesOverTheEstimateAndWhatIsHeld) {
+  submit(sample(kStart));
+  submit({kStart + 1, EventKind::kInput, 0, {7.0, -3.0}});
+  Estimate before = estimator_.make_estimate();
+  estimator_.estimate_at(kStart + kSecond, before);
+  // Its state is larger: it is not copied, but made anew.
+  Estimator other(std::make_shared<const DelayedJumps>(test::example_law()), options());
+  other.take_over(estimator_, kStart + kSecond);
+  Estimate after = other.make_estimate();
+  ASSERT_EQ(Timeline::Query::kOk, other.estimate_at(kStart + kSecond, after));
+  EXPECT_EQ(Eigen::Vector3d(before.state.head(3)), Eigen::Vector3d(after.state.head(3)));
+  EXPECT_EQ(Eigen::Vector2d(7.0, -3.0), Eigen::Vector2d(after.state.segment<2>(5)));
+}
+
+TEST_F(EstimatorTest, ClearedItIsAsNew) {
+  submit(sample(kStart));
+  submit({kStart + 1, EventKind::kInput, 0, {7.0, -3.0}});
+  estimator_.restart_at_next_sample(kStart + kSecond);
+  estimator_.clear();
+  EXPECT_FALSE(estimator_.earliest());
+  EXPECT_FALSE(estimator_.awaits_sample());
+  EXPECT_EQ(EventOutcome::kUsed, submit(sample(kStart - 100 * kSecond)).outcome);
+  Estimator fresh(test::example_law(), options());
+  fresh.submit(sample(kStart - 100 * kSecond).view(), now_);
+  Estimate estimate = estimator_.make_estimate();
+  Estimate expected = fresh.make_estimate();
+  estimator_.estimate_at(kStart - 99 * kSecond, estimate);
+  fresh.estimate_at(kStart - 99 * kSecond, expected);
+  EXPECT_EQ(expected.state, estimate.state);
+}
+
+TEST_F(EstimatorTest, ARestartAtTheNextSampleAllocatesNothing) {
+  if (!test::allocations_are_counted()) GTEST_SKIP() << "a sanitizer owns the allocator";
+  const OwnedEvent first = sample(kStart);
+  const OwnedEvent next = sample(kStart + 2 * kSecond, 4.0);
+  submit(first);
+  const std::size_t before = test::allocations();
+  estimator_.restart_at_next_sample(kStart + kSecond);
+  submit(next);
+  EXPECT_EQ(before, test::allocations());
+  EXPECT_FALSE(estimator_.awaits_sample());
+}
+
+}  // namespace
+}  // namespace sampled_data_observers
