@@ -6,7 +6,8 @@
 #include "ros/plant_simulator.h"
 #include "sampled_data_observers/ros/observer_nodelet.h"
 
-// One nodelet per observer type. They differ in their names only: the configuration makes the law.
+// One nodelet per observer type, and one of any. They differ in their names only: the configuration
+// makes the law.
 #define SDO_OBSERVER_NODELET(TYPE)               \
   namespace sampled_data_observers {             \
   class TYPE##Nodelet : public ObserverNodelet { \
@@ -15,6 +16,14 @@
   };                                             \
   }                                              \
   PLUGINLIB_EXPORT_CLASS(sampled_data_observers::TYPE##Nodelet, nodelet::Nodelet)
+
+namespace sampled_data_observers {
+class AnyObserverNodelet : public ObserverNodelet {
+ public:
+  AnyObserverNodelet() : ObserverNodelet("") {}
+};
+}  // namespace sampled_data_observers
+PLUGINLIB_EXPORT_CLASS(sampled_data_observers::AnyObserverNodelet, nodelet::Nodelet)
 
 SDO_OBSERVER_NODELET(ConstantGainObserver)
 SDO_OBSERVER_NODELET(HighGainObserver)

@@ -24,11 +24,9 @@ void ObserverNodelet::onInit() {
   try {
     const ConfigNode tree = read_parameter_tree(getPrivateNodeHandle());
     const ObserverConfig config = read_observer_config(tree, load_plant_plugin);
-    if (config.type != type_) {
+    if (!type_.empty() && config.type != type_) {
       throw ConfigError("parameters of " + getPrivateNodeHandle().getNamespace(), "observer",
-                        type_ +
-                            ", the type of this nodelet (observer.launch and example.launch take "
-                            "another one by type:=)",
+                        type_ + ", the type of this nodelet (the nodelet Observer is of any)",
                         config.type);
     }
     start(tree, config);
@@ -83,7 +81,7 @@ void ObserverNodelet::start(const ConfigNode& tree, const ObserverConfig& config
   subscriptions_->start();
   event_threads_.start();
   service_threads_.start();
-  NODELET_INFO("%s: %zu states, estimates at %.6g Hz on %s", type_.c_str(),
+  NODELET_INFO("%s: %zu states, estimates at %.6g Hz on %s", config.type.c_str(),
                config.law->estimate_names().size(), 1.0 / to_seconds(config.period),
                publication_->topic().c_str());
   if (!config.guarantee.empty()) NODELET_INFO("certified by %s", config.guarantee.c_str());

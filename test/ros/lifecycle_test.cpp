@@ -29,9 +29,9 @@ std::size_t resident_kilobytes() {
 }
 
 /// Loads the nodelet as `name`, whose parameters the launch file has set.
-bool load(nodelet::Loader& loader, const std::string& name) {
+bool load(nodelet::Loader& loader, const std::string& name, const std::string& type = kType) {
   try {
-    return loader.load(name, kType, ros::M_string(), {});
+    return loader.load(name, type, ros::M_string(), {});
   } catch (const std::exception&) {
     return false;
   }
@@ -51,8 +51,9 @@ TEST_F(LifecycleTest, ABadConfigurationDoesNotStart) {
   EXPECT_FALSE(load(loader_, "/wrong_type"));
   EXPECT_FALSE(load(loader_, "/no_files"));
   EXPECT_FALSE(load(loader_, "/no_directory"));
+  EXPECT_FALSE(load(loader_, "/observer", "sampled_data_observers/SwitchedObserver"));
   EXPECT_TRUE(load(loader_, "/observer"));
-  EXPECT_TRUE(load(loader_, "/plain_parameters"));
+  EXPECT_TRUE(load(loader_, "/plain_parameters", "sampled_data_observers/Observer"));
 }
 
 TEST_F(LifecycleTest, MessagesPassByPointerInOneProcess) {

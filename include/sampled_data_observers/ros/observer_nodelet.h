@@ -17,7 +17,7 @@
 
 namespace sampled_data_observers {
 
-/// The nodelet of every observer type; each type derives from it and gives its name.
+/// The nodelet of any observer type, and what those of one type derive from.
 ///
 /// Private parameters: the configuration (read_parameter_tree()). Topics, services and what they
 /// mean: doc/ros_interface.md; threads and locks: doc/architecture.md.
@@ -26,7 +26,7 @@ class ObserverNodelet : public nodelet::Nodelet {
   ~ObserverNodelet() override;
 
  protected:
-  /// @param type  the value that the key `observer` of the configuration must have
+  /// @param type  the value that the key `observer` of the configuration must have; empty: any
   explicit ObserverNodelet(std::string type);
 
  private:

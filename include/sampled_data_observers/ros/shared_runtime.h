@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "sampled_data_observers/config/observer_config.h"
 #include "sampled_data_observers/real_time/priority_inheritance_mutex.h"
 #include "sampled_data_observers/runtime/observer_runtime.h"
 #include "sampled_data_observers/runtime/run_statistics.h"
@@ -26,6 +27,7 @@ class SharedRuntime {
 
     Stamp now() const { return now_; }
     ObserverRuntime* operator->() const { return shared_.runtime_.get(); }
+    ObserverRuntime& operator*() const { return *shared_.runtime_; }
 
    private:
     SharedRuntime& shared_;

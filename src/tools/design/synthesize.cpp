@@ -150,16 +150,14 @@ void require_something_to_weigh(const DeclaredAssumptions& declared) {
 }
 
 /// How an observer with these gains is started, and what its error bound takes.
-void print_how_to_run(const SynthesizeArguments& arguments, const DeclaredAssumptions& declared,
-                      const Design& design) {
+void print_how_to_run(const SynthesizeArguments& arguments, const DeclaredAssumptions& declared) {
   std::string files;
   for (const std::string& file : arguments.files) files += file + " ";
   std::printf(
       "To run it:\n"
       "  rosrun sampled_data_observers replay BAG %s%s\n"
-      "  roslaunch sampled_data_observers observer.launch config:=\"%s%s\" type:=%s\n",
-      files.c_str(), arguments.output.c_str(), files.c_str(), arguments.output.c_str(),
-      design.observer_type.c_str());
+      "  roslaunch sampled_data_observers observer.launch config:=\"%s%s\"\n",
+      files.c_str(), arguments.output.c_str(), files.c_str(), arguments.output.c_str());
   if (declared.noise) return;
   std::printf(
       "For a bound on the error, say how noisy the sensor is, in %s, and design again:\n"
@@ -213,7 +211,7 @@ void synthesize_command(const SynthesizeArguments& arguments, const std::string&
               design.seconds);
   print_run_time_figures(design, problem.assumptions);
   note_gains_near_their_bound(design);
-  print_how_to_run(arguments, {config.noise, config.disturbance}, design);
+  print_how_to_run(arguments, {config.noise, config.disturbance});
   if (!arguments.cross_check.empty()) {
     cross_check(*find_design_method(design.method), design, arguments.time_limit);
   }
