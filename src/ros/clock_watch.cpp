@@ -1,6 +1,5 @@
 #include "sampled_data_observers/ros/clock_watch.h"
 
-#include <ros/console.h>
 #include <ros/time.h>
 
 #include <utility>
@@ -16,7 +15,7 @@ constexpr int kChecksPerWarning = 10;
 
 }  // namespace
 
-ClockWatch::ClockWatch(const ros::NodeHandle& handle, std::string name) : name_(std::move(name)) {
+ClockWatch::ClockWatch(const ros::NodeHandle& handle, NodeLog log) : log_(std::move(log)) {
   if (!ros::Time::isSimTime()) return;
   timer_ = handle.createSteadyTimer(ros::WallDuration(kPatience),
                                     [this](const ros::SteadyTimerEvent&) { check(); });
@@ -27,7 +26,7 @@ void ClockWatch::check() {
   if (!ros::Time::now().isZero()) {
     timer_.stop();
   } else if (checks_++ % kChecksPerWarning == 0) {
-    ROS_WARN_NAMED(name_, "%s", kNoClock);
+    log_.warn("%s", kNoClock);
   }
 }
 

@@ -1,7 +1,5 @@
 #include "sampled_data_observers/ros/diagnostics_reporter.h"
 
-#include <ros/console.h>
-
 #include <utility>
 
 #include "messages/time_conversion.h"
@@ -34,14 +32,13 @@ DiagnosisSubject diagnosis_subject(const ObserverConfig& config) {
 }
 
 DiagnosticsReporter::DiagnosticsReporter(const ros::NodeHandle& handle,
-                                         const ros::NodeHandle& private_handle,
-                                         const std::string& name, DiagnosisSubject subject,
-                                         StatisticsRecorder& recorder)
-    : name_(name),
+                                         const ros::NodeHandle& private_handle, NodeLog log,
+                                         DiagnosisSubject subject, StatisticsRecorder& recorder)
+    : log_(std::move(log)),
       recorder_(recorder),
       diagnosis_(std::move(subject)),
       window_(diagnosis_.subject().channels.size()),
-      updater_(handle, private_handle, name) {
+      updater_(handle, private_handle, log_.name()) {
   updater_.setHardwareID("none");
   updater_.add("estimates", [this](auto& status) { copy(diagnosis_.estimates(), status); });
   updater_.add("certificate", [this](auto& status) { copy(diagnosis_.certificate(), status); });
@@ -60,9 +57,9 @@ void DiagnosticsReporter::tell_of_guarantee() {
   was_suspended_ = is_suspended;
   const std::string message = "guarantee " + diagnosis_.certificate().message;
   if (is_suspended) {
-    ROS_WARN_NAMED(name_, "%s", message.c_str());
+    log_.warn("%s", message.c_str());
   } else {
-    ROS_INFO_NAMED(name_, "%s", message.c_str());
+    log_.info("%s", message.c_str());
   }
 }
 

@@ -5,7 +5,7 @@
 namespace sampled_data_observers {
 
 EstimateOutputs::EstimateOutputs(ros::NodeHandle handle, const OutputsConfig& config,
-                                 Duration period)
+                                 Duration period, const NodeLog& log)
     : reader_(config.body) {
   if (config.odometry) {
     nav_msgs::Odometry prototype;
@@ -27,7 +27,7 @@ EstimateOutputs::EstimateOutputs(ros::NodeHandle handle, const OutputsConfig& co
   if (!config.transform->odom_frame.empty()) {
     listener_ = std::make_unique<OdometryListener>(config.transform->odom_frame, config.base_frame);
   }
-  transform_.emplace(handle, config, period,
+  transform_.emplace(handle, config, period, log,
                      [this](Stamp stamp) { return listener_->find(stamp); });
 }
 

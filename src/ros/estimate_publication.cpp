@@ -1,7 +1,5 @@
 #include "sampled_data_observers/ros/estimate_publication.h"
 
-#include <ros/console.h>
-
 #include <utility>
 
 #include "messages/queue_length.h"
@@ -17,21 +15,20 @@ constexpr std::size_t kEstimatesHeld = 16;
 constexpr double kShortestWait = 1e-3;  // s
 constexpr bool kFromNow = true;
 
-void apply(const RealTimeOptions& options, DeadlineThread& thread, const std::string& name) {
+void apply(const RealTimeOptions& options, DeadlineThread& thread, const NodeLog& log) {
   if (options.lock_memory) {
     const std::string objection = lock_memory();
     if (!objection.empty()) {
-      ROS_WARN_NAMED(name, "real_time/lock_memory: not possible, going on without: %s",
-                     objection.c_str());
+      log.warn("real_time/lock_memory: not possible, going on without: %s", objection.c_str());
     }
   }
   if (options.priority) {
     const std::string objection = thread.set_real_time_priority(*options.priority);
     if (!objection.empty()) {
-      ROS_WARN_NAMED(name,
-                     "real_time/priority: not possible, going on without: %s (is there a line "
-                     "'rtprio' for this user in /etc/security/limits.conf?)",
-                     objection.c_str());
+      log.warn(
+          "real_time/priority: not possible, going on without: %s (is there a line "
+          "'rtprio' for this user in /etc/security/limits.conf?)",
+          objection.c_str());
     }
   }
 }
@@ -59,13 +56,13 @@ EstimatePublication::EstimatePublication(const ros::NodeHandle& handle, SharedRu
       [this] { timer_.setPeriod(ros::Duration(kShortestWait), kFromNow); });
 }
 
-void EstimatePublication::start(const ObserverConfig& config, const std::string& name) {
+void EstimatePublication::start(const ObserverConfig& config, const NodeLog& log) {
   publish_on_event_ = config.publish_on_event;
   if (ros::Time::isSimTime()) {
     timer_.start();
   } else {
     thread_ = std::make_unique<DeadlineThread>([this] { return publish_by_thread(); }, "estimates");
-    apply(config.real_time, *thread_, name);
+    apply(config.real_time, *thread_, log);
   }
 }
 

@@ -1,7 +1,5 @@
 #include "sampled_data_observers/ros/event_subscriptions.h"
 
-#include <ros/console.h>
-
 #include <memory>
 #include <utility>
 
@@ -28,15 +26,16 @@ EventStatus status_prototype() {
 
 EventSubscriptions::EventSubscriptions(const ros::NodeHandle& handle, const ObserverConfig& config,
                                        SharedRuntime& runtime, EstimatePublication& publication,
-                                       std::string name)
+                                       NodeLog log)
     : handle_(handle),
       runtime_(runtime),
       publication_(publication),
-      name_(std::move(name)),
+      log_(std::move(log)),
       history_(config.options.history.history),
       statuses_(status_prototype(), kStatusesHeld),
       transforms_(std::make_shared<TransformBuffer>(config.static_transforms)) {
   for (const EventChannel& channel : event_channels(config)) add(channel);
+  throttles_.resize(intakes_.size() * kEventOutcomes);
   if (has_frames(config)) subscribe_.push_back([this] { listen_to_transforms(); });
   status_publisher_ = handle_.advertise<EventStatus>("events", kQueueLength);
 }
@@ -70,8 +69,8 @@ void EventSubscriptions::add(const EventChannel& channel) {
   };
   subscribe_.push_back([this, source, deliver, channel] {
     subscribers_.push_back(source->subscribe(handle_, kQueueLength, deliver));
-    ROS_INFO_NAMED(name_, "%s from %s (%s)", channel.name.c_str(),
-                   subscribers_.back().getTopic().c_str(), channel.source.type.c_str());
+    log_.info("%s from %s (%s)", channel.name.c_str(), subscribers_.back().getTopic().c_str(),
+              channel.source.type.c_str());
   });
   intakes_.push_back(intake);
 }
@@ -118,7 +117,7 @@ void EventSubscriptions::defer(std::function<void()> task) {
     deferred_.push_back(std::move(task));
   } else if (!has_lost_events_) {  // throttled by ROS time, the warning would never come
     has_lost_events_ = true;
-    ROS_WARN_NAMED(name_, "events are lost: %s", kNoClock);
+    log_.warn("events are lost: %s", kNoClock);
   }
 }
 
@@ -126,6 +125,11 @@ void EventSubscriptions::run_deferred() {
   if (deferred_.empty()) return;
   for (const std::function<void()>& task : deferred_) task();
   deferred_.clear();
+}
+
+LogThrottle& EventSubscriptions::throttle_of(const EventChannel& channel,
+                                             const EventReport& report) {
+  return throttles_[channel.index * kEventOutcomes + static_cast<std::size_t>(report.outcome)];
 }
 
 void EventSubscriptions::handle(const EventChannel& channel, const Event& event, Reading reading,
@@ -143,18 +147,17 @@ void EventSubscriptions::handle(const EventChannel& channel, const Event& event,
   const Duration latency = now - event.stamp;
   const boost::shared_ptr<EventStatus> status = statuses_.take();
   write(channel, event, report, missing, now, *status);
-  if (!report.used()) {
-    ROS_WARN_THROTTLE_NAMED(5.0, name_, "event from %s rejected: %s (stamp %.9f s, latency %.9f s)",
-                            channel.name.c_str(), status->reason.c_str(), to_seconds(event.stamp),
-                            status->latency);
+  if (!report.used() && throttle_of(channel, report).admits()) {
+    log_.warn("event from %s rejected: %s (stamp %.9f s, latency %.9f s)", channel.name.c_str(),
+              status->reason.c_str(), to_seconds(event.stamp), status->latency);
   }
   if (report.used() && latency > history_ && !has_told_of_old_stamps_) {
     has_told_of_old_stamps_ = true;
-    ROS_WARN_NAMED(name_, "%s", describe_old_stamps(channel.source.topic, latency).c_str());
+    log_.warn("%s", describe_old_stamps(channel.source.topic, latency).c_str());
   }
-  if (report.recovers()) {
-    ROS_WARN_THROTTLE_NAMED(5.0, name_, "sample of %s %s (stamp %.9f s)", channel.name.c_str(),
-                            describe(report), to_seconds(event.stamp));
+  if (report.recovers() && throttle_of(channel, report).admits()) {
+    log_.warn("sample of %s %s (stamp %.9f s)", channel.name.c_str(), describe(report),
+              to_seconds(event.stamp));
   }
   status_publisher_.publish(status);
   publication_.notice_event();

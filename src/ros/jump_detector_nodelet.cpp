@@ -17,6 +17,7 @@ JumpDetectorNodelet::JumpDetectorNodelet() : threads_(1) {}
 JumpDetectorNodelet::~JumpDetectorNodelet() { threads_.stop(); }
 
 void JumpDetectorNodelet::onInit() {
+  log_.emplace(getName());
   try {
     const ConfigNode tree = read_parameter_tree(getPrivateNodeHandle());
     ConfigSection root(tree, "");
@@ -29,11 +30,11 @@ void JumpDetectorNodelet::onInit() {
         handle, kQueueLength,
         [this](const MessagePointer& message, Stamp receipt) { receive(message, receipt); });
     signal_topic_ = subscriber_.getTopic();
-    NODELET_INFO("jumps on %s, detected in %s (%s)", publisher_.getTopic().c_str(),
-                 signal_topic_.c_str(), config.type.c_str());
+    log_->info("jumps on %s, detected in %s (%s)", publisher_.getTopic().c_str(),
+               signal_topic_.c_str(), config.type.c_str());
     threads_.start();
   } catch (const std::exception& error) {
-    NODELET_FATAL("not started: %s", error.what());
+    log_->fatal("not started: %s", error.what());
     throw;
   }
 }
@@ -44,16 +45,16 @@ void JumpDetectorNodelet::receive(const MessagePointer& message, Stamp receipt) 
   const Reading reading = source_->read(message, receipt, event);
   if (reading == Reading::kPassedOver) return;
   if (reading != Reading::kEvent) {
-    NODELET_WARN_THROTTLE(5.0, "message on %s ignored: %s (stamp %.9f s, received %.9f s)",
-                          signal_topic_.c_str(), describe(outcome_of(reading)),
-                          to_seconds(event.stamp), to_seconds(receipt));
+    if (!throttles_[static_cast<std::size_t>(outcome_of(reading))].admits()) return;
+    log_->warn("message on %s ignored: %s (stamp %.9f s, received %.9f s)", signal_topic_.c_str(),
+               describe(outcome_of(reading)), to_seconds(event.stamp), to_seconds(receipt));
     return;
   }
   const auto jump = boost::make_shared<JumpEvent>();
   jump->header.stamp = to_ros_time(event.stamp);
   jump->values.assign(event.values, event.values + event.size);
   publisher_.publish(jump);
-  NODELET_INFO("jump at %.9f s", to_seconds(event.stamp));
+  log_->info("jump at %.9f s", to_seconds(event.stamp));
 }
 
 }  // namespace sampled_data_observers

@@ -3,11 +3,16 @@
 #include <nodelet/nodelet.h>
 #include <ros/ros.h>
 
+#include <array>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "sampled_data_observers/messages/message_source.h"
 #include "sampled_data_observers/ros/callback_threads.h"
+#include "sampled_data_observers/ros/log_throttle.h"
+#include "sampled_data_observers/ros/node_log.h"
+#include "sampled_data_observers/runtime/event_outcome.h"
 
 namespace sampled_data_observers {
 
@@ -25,6 +30,9 @@ class JumpDetectorNodelet : public nodelet::Nodelet {
   void onInit() override;
   void receive(const MessagePointer& message, Stamp receipt);
 
+  std::optional<NodeLog> log_;
+  /// For each outcome.
+  std::array<LogThrottle, kEventOutcomes> throttles_;
   CallbackThreads threads_;
   std::unique_ptr<MessageSource> source_;
   std::string signal_topic_;

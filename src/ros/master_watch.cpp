@@ -1,7 +1,6 @@
 #include "sampled_data_observers/ros/master_watch.h"
 
 #include <ros/connection_manager.h>
-#include <ros/console.h>
 #include <ros/master.h>
 #include <ros/network.h>
 #include <ros/publication.h>
@@ -62,12 +61,12 @@ void tell_of_publishers(const std::string& topic, const XmlRpc::XmlRpcValue& pub
 }  // namespace
 
 MasterWatch::MasterWatch(const ros::NodeHandle& handle, std::vector<std::string> services,
-                         std::vector<ExpectedType> topics, TypeReceiver take_type, std::string name)
+                         std::vector<ExpectedType> topics, TypeReceiver take_type, NodeLog log)
     : services_(std::move(services)),
       topics_(std::move(topics)),
       take_type_(std::move(take_type)),
       warned_(topics_.size()),
-      name_(std::move(name)) {
+      log_(std::move(log)) {
   timer_ = handle.createSteadyTimer(ros::WallDuration(kPeriod),
                                     [this](const ros::SteadyTimerEvent&) { check(); });
 }
@@ -93,8 +92,7 @@ void MasterWatch::check_types() {
       warned_[i].clear();
     } else if (type != warned_[i]) {
       warned_[i] = type;
-      ROS_WARN_NAMED(name_, "%s",
-                     describe_wrong_type(topics_[i].topic, type, topics_[i].type).c_str());
+      log_.warn("%s", describe_wrong_type(topics_[i].topic, type, topics_[i].type).c_str());
     }
   }
 }
@@ -123,7 +121,7 @@ void MasterWatch::register_again() const {
   for (const std::string& service : services_) {
     call_master("registerService", {service, server, node}, response, payload);
   }
-  ROS_WARN_NAMED(name_, "the ROS master was restarted: topics and services are registered again");
+  log_.warn("the ROS master was restarted: topics and services are registered again");
 }
 
 }  // namespace sampled_data_observers

@@ -21,6 +21,7 @@ ObserverNodelet::ObserverNodelet(std::string type)
 ObserverNodelet::~ObserverNodelet() { stop(); }
 
 void ObserverNodelet::onInit() {
+  const NodeLog log(getName());
   try {
     const ConfigNode tree = read_parameter_tree(getPrivateNodeHandle());
     const ObserverConfig config = read_observer_config(tree, load_plant_plugin);
@@ -29,9 +30,9 @@ void ObserverNodelet::onInit() {
                         type_ + ", the type of this nodelet (the nodelet Observer is of any)",
                         config.type);
     }
-    start(tree, config);
+    start(tree, config, log);
   } catch (const std::exception& error) {
-    NODELET_FATAL("not started: %s", error.what());
+    log.fatal("not started: %s", error.what());
     throw;
   }
 }
@@ -49,23 +50,24 @@ void ObserverNodelet::stop() {
   runtime_.reset();
 }
 
-void ObserverNodelet::start(const ConfigNode& tree, const ObserverConfig& config) {
+void ObserverNodelet::start(const ConfigNode& tree, const ObserverConfig& config,
+                            const NodeLog& log) {
   const ros::NodeHandle handle = event_threads_.handle(getNodeHandle());
   // Others, so that events go on while a service works.
   const ros::NodeHandle service_handle = service_threads_.handle(getNodeHandle());
-  runtime_ = std::make_unique<SharedRuntime>(config, getName(), handle.resolveName("reset"));
+  runtime_ = std::make_unique<SharedRuntime>(config, log, handle.resolveName("reset"));
   std::unique_ptr<EstimateOutputs> outputs;
   if (config.outputs) {
-    outputs = std::make_unique<EstimateOutputs>(handle, *config.outputs, config.period);
+    outputs = std::make_unique<EstimateOutputs>(handle, *config.outputs, config.period, log);
   }
   publication_ = std::make_unique<EstimatePublication>(handle, *runtime_, std::move(outputs));
   subscriptions_ =
-      std::make_unique<EventSubscriptions>(handle, config, *runtime_, *publication_, getName());
+      std::make_unique<EventSubscriptions>(handle, config, *runtime_, *publication_, log);
   gains_ = std::make_unique<GainReloader>(tree, config, *runtime_);
-  services_ = std::make_unique<ObserverServices>(service_handle, *runtime_, *gains_, getName());
-  clock_watch_ = std::make_unique<ClockWatch>(service_handle, getName());
+  services_ = std::make_unique<ObserverServices>(service_handle, *runtime_, *gains_, log);
+  clock_watch_ = std::make_unique<ClockWatch>(service_handle, log);
   diagnostics_ = std::make_unique<DiagnosticsReporter>(
-      service_handle, service_threads_.handle(getPrivateNodeHandle()), getName(),
+      service_handle, service_threads_.handle(getPrivateNodeHandle()), log,
       diagnosis_subject(config), runtime_->statistics());
   std::vector<ExpectedType> topics;
   for (const EventChannel& channel : event_channels(config)) {
@@ -76,17 +78,17 @@ void ObserverNodelet::start(const ConfigNode& tree, const ObserverConfig& config
       [this](std::size_t channel, const std::string& type) {
         diagnostics_->note_published_type(channel, type);
       },
-      getName());
-  publication_->start(config, getName());
+      log);
+  publication_->start(config, log);
   subscriptions_->start();
   event_threads_.start();
   service_threads_.start();
-  NODELET_INFO("%s: %zu states, estimates at %.6g Hz on %s", config.type.c_str(),
-               config.law->estimate_names().size(), 1.0 / to_seconds(config.period),
-               publication_->topic().c_str());
-  if (!config.guarantee.empty()) NODELET_INFO("certified by %s", config.guarantee.c_str());
-  if (!config.warning.empty()) NODELET_WARN("%s", config.warning.c_str());
-  for (const std::string& warning : config.warnings) NODELET_WARN("%s", warning.c_str());
+  log.info("%s: %zu states, estimates at %.6g Hz on %s", config.type.c_str(),
+           config.law->estimate_names().size(), 1.0 / to_seconds(config.period),
+           publication_->topic().c_str());
+  if (!config.guarantee.empty()) log.info("certified by %s", config.guarantee.c_str());
+  if (!config.warning.empty()) log.warn("%s", config.warning.c_str());
+  for (const std::string& warning : config.warnings) log.warn("%s", warning.c_str());
 }
 
 }  // namespace sampled_data_observers

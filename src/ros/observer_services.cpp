@@ -1,7 +1,5 @@
 #include "sampled_data_observers/ros/observer_services.h"
 
-#include <ros/console.h>
-
 #include <utility>
 
 #include "messages/runtime_messages.h"
@@ -11,8 +9,8 @@
 namespace sampled_data_observers {
 
 ObserverServices::ObserverServices(const ros::NodeHandle& handle, SharedRuntime& runtime,
-                                   GainReloader& gains, std::string name)
-    : runtime_(runtime), gains_(gains), name_(std::move(name)) {
+                                   GainReloader& gains, NodeLog log)
+    : runtime_(runtime), gains_(gains), log_(std::move(log)) {
   ros::NodeHandle advertiser(handle);
   const auto advertise = [&](const char* service, auto method) {
     servers_.push_back(advertiser.advertiseService(service, method, this));
@@ -61,11 +59,10 @@ bool ObserverServices::reload_gains(ReloadGains::Request& request,
   try {
     response.message = gains_.reload(request.file);
     response.success = 1;
-    ROS_INFO_NAMED(name_, "gains of '%s' loaded: %s", request.file.c_str(),
-                   response.message.c_str());
+    log_.info("gains of '%s' loaded: %s", request.file.c_str(), response.message.c_str());
   } catch (const std::exception& fault) {
     response.message = fault.what();
-    ROS_WARN_NAMED(name_, "gains of '%s' not loaded: %s", request.file.c_str(), fault.what());
+    log_.warn("gains of '%s' not loaded: %s", request.file.c_str(), fault.what());
   }
   return true;
 }
@@ -76,7 +73,7 @@ bool ObserverServices::set_enabled(std_srvs::SetBool::Request& request,
     const SharedRuntime::Access access = runtime_.access();
     access->set_enabled(request.data != 0, access.now());
   }
-  ROS_INFO_NAMED(name_, "switched %s", request.data != 0 ? "on" : "off");
+  log_.info("switched %s", request.data != 0 ? "on" : "off");
   response.success = 1;
   return true;
 }
@@ -86,8 +83,7 @@ bool ObserverServices::enable_sensor(EnableSensor::Request& request,
   response.message = runtime_.access()->enable_sensor(request.name, request.enabled != 0);
   response.success = response.message.empty() ? 1 : 0;
   if (response.message.empty()) {
-    ROS_INFO_NAMED(name_, "sensor %s switched %s", request.name.c_str(),
-                   request.enabled != 0 ? "on" : "off");
+    log_.info("sensor %s switched %s", request.name.c_str(), request.enabled != 0 ? "on" : "off");
   }
   return true;
 }

@@ -11,6 +11,7 @@
 #include "messages/simulated_messages.h"
 #include "ros/parameter_tree.h"
 #include "sampled_data_observers/config/config_section.h"
+#include "sampled_data_observers/ros/node_log.h"
 #include "simulation/scenario_config.h"
 
 namespace sampled_data_observers {
@@ -48,7 +49,7 @@ void PlantSimulatorNodelet::onInit() {
     simulator_ = std::make_unique<Simulator>(read_scenario(tree, load_plant_plugin));
     start();
   } catch (const std::exception& error) {
-    NODELET_FATAL("not started: %s", error.what());
+    NodeLog(getName()).fatal("not started: %s", error.what());
     publishers_.clear();
     clock_publisher_ = ros::Publisher();
     throw;
@@ -104,8 +105,8 @@ void PlantSimulatorNodelet::run() {
     run_by_clock();
   }
   if (!running_) return;
-  NODELET_INFO("the simulation %s; %zu jumps", simulator_->describe_end().c_str(),
-               static_cast<std::size_t>(simulator_->jumps()));
+  NodeLog(getName()).info("the simulation %s; %zu jumps", simulator_->describe_end().c_str(),
+                          static_cast<std::size_t>(simulator_->jumps()));
   pause(0.5);  // lets the last messages reach recorders
   const bool is_own_node = getName() == ros::this_node::getName();
   if (running_ && is_own_node) ros::requestShutdown();
@@ -126,7 +127,7 @@ bool PlantSimulatorNodelet::wait_for_subscribers() {
     const ros::Publisher* publisher = first_without();
     if (publisher == nullptr) break;
     if (SteadyClock::now() >= next_report) {
-      NODELET_INFO("waiting for a subscriber of %s", publisher->getTopic().c_str());
+      NodeLog(getName()).info("waiting for a subscriber of %s", publisher->getTopic().c_str());
       next_report += std::chrono::seconds(10);
     }
     pause(kPoll);
@@ -153,8 +154,8 @@ void PlantSimulatorNodelet::run_by_clock() {
   const Stamp ready = to_stamp(ros::Time::now()) + from_seconds(options_.delay);
   const Stamp start = first_multiple_from(ready, kNanosecondsPerSecond);
   offset_ = start - simulator_->scenario().start;
-  NODELET_INFO("simulation starts at %.0f s and lasts %.6g s", to_seconds(start),
-               to_seconds(simulator_->scenario().duration));
+  NodeLog(getName()).info("simulation starts at %.0f s and lasts %.6g s", to_seconds(start),
+                          to_seconds(simulator_->scenario().duration));
   while (const std::optional<SimulatedMessage> message = simulator_->next()) {
     if (!sleep_until(message->arrival + offset_)) return;
     publish(*message);
@@ -168,8 +169,9 @@ void PlantSimulatorNodelet::run_own_clock() {
   const Duration tick =
       from_seconds(std::clamp(kTick, kShortestTick * speed, kLongestTick * speed));
   const Stamp start = simulator_->scenario().start;
-  NODELET_INFO("simulation starts at %.9g s of simulated time and lasts %.6g s, at speed %.6g",
-               to_seconds(start), to_seconds(simulator_->scenario().duration), speed);
+  NodeLog(getName()).info(
+      "simulation starts at %.9g s of simulated time and lasts %.6g s, at speed %.6g",
+      to_seconds(start), to_seconds(simulator_->scenario().duration), speed);
   SteadyClock::time_point origin = SteadyClock::now();
   Stamp next_tick = start;
   std::optional<SimulatedMessage> message = simulator_->next();

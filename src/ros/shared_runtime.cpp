@@ -1,6 +1,5 @@
 #include "sampled_data_observers/ros/shared_runtime.h"
 
-#include <ros/console.h>
 #include <ros/time.h>
 
 #include <algorithm>
@@ -11,13 +10,12 @@
 
 namespace sampled_data_observers {
 
-SharedRuntime::SharedRuntime(const ObserverConfig& config, std::string name,
-                             std::string reset_service)
+SharedRuntime::SharedRuntime(const ObserverConfig& config, NodeLog log, std::string reset_service)
     : runtime_(std::make_unique<ObserverRuntime>(config)),
       statistics_(event_channels(config).size()),
       reset_on_jump_back_(config.reset_on_time_jump_back),
       jump_back_tolerance_(config.jump_back_tolerance),
-      name_(std::move(name)),
+      log_(std::move(log)),
       reset_service_(std::move(reset_service)) {}
 
 void SharedRuntime::replace(std::unique_ptr<ObserverRuntime> next) {
@@ -45,14 +43,14 @@ SharedRuntime::Access::~Access() {
   lock_.unlock();
   if (shared_.time_went_back_) shared_.time_went_back_();
   if (shared_.reset_on_jump_back_) {
-    ROS_WARN_NAMED(shared_.name_, "time went back by %.6f s: starting anew with the next event",
-                   to_seconds(went_back_));
+    shared_.log_.warn("time went back by %.6f s: starting anew with the next event",
+                      to_seconds(went_back_));
   } else {
-    ROS_WARN_NAMED(shared_.name_,
-                   "time went back by %.6f s: events before the history window are rejected and no "
-                   "stamp is published twice; call %s to start again, or set "
-                   "reset_on_time_jump_back",
-                   to_seconds(went_back_), shared_.reset_service_.c_str());
+    shared_.log_.warn(
+        "time went back by %.6f s: events before the history window are rejected and no "
+        "stamp is published twice; call %s to start again, or set "
+        "reset_on_time_jump_back",
+        to_seconds(went_back_), shared_.reset_service_.c_str());
   }
 }
 

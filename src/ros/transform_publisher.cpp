@@ -1,7 +1,5 @@
 #include "sampled_data_observers/ros/transform_publisher.h"
 
-#include <ros/console.h>
-
 #include <algorithm>
 #include <utility>
 
@@ -27,8 +25,9 @@ tf2_msgs::TFMessage prototype(const OutputsConfig& outputs) {
 }  // namespace
 
 TransformPublisher::TransformPublisher(ros::NodeHandle& handle, const OutputsConfig& outputs,
-                                       Duration period, OdomFrame::Odometry odometry)
-    : config_(*outputs.transform),
+                                       Duration period, NodeLog log, OdomFrame::Odometry odometry)
+    : log_(std::move(log)),
+      config_(*outputs.transform),
       odometry_(std::move(odometry)),
       odom_frame_(config_.timeout,
                   static_cast<std::size_t>(std::min(config_.timeout / period + 1, kMostWaiting))),
@@ -47,11 +46,11 @@ void TransformPublisher::publish(Stamp stamp, const BodyEstimate& body) {
   }
   const std::size_t dropped = odom_frame_.dropped();
   odom_frame_.add(world_to_base);
-  if (odom_frame_.dropped() > dropped) {
-    ROS_WARN_THROTTLE(5.0,
-                      "no transform %s at the stamps of the estimates within the timeout (%.6g s): "
-                      "is it published, and by the same clock?",
-                      missing_.c_str(), to_seconds(config_.timeout));
+  if (odom_frame_.dropped() > dropped && throttle_.admits()) {
+    log_.warn(
+        "no transform %s at the stamps of the estimates within the timeout (%.6g s): "
+        "is it published, and by the same clock?",
+        missing_.c_str(), to_seconds(config_.timeout));
   }
   while (const std::optional<StampedTransform> world_to_odom = odom_frame_.next(odometry_)) {
     send(*world_to_odom);

@@ -5,19 +5,21 @@
 
 #include <string>
 
+#include "sampled_data_observers/ros/node_log.h"
+
 namespace sampled_data_observers {
 
 /// Says in the log, every now and then, that a simulated clock has not begun: until it does, there
 /// is no estimate. /use_sim_time stays on the master when what published /clock is long gone.
 class ClockWatch {
  public:
-  /// @param name  of the nodelet, for its log
-  ClockWatch(const ros::NodeHandle& handle, std::string name);
+  /// @param log   of the nodelet
+  ClockWatch(const ros::NodeHandle& handle, NodeLog log);
 
  private:
   void check();
 
-  const std::string name_;
+  const NodeLog log_;
   int checks_ = 0;
   ros::SteadyTimer timer_;
 };

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "sampled_data_observers/config/observer_config.h"
+#include "sampled_data_observers/ros/node_log.h"
 #include "sampled_data_observers/runtime/diagnosis.h"
 #include "sampled_data_observers/runtime/run_statistics.h"
 
@@ -21,10 +22,9 @@ DiagnosisSubject diagnosis_subject(const ObserverConfig& config);
 class DiagnosticsReporter {
  public:
   /// @param handle  its callback queue reports: it must not be that of a thread in a hurry
-  /// @param name    of the node or nodelet
+  /// @param log    of the node or nodelet, whose name it bears
   DiagnosticsReporter(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle,
-                      const std::string& name, DiagnosisSubject subject,
-                      StatisticsRecorder& recorder);
+                      NodeLog log, DiagnosisSubject subject, StatisticsRecorder& recorder);
 
   /// See Diagnosis::set_published_type(). For any thread that is not in a hurry.
   void note_published_type(std::size_t channel, const std::string& type);
@@ -33,7 +33,7 @@ class DiagnosticsReporter {
   void report(const ros::SteadyTimerEvent&);
   void tell_of_guarantee();
 
-  const std::string name_;
+  const NodeLog log_;
   StatisticsRecorder& recorder_;
   std::mutex mutex_;  ///< of the diagnosis
   Diagnosis diagnosis_;

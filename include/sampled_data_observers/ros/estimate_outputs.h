@@ -7,6 +7,7 @@
 
 #include "sampled_data_observers/config/outputs_config.h"
 #include "sampled_data_observers/ros/body_output.h"
+#include "sampled_data_observers/ros/node_log.h"
 #include "sampled_data_observers/ros/odometry_listener.h"
 #include "sampled_data_observers/ros/transform_publisher.h"
 #include "sampled_data_observers/runtime/estimator.h"
@@ -18,7 +19,9 @@ namespace sampled_data_observers {
 class EstimateOutputs {
  public:
   /// @param period  of the estimates [ns]
-  EstimateOutputs(ros::NodeHandle handle, const OutputsConfig& config, Duration period);
+  /// @param log     of the nodelet
+  EstimateOutputs(ros::NodeHandle handle, const OutputsConfig& config, Duration period,
+                  const NodeLog& log);
 
   /// Takes in an estimate of a law: nothing of either is needed afterwards.
   void take(const ObserverLaw& law, const Estimate& estimate);

@@ -12,6 +12,7 @@
 #include "sampled_data_observers/messages/message_pool.h"
 #include "sampled_data_observers/real_time/deadline_thread.h"
 #include "sampled_data_observers/ros/estimate_outputs.h"
+#include "sampled_data_observers/ros/node_log.h"
 #include "sampled_data_observers/ros/shared_runtime.h"
 
 namespace sampled_data_observers {
@@ -25,8 +26,8 @@ class EstimatePublication {
   EstimatePublication(const ros::NodeHandle& handle, SharedRuntime& runtime,
                       std::unique_ptr<EstimateOutputs> outputs);
 
-  /// @param name  of the nodelet, for its log
-  void start(const ObserverConfig& config, const std::string& name);
+  /// @param log  of the nodelet
+  void start(const ObserverConfig& config, const NodeLog& log);
 
   /// To be called after each event, by the callback queue.
   void notice_event();

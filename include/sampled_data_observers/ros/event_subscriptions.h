@@ -16,6 +16,8 @@
 #include "sampled_data_observers/messages/message_pool.h"
 #include "sampled_data_observers/messages/message_source.h"
 #include "sampled_data_observers/ros/estimate_publication.h"
+#include "sampled_data_observers/ros/log_throttle.h"
+#include "sampled_data_observers/ros/node_log.h"
 #include "sampled_data_observers/ros/shared_runtime.h"
 
 namespace sampled_data_observers {
@@ -25,10 +27,10 @@ namespace sampled_data_observers {
 class EventSubscriptions {
  public:
   /// Finds all faults of the channels' sources; subscribes to nothing before start().
-  /// @param name  of the nodelet, for its log
+  /// @param log   of the nodelet
   /// @throws ConfigError
   EventSubscriptions(const ros::NodeHandle& handle, const ObserverConfig& config,
-                     SharedRuntime& runtime, EstimatePublication& publication, std::string name);
+                     SharedRuntime& runtime, EstimatePublication& publication, NodeLog log);
 
   void start();
 
@@ -41,11 +43,14 @@ class EventSubscriptions {
   void retry_waiting();
   void handle(const EventChannel& channel, const Event& event, Reading reading,
               const std::string& missing);
+  LogThrottle& throttle_of(const EventChannel& channel, const EventReport& report);
 
   ros::NodeHandle handle_;
   SharedRuntime& runtime_;
   EstimatePublication& publication_;
-  const std::string name_;
+  const NodeLog log_;
+  /// For each channel and outcome.
+  std::vector<LogThrottle> throttles_;
   const Duration history_;
   /// Whether the log said that events are used whose stamps lie behind the clock by more than that.
   bool has_told_of_old_stamps_ = false;

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "sampled_data_observers/ros/node_log.h"
+
 namespace sampled_data_observers {
 
 /// A topic, and the type of message that is expected on it.
@@ -28,9 +30,9 @@ class MasterWatch {
   using TypeReceiver = std::function<void(std::size_t, const std::string&)>;
 
   /// @param services  of this nodelet, at least one
-  /// @param name      of the nodelet, for its log
+  /// @param log       of the nodelet
   MasterWatch(const ros::NodeHandle& handle, std::vector<std::string> services,
-              std::vector<ExpectedType> topics, TypeReceiver take_type, std::string name);
+              std::vector<ExpectedType> topics, TypeReceiver take_type, NodeLog log);
 
  private:
   void check();
@@ -42,7 +44,7 @@ class MasterWatch {
   const TypeReceiver take_type_;
   /// The type that was last warned of, for each topic; empty: none.
   std::vector<std::string> warned_;
-  const std::string name_;
+  const NodeLog log_;
   ros::SteadyTimer timer_;
 };
 

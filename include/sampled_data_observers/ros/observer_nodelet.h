@@ -12,6 +12,7 @@
 #include "sampled_data_observers/ros/event_subscriptions.h"
 #include "sampled_data_observers/ros/gain_reloader.h"
 #include "sampled_data_observers/ros/master_watch.h"
+#include "sampled_data_observers/ros/node_log.h"
 #include "sampled_data_observers/ros/observer_services.h"
 #include "sampled_data_observers/ros/shared_runtime.h"
 
@@ -34,7 +35,7 @@ class ObserverNodelet : public nodelet::Nodelet {
   void onInit() override;
 
   /// @param tree  what `config` was read from
-  void start(const ConfigNode& tree, const ObserverConfig& config);
+  void start(const ConfigNode& tree, const ObserverConfig& config, const NodeLog& log);
   void stop();
 
   const std::string type_;

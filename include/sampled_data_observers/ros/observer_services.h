@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "sampled_data_observers/ros/gain_reloader.h"
+#include "sampled_data_observers/ros/node_log.h"
 #include "sampled_data_observers/ros/shared_runtime.h"
 
 namespace sampled_data_observers {
@@ -20,9 +21,9 @@ namespace sampled_data_observers {
 class ObserverServices {
  public:
   /// Advertises them.
-  /// @param name  of the nodelet, for its log
+  /// @param log   of the nodelet
   ObserverServices(const ros::NodeHandle& handle, SharedRuntime& runtime, GainReloader& gains,
-                   std::string name);
+                   NodeLog log);
 
   std::vector<std::string> names() const;
 
@@ -35,7 +36,7 @@ class ObserverServices {
 
   SharedRuntime& runtime_;
   GainReloader& gains_;
-  const std::string name_;
+  const NodeLog log_;
   std::vector<ros::ServiceServer> servers_;
 };
 

@@ -8,6 +8,7 @@
 
 #include "sampled_data_observers/config/observer_config.h"
 #include "sampled_data_observers/real_time/priority_inheritance_mutex.h"
+#include "sampled_data_observers/ros/node_log.h"
 #include "sampled_data_observers/runtime/observer_runtime.h"
 #include "sampled_data_observers/runtime/run_statistics.h"
 
@@ -37,9 +38,9 @@ class SharedRuntime {
     Duration went_back_ = 0;
   };
 
-  /// @param name           of the nodelet, for its log
+  /// @param log            of the nodelet
   /// @param reset_service  to be called when time went back
-  SharedRuntime(const ObserverConfig& config, std::string name, std::string reset_service);
+  SharedRuntime(const ObserverConfig& config, NodeLog log, std::string reset_service);
 
   Access access() { return Access(*this); }
 
@@ -61,7 +62,7 @@ class SharedRuntime {
   const bool reset_on_jump_back_;
   const Duration jump_back_tolerance_;
   std::function<void()> time_went_back_;
-  const std::string name_;
+  const NodeLog log_;
   const std::string reset_service_;
 };
 

@@ -8,6 +8,8 @@
 
 #include "sampled_data_observers/config/outputs_config.h"
 #include "sampled_data_observers/messages/message_pool.h"
+#include "sampled_data_observers/ros/log_throttle.h"
+#include "sampled_data_observers/ros/node_log.h"
 #include "sampled_data_observers/runtime/odom_frame.h"
 
 namespace sampled_data_observers {
@@ -18,15 +20,18 @@ class TransformPublisher {
  public:
   /// @param outputs   with a transform
   /// @param period    of the estimates [ns]
+  /// @param log       of the nodelet
   /// @param odometry  finds odom → base; not called in odom mode
   TransformPublisher(ros::NodeHandle& handle, const OutputsConfig& outputs, Duration period,
-                     OdomFrame::Odometry odometry);
+                     NodeLog log, OdomFrame::Odometry odometry);
 
   void publish(Stamp stamp, const BodyEstimate& body);
 
  private:
   void send(const StampedTransform& transform);
 
+  const NodeLog log_;
+  LogThrottle throttle_;
   const TransformOutput config_;
   const OdomFrame::Odometry odometry_;
   OdomFrame odom_frame_;

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+
+namespace sampled_data_observers {
+
+/// The log of one nodelet, under its name. The macros of rosconsole keep the name of whoever logs
+/// first from a line, so that in one manager all observers would log as one of them.
+class NodeLog {
+ public:
+  explicit NodeLog(std::string name) : name_(std::move(name)) {}
+
+  const std::string& name() const { return name_; }
+
+  // By formats of printf.
+  [[gnu::format(printf, 2, 3)]] void info(const char* format, ...) const;
+  [[gnu::format(printf, 2, 3)]] void warn(const char* format, ...) const;
+  [[gnu::format(printf, 2, 3)]] void fatal(const char* format, ...) const;
+
+ private:
+  std::string name_;
+};
+
+}  // namespace sampled_data_observers
