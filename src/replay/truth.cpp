@@ -1,6 +1,7 @@
 #include "replay/truth.h"
 
 #include <ros/names.h>
+#include <sampled_data_observers/StateEstimate.h>
 
 #include <algorithm>
 #include <memory>
