@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <utility>
 
 namespace sampled_data_observers {
 namespace {
@@ -25,33 +26,58 @@ OptionCheck number_that(const std::string& condition, const Accepts& accepts) {
     char* end = nullptr;
     const double value = std::strtod(text.c_str(), &end);
     const bool is_number = !text.empty() && *end == '\0' && std::isfinite(value);
-    return is_number && accepts(value) ? "" : mismatch("a number " + condition, text);
+    return is_number && accepts(value) ? "" : mismatch("a number" + condition, text);
+  };
+}
+
+template <class Accepts>
+OptionCheck whole_number_that(const std::string& condition, const Accepts& accepts) {
+  return [=](const std::string& text) {
+    const bool is_whole = !text.empty() && std::all_of(text.begin(), text.end(),
+                                                       [](char c) { return '0' <= c && c <= '9'; });
+    errno = 0;
+    const std::uint64_t value = is_whole ? std::strtoull(text.c_str(), nullptr, 10) : 0;
+    const bool is_accepted = is_whole && errno == 0 && accepts(value);
+    return is_accepted ? "" : mismatch("a whole number " + condition, text);
   };
 }
 
 }  // namespace
 
+OptionCheck any_number() {
+  return number_that("", [](double) { return true; });
+}
+
 OptionCheck number_above(double low) {
-  return number_that("> " + in_short(low), [low](double value) { return value > low; });
+  return number_that(" > " + in_short(low), [low](double value) { return value > low; });
 }
 
 OptionCheck number_at_least(double low) {
-  return number_that(">= " + in_short(low), [low](double value) { return value >= low; });
+  return number_that(" >= " + in_short(low), [low](double value) { return value >= low; });
 }
 
 OptionCheck number_between(double low, double high) {
-  return number_that("from " + in_short(low) + " to " + in_short(high),
+  return number_that(" from " + in_short(low) + " to " + in_short(high),
                      [low, high](double value) { return low <= value && value <= high; });
 }
 
 OptionCheck whole_number_at_least(std::uint64_t low) {
-  return [low](const std::string& text) {
-    const bool is_whole = !text.empty() && std::all_of(text.begin(), text.end(),
-                                                       [](char c) { return '0' <= c && c <= '9'; });
-    errno = 0;
-    const std::uint64_t value = is_whole ? std::strtoull(text.c_str(), nullptr, 10) : 0;
-    const bool is_accepted = is_whole && errno == 0 && value >= low;
-    return is_accepted ? "" : mismatch("a whole number >= " + std::to_string(low), text);
+  return whole_number_that(">= " + std::to_string(low),
+                           [low](std::uint64_t value) { return value >= low; });
+}
+
+OptionCheck whole_number_between(std::uint64_t low, std::uint64_t high) {
+  return whole_number_that(
+      "from " + std::to_string(low) + " to " + std::to_string(high),
+      [low, high](std::uint64_t value) { return low <= value && value <= high; });
+}
+
+OptionCheck one_of(std::vector<std::string> choices) {
+  return [choices = std::move(choices)](const std::string& text) -> std::string {
+    if (std::find(choices.begin(), choices.end(), text) != choices.end()) return "";
+    std::string expected;
+    for (const std::string& choice : choices) expected += (expected.empty() ? "" : ", ") + choice;
+    return mismatch((choices.size() > 1 ? "one of " : "") + expected, text);
   };
 }
 
