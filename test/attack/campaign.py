@@ -41,16 +41,14 @@ Result = collections.namedtuple("Result", "seed kind states method objective out
 
 def choices_of(tool):
     """The methods and objectives that the tool offers; None is to leave the option out."""
-    text = subprocess.run([tool, "synthesize", "--help"], check=True, stdout=subprocess.PIPE,
-                          universal_newlines=True).stdout
 
-    def option(name):
-        line = re.search(rf"--{name} TEXT:\{{([^}}]*)\}}(.*)", text)
-        return line.group(1).split(","), "REQUIRED" in line.group(2)
+    def choices(option):
+        command = [tool, "synthesize", "plant.yaml", "-o", "gains.yaml", option, "?"]
+        refused = subprocess.run(command, check=False, stderr=subprocess.PIPE,
+                                 universal_newlines=True)
+        return re.search("expected one of (.*), found", refused.stderr).group(1).split(", ")
 
-    methods, needs_method = option("method")
-    objectives, _ = option("objective")
-    return methods + ([] if needs_method else [None]), [None] + objectives
+    return choices("--method") + [None], [None] + choices("--objective")
 
 
 def faults_of(path, document, objective):

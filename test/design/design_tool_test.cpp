@@ -253,6 +253,15 @@ TEST_F(DesignTool, RefusesOptionsThatAreNoNumbers) {
   EXPECT_FALSE(fs::exists(path("gains.yaml")));
 }
 
+TEST_F(DesignTool, RefusesAbbreviatedOptions) {
+  const ToolRun refused = synthesize(write("plant.yaml", oscillator()), "--obj feasible");
+  EXPECT_GT(refused.status, 99);
+  EXPECT_TRUE(
+      refused.says("design synthesize: --obj: there is no such option\n"
+                   "See 'design synthesize --help'."))
+      << refused.output;
+}
+
 TEST_F(DesignTool, SaysWhichObjectivesAMethodCanServe) {
   const std::string plant = write("plant.yaml", oscillator());  // no disturbance
   const std::string expected =

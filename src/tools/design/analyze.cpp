@@ -1,6 +1,3 @@
-#include <CLI/App.hpp>
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <memory>
@@ -30,8 +27,8 @@ struct AnalyzeArguments {
   std::string theorem;
   std::string objective;
   std::string output;
-  double T1 = 0.0;
-  double T2 = 0.0;
+  std::optional<double> T1;  // [s]
+  std::optional<double> T2;  // [s]
   std::vector<std::string> assignments;
   unsigned jobs = default_jobs();
   double time_limit = 20.0;
@@ -112,8 +109,8 @@ AnalysisProblem read_problem(const AnalyzeArguments& arguments, const DesignConf
     problem.subject.T1 = sampling.number("T1");
     problem.subject.T2 = sampling.number("T2");
   }
-  if (arguments.T1 > 0.0) problem.subject.T1 = arguments.T1;
-  if (arguments.T2 > 0.0) problem.subject.T2 = arguments.T2;
+  if (arguments.T1) problem.subject.T1 = *arguments.T1;
+  if (arguments.T2) problem.subject.T2 = *arguments.T2;
   if (!(problem.subject.T2 > 0.0 && problem.subject.T1 <= problem.subject.T2)) {
     throw root.error("sampling", "0 <= T1 <= T2, or --T1 and --T2", "other times");
   }
@@ -189,41 +186,40 @@ void analyze_command(const AnalyzeArguments& arguments, const std::string& comma
 
 }  // namespace
 
-void add_analyze(CLI::App& app, const std::string& command_line) {
-  CLI::App* command = app.add_subcommand(
+void add_analyze(CommandLine& tool, const std::string& command_line) {
+  CommandLine& command = tool.command(
       "analyze", "Find what can be proved of given gains: least gain, fastest rate, largest T2");
   auto arguments = std::make_shared<AnalyzeArguments>();
   std::vector<std::string> names;
   for (const Theorem* theorem : theorems()) names.push_back(theorem->name());
-  command->add_option("gains", arguments->gains, "Gain file, with or without certificate")
-      ->required()
-      ->type_name("GAINS");
+  command.argument("GAINS", arguments->gains, "Gain file, with or without certificate");
+  command.option("--plant PLANT...", arguments->plant,
+                 "Files with the plant, instead of the one that the gain file names");
   command
-      ->add_option("--plant", arguments->plant,
-                   "Files with the plant, instead of the one that the gain file names")
-      ->type_name("PLANT");
+      .option("--theorem NAME", arguments->theorem,
+              "Instead of the one of the certificate, or of the first one that is about the "
+              "observer type and the plant")
+      .choices(names);
   command
-      ->add_option("--theorem", arguments->theorem,
-                   "Instead of the one of the certificate, or of the first one that is about the "
-                   "observer type and the plant")
-      ->check(CLI::IsMember(names));
-  command
-      ->add_option("--objective", arguments->objective,
-                   "What to look for (default: all that have a meaning)")
-      ->check(CLI::IsMember({"feasible", "min-gamma", "max-T2", "max-decay", "min-final-error"}));
-  command->add_option("-o,--output", arguments->output,
-                      "Gain file to write, with the first of the proofs found");
-  command->add_option("--T1", arguments->T1, "Instead of that of the gain file [s]")
-      ->check(number_above(0));
-  command->add_option("--T2", arguments->T2, "Instead of that of the gain file [s]")
-      ->check(number_above(0));
-  command->add_option("--set", arguments->assignments,
-                      "Fix a parameter of the theorem, NAME=NUMBER; may be given several times");
-  command->add_option("--jobs", arguments->jobs, "Solvers at a time (default: all processors)")
-      ->check(whole_number_at_least(1));
-  command->add_option("--time-limit", arguments->time_limit, "For one attempt [s]")
-      ->check(number_at_least(0));
-  command->callback([arguments, command_line] { analyze_command(*arguments, command_line); });
+      .option("--objective NAME", arguments->objective,
+              "What to look for (default: all that have a meaning)")
+      .choices({"feasible", "min-gamma", "max-T2", "max-decay", "min-final-error"});
+  command.option("-o, --output FILE", arguments->output,
+                 "Gain file to write, with the first of the proofs found");
+  command.option("--T1 SECONDS", arguments->T1, "Instead of that of the gain file [s]")
+      .check(number_above(0));
+  command.option("--T2 SECONDS", arguments->T2, "Instead of that of the gain file [s]")
+      .check(number_above(0));
+  command.option("--set NAME=NUMBER...", arguments->assignments,
+                 "Fix a parameter of the theorem; may be given several times");
+  command.option("--jobs NUMBER", arguments->jobs, "Solvers at a time, as many as processors")
+      .check(whole_number_at_least(1));
+  command.option("--time-limit SECONDS", arguments->time_limit, "For one attempt [s]")
+      .check(number_at_least(0));
+  command.action([arguments, command_line] {
+    analyze_command(*arguments, command_line);
+    return 0;
+  });
 }
 
 }  // namespace sampled_data_observers

@@ -1,16 +1,17 @@
 #pragma once
 
-#include <CLI/App.hpp>
 #include <string>
+
+#include "console/command_line.h"
 
 namespace sampled_data_observers {
 
 // Each adds a subcommand, with what it does, to the tool `design`.
-void add_explain(CLI::App& app);
-void add_sweep(CLI::App& app, const std::string& command_line);
-void add_synthesize(CLI::App& app, const std::string& command_line);
-void add_analyze(CLI::App& app, const std::string& command_line);
-void add_verify(CLI::App& app);
+void add_explain(CommandLine& tool);
+void add_sweep(CommandLine& tool, const std::string& command_line);
+void add_synthesize(CommandLine& tool, const std::string& command_line);
+void add_analyze(CommandLine& tool, const std::string& command_line);
+void add_verify(CommandLine& tool);
 
 /// What a subcommand found that is no fault: the tool's exit status, thrown after all is printed.
 struct ExitStatus {

@@ -1,10 +1,9 @@
-#include <CLI/App.hpp>
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "config/design_config.h"
@@ -20,8 +19,8 @@ namespace {
 
 struct ExplainArguments {
   std::vector<std::string> files;
-  double T1 = 0.0;
-  double T2 = 0.0;
+  std::optional<double> T1;  // [s]
+  std::optional<double> T2;  // [s]
   std::string plot;
 };
 
@@ -54,11 +53,11 @@ void draw(const CertificateSubject& subject, const ExplainArguments& arguments) 
 
 void explain_command(const ExplainArguments& arguments) {
   CertificateSubject subject = read_design_config(arguments.files, load_plant_plugin).subject;
-  if (arguments.T2 > 0.0) {
-    subject.T2 = arguments.T2;
+  if (arguments.T2) {
+    subject.T2 = *arguments.T2;
     subject.T1 = std::min(subject.T1 > 0.0 ? subject.T1 : subject.T2, subject.T2);
   }
-  if (arguments.T1 > 0.0) subject.T1 = arguments.T1;
+  if (arguments.T1) subject.T1 = *arguments.T1;
   if (subject.T1 > subject.T2) throw DesignError("T1 > T2");
   std::printf("%s", explain(subject).c_str());
   if (!arguments.plot.empty()) draw(subject, arguments);
@@ -66,21 +65,22 @@ void explain_command(const ExplainArguments& arguments) {
 
 }  // namespace
 
-void add_explain(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("explain", "Why designs for a plant can or can't exist");
+void add_explain(CommandLine& tool) {
+  CommandLine& command = tool.command("explain", "Why designs for a plant can or can't exist");
   auto arguments = std::make_shared<ExplainArguments>();
-  command->add_option("plant", arguments->files, "Files with plant, sensors and design")
-      ->required()
-      ->type_name("PLANT");
-  command->add_option("--T1", arguments->T1, "Instead of design/sampling/T1 [s]")
-      ->check(number_above(0));
-  command->add_option("--T2", arguments->T2, "Instead of design/sampling/T2 [s]")
-      ->check(number_above(0));
+  command.argument("PLANT...", arguments->files, "Files with plant, sensors and design");
+  command.option("--T1 SECONDS", arguments->T1, "Instead of design/sampling/T1 [s]")
+      .check(number_above(0));
+  command.option("--T2 SECONDS", arguments->T2, "Instead of design/sampling/T2 [s]")
+      .check(number_above(0));
   command
-      ->add_option("--plot", arguments->plot,
-                   "Draw observability over the time between events (.png, .pdf, .svg)")
-      ->check(picture_file());
-  command->callback([arguments] { explain_command(*arguments); });
+      .option("--plot FILE", arguments->plot,
+              "Draw observability over the time between events (.png, .pdf, .svg)")
+      .check(picture_file());
+  command.action([arguments] {
+    explain_command(*arguments);
+    return 0;
+  });
 }
 
 }  // namespace sampled_data_observers

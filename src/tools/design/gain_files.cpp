@@ -1,6 +1,5 @@
 #include "tools/design/gain_files.h"
 
-#include <CLI/Error.hpp>
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
@@ -8,6 +7,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "console/usage_error.h"
 #include "sampled_data_observers/config/config_section.h"
 #include "sampled_data_observers/config/yaml_file.h"
 
@@ -49,7 +49,7 @@ void assign(const std::string& assignment, Parameters& parameters) {
     used = 0;
   }
   if (equals == std::string::npos || equals == 0 || used + equals + 1 != assignment.size()) {
-    throw CLI::ValidationError("--set", "expected NAME=NUMBER, found '" + assignment + "'");
+    throw UsageError("--set", "expected NAME=NUMBER, found '" + assignment + "'");
   }
   parameters[assignment.substr(0, equals)] = value;
 }

@@ -12,7 +12,7 @@ std::vector<std::string> plant_files_of(const std::string& gain_file,
                                         const std::vector<std::string>& given);
 
 /// NAME=NUMBER fixes a parameter.
-/// @throws CLI::ValidationError for anything else.
+/// @throws UsageError for anything else.
 void assign(const std::string& assignment, Parameters& parameters);
 
 /// The objective of a name of to_string(Objective).

@@ -1,14 +1,13 @@
 #include "design/sweep.h"
 
-#include <CLI/App.hpp>
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
 #include <algorithm>
+#include <array>
 #include <csignal>
 #include <cstdio>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
@@ -36,8 +35,8 @@ struct SweepArguments {
   std::vector<std::string> methods;
   std::string objective;
   std::string output;
-  std::vector<double> T2;
-  double T1 = 0.0;
+  std::optional<std::array<double, 2>> T2;  // [s]
+  std::optional<double> T1;                 // [s]
   std::size_t points = 20;
   std::vector<std::string> assignments;
   unsigned jobs = default_jobs();
@@ -66,9 +65,9 @@ SweepRequest request_of(const SweepArguments& arguments, const DesignConfig& con
   request.subject = config.subject;
   double low = 0.0;
   double high = 0.0;
-  if (!arguments.T2.empty()) {
-    low = arguments.T2[0];
-    high = arguments.T2[1];
+  if (arguments.T2) {
+    low = arguments.T2->front();
+    high = arguments.T2->back();
   } else if (config.subject.T2 > 0.0) {
     high = config.subject.T2;
     low = config.subject.T1 < high ? config.subject.T1 : kShortest * high;
@@ -79,8 +78,8 @@ SweepRequest request_of(const SweepArguments& arguments, const DesignConfig& con
         arguments.files.front());
   }
   request.T2 = sweep_times(low, high, arguments.points);
-  const double T1 = arguments.T1 > 0.0 ? arguments.T1 : config.subject.T1;
-  if (arguments.T1 > request.T2.front()) {
+  const double T1 = arguments.T1.value_or(config.subject.T1);
+  if (arguments.T1 && T1 > request.T2.front()) {
     throw DesignError("T1 = " + shortest_decimal(T1) + " s: expected at most the least T2, " +
                       shortest_decimal(request.T2.front()) + " s");
   }
@@ -207,45 +206,46 @@ void sweep_command(const SweepArguments& arguments, const std::string& command_l
 
 }  // namespace
 
-void add_sweep(CLI::App& app, const std::string& command_line) {
-  CLI::App* command = app.add_subcommand(
+void add_sweep(CommandLine& tool, const std::string& command_line) {
+  CommandLine& command = tool.command(
       "sweep", "Trade-off curves: the best designs over the longest time between samples");
   auto arguments = std::make_shared<SweepArguments>();
   std::vector<std::string> names;
   for (const DesignMethod* method : design_methods()) names.push_back(method->name());
-  command->add_option("plant", arguments->files, "Files with plant, sensors and design")
-      ->required()
-      ->type_name("PLANT");
+  command.argument("PLANT...", arguments->files, "Files with plant, sensors and design");
   command
-      ->add_option("-o,--output", arguments->output,
-                   "Folder for curves and gain files; what is finished in it is kept")
-      ->required();
+      .option("-o, --output FOLDER", arguments->output,
+              "Folder for curves and gain files; what is finished in it is kept")
+      .required();
   command
-      ->add_option("--method", arguments->methods,
-                   "As for synthesize; may be given several times (default: all that are about the "
-                   "plant and serve the objective)")
-      ->check(CLI::IsMember(names));
+      .option("--method NAME...", arguments->methods,
+              "As for synthesize; may be given several times (default: all that are about the "
+              "plant and serve the objective)")
+      .check(one_of(names));
   command
-      ->add_option("--objective", arguments->objective,
-                   "What is drawn over T2 (default: min-gamma where the plant has N)")
-      ->check(CLI::IsMember({"min-gamma", "max-decay"}));
+      .option("--objective NAME", arguments->objective,
+              "What is drawn over T2 (default: min-gamma where the plant has N)")
+      .choices({"min-gamma", "max-decay"});
   command
-      ->add_option("--T2", arguments->T2,
-                   "LOW and HIGH of T2 [s] (default: design/sampling T1 and T2)")
-      ->expected(2)
-      ->check(number_above(0));
+      .option("--T2 LOW HIGH", arguments->T2,
+              "Range of T2 [s] (default: design/sampling T1 and T2)")
+      .check(number_above(0));
   command
-      ->add_option("--T1", arguments->T1,
-                   "T1 of all designs [s] (default: design/sampling, at most LOW)")
-      ->check(number_above(0));
-  command->add_option("--points", arguments->points, "Number of T2")->check(CLI::Range(1, 100000));
-  command->add_option("--set", arguments->assignments,
-                      "Fix a parameter of the methods, NAME=NUMBER; may be given several times");
-  command->add_option("--jobs", arguments->jobs, "Points at a time (default: all processors)")
-      ->check(whole_number_at_least(1));
-  command->add_option("--time-limit", arguments->time_limit, "For one attempt [s]")
-      ->check(number_at_least(0));
-  command->callback([arguments, command_line] { sweep_command(*arguments, command_line); });
+      .option("--T1 SECONDS", arguments->T1,
+              "T1 of all designs [s] (default: design/sampling, at most LOW)")
+      .check(number_above(0));
+  command.option("--points NUMBER", arguments->points, "Number of T2")
+      .check(whole_number_between(1, 100000));
+  command.option("--set NAME=NUMBER...", arguments->assignments,
+                 "Fix a parameter of the methods; may be given several times");
+  command.option("--jobs NUMBER", arguments->jobs, "Points at a time, as many as processors")
+      .check(whole_number_at_least(1));
+  command.option("--time-limit SECONDS", arguments->time_limit, "For one attempt [s]")
+      .check(number_at_least(0));
+  command.action([arguments, command_line] {
+    sweep_command(*arguments, command_line);
+    return 0;
+  });
 }
 
 }  // namespace sampled_data_observers

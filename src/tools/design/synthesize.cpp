@@ -1,10 +1,9 @@
-#include <CLI/App.hpp>
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "config/design_config.h"
@@ -30,8 +29,8 @@ struct SynthesizeArguments {
   std::string method;
   std::string objective;
   std::string output;
-  double T1 = 0.0;
-  double T2 = 0.0;
+  std::optional<double> T1;  // [s]
+  std::optional<double> T2;  // [s]
   std::vector<std::string> assignments;
   std::vector<std::string> searched;
   unsigned jobs = default_jobs();
@@ -60,8 +59,8 @@ DesignProblem read_problem(const SynthesizeArguments& arguments, const DesignCon
                            const DesignMethod* method) {
   DesignProblem problem;
   problem.subject = config.subject;
-  if (arguments.T1 > 0.0) problem.subject.T1 = arguments.T1;
-  if (arguments.T2 > 0.0) problem.subject.T2 = arguments.T2;
+  if (arguments.T1) problem.subject.T1 = *arguments.T1;
+  if (arguments.T2) problem.subject.T2 = *arguments.T2;
   if (problem.subject.T2 <= 0.0) {
     throw DesignError("the times between samples are missing: give --T2, or design/sampling in " +
                       arguments.files.front());
@@ -219,8 +218,8 @@ void synthesize_command(const SynthesizeArguments& arguments, const std::string&
 
 }  // namespace
 
-void add_synthesize(CLI::App& app, const std::string& command_line) {
-  CLI::App* command = app.add_subcommand("synthesize", "Find gains for a plant, with their proof");
+void add_synthesize(CommandLine& tool, const std::string& command_line) {
+  CommandLine& command = tool.command("synthesize", "Find gains for a plant, with their proof");
   auto arguments = std::make_shared<SynthesizeArguments>();
   std::vector<std::string> methods;
   std::string help = "How to design (default: by all that apply, of which the best is taken):";
@@ -228,38 +227,36 @@ void add_synthesize(CLI::App& app, const std::string& command_line) {
     methods.push_back(method->name());
     help += "\n  " + method->name() + ": " + method->summary();
   }
-  command->add_option("plant", arguments->files, "Files with plant, sensors and design")
-      ->required()
-      ->type_name("PLANT");
-  command->add_option("--method", arguments->method, help)->check(CLI::IsMember(methods));
-  command->add_option("-o,--output", arguments->output, "Gain file to write")->required();
+  command.argument("PLANT...", arguments->files, "Files with plant, sensors and design");
+  command.option("-o, --output FILE", arguments->output, "Gain file to write").required();
+  command.option("--method NAME", arguments->method, help).check(one_of(methods));
   command
-      ->add_option(
-          "--objective", arguments->objective,
-          "What to look for (default: min-final-error, or feasible where that is not for the "
-          "method)")
-      ->check(CLI::IsMember({"min-final-error", "feasible", "min-gamma", "max-T2", "max-decay"}));
-  command->add_option("--T1", arguments->T1, "Instead of design/sampling/T1 [s]")
-      ->check(number_above(0));
-  command->add_option("--T2", arguments->T2, "Instead of design/sampling/T2 [s]")
-      ->check(number_above(0));
-  command->add_option("--set", arguments->assignments,
-                      "Fix a parameter of the method, NAME=NUMBER; may be given several times");
+      .option("--objective NAME", arguments->objective,
+              "What to look for (default: min-final-error, or feasible where that is not for the "
+              "method)")
+      .choices({"min-final-error", "feasible", "min-gamma", "max-T2", "max-decay"});
+  command.option("--T1 SECONDS", arguments->T1, "Instead of design/sampling/T1 [s]")
+      .check(number_above(0));
+  command.option("--T2 SECONDS", arguments->T2, "Instead of design/sampling/T2 [s]")
+      .check(number_above(0));
+  command.option("--set NAME=NUMBER...", arguments->assignments,
+                 "Fix a parameter of the method; may be given several times");
+  command.option(
+      "--search NAME...", arguments->searched,
+      "Search for a parameter that has a default, such as a; may be given several times");
+  command.option("--jobs NUMBER", arguments->jobs, "Solvers at a time, as many as processors")
+      .check(whole_number_at_least(1));
+  command.option("--time-limit SECONDS", arguments->time_limit, "For one attempt [s]")
+      .check(number_at_least(0));
   command
-      ->add_option("--search", arguments->searched,
-                   "Search for a parameter that has a default, such as a; may be given several "
-                   "times")
-      ->type_name("NAME");
-  command->add_option("--jobs", arguments->jobs, "Solvers at a time (default: all processors)")
-      ->check(whole_number_at_least(1));
-  command->add_option("--time-limit", arguments->time_limit, "For one attempt [s]")
-      ->check(number_at_least(0));
-  command
-      ->add_option("--cross-check", arguments->cross_check,
-                   "Solve the design's semidefinite program with a second solver, too, and compare "
-                   "the objectives")
-      ->check(CLI::IsMember({"sdpa"}));
-  command->callback([arguments, command_line] { synthesize_command(*arguments, command_line); });
+      .option("--cross-check sdpa", arguments->cross_check,
+              "Solve the design's semidefinite program with a second solver, too, and compare the "
+              "objectives")
+      .check(one_of({"sdpa"}));
+  command.action([arguments, command_line] {
+    synthesize_command(*arguments, command_line);
+    return 0;
+  });
 }
 
 }  // namespace sampled_data_observers

@@ -1,6 +1,3 @@
-#include <CLI/App.hpp>
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
@@ -13,6 +10,7 @@
 #include "config/certificate_config.h"
 #include "config/claim_contradiction.h"
 #include "config/plant_fingerprint.h"
+#include "console/option_checks.h"
 #include "console/progress_bar.h"
 #include "design/certificate_proof.h"
 #include "design/gain_file.h"
@@ -142,30 +140,29 @@ void verify_command(const VerifyArguments& arguments) {
 
 }  // namespace
 
-void add_verify(CLI::App& app) {
-  CLI::App* command =
-      app.add_subcommand("verify", "Check the original inequalities of a gain file's theorem");
+void add_verify(CommandLine& tool) {
+  CommandLine& command =
+      tool.command("verify", "Check the original inequalities of a gain file's theorem");
   auto arguments = std::make_shared<VerifyArguments>();
-  command->add_option("gains", arguments->gains, "Gain file")->required()->type_name("GAINS");
+  command.argument("GAINS", arguments->gains, "Gain file");
+  command.option("--plant PLANT...", arguments->plant,
+                 "Files with the plant, instead of the one that the gain file names");
+  const Option& rigorous =
+      command.flag("--rigorous", arguments->is_rigorous,
+                   "Prove or disprove them in ball arithmetic, for all tau and for the decimals in "
+                   "the files, instead of a check in floating point");
   command
-      ->add_option("--plant", arguments->plant,
-                   "Files with the plant, instead of the one that the gain file names")
-      ->type_name("PLANT");
-  CLI::Option* rigorous =
-      command->add_flag("--rigorous", arguments->is_rigorous,
-                        "Prove or disprove them in ball arithmetic, for all tau and for the "
-                        "decimals in the files, instead of a check in floating point");
+      .flag("--record", arguments->records,
+            "Write into the gain file that all is proved, as 'synthesize' does")
+      .needs(rigorous);
   command
-      ->add_flag("--record", arguments->records,
-                 "Write into the gain file that all is proved, as 'synthesize' does")
-      ->needs(rigorous);
-  command
-      ->add_option("--time-limit", arguments->time_limit,
-                   "With --rigorous: what is not decided after this time [s] is undecided")
-      ->capture_default_str()
-      ->check(CLI::PositiveNumber)
-      ->type_name("SECONDS");
-  command->callback([arguments] { verify_command(*arguments); });
+      .option("--time-limit SECONDS", arguments->time_limit,
+              "With --rigorous: what is not decided after this time [s] is undecided")
+      .check(number_above(0));
+  command.action([arguments] {
+    verify_command(*arguments);
+    return 0;
+  });
 }
 
 }  // namespace sampled_data_observers
