@@ -26,6 +26,7 @@ DiagnosisSubject diagnosis_subject(const ObserverConfig& config) {
   subject.period = config.period;
   subject.sampling = config.options.sampling;
   subject.history = config.options.history.history;
+  subject.jump_back_tolerance = config.jump_back_tolerance;
   subject.guarantee = config.guarantee;
   subject.warning = config.warning;
   return subject;

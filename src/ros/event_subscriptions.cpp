@@ -33,7 +33,8 @@ EventSubscriptions::EventSubscriptions(const ros::NodeHandle& handle, const Obse
       log_(std::move(log)),
       history_(config.options.history.history),
       statuses_(status_prototype(), kStatusesHeld),
-      transforms_(std::make_shared<TransformBuffer>(config.static_transforms)) {
+      transforms_(std::make_shared<TransformBuffer>(config.static_transforms)),
+      clock_(config.jump_back_tolerance) {
   for (const EventChannel& channel : event_channels(config)) add(channel);
   throttles_.resize(intakes_.size() * kEventOutcomes);
   if (has_frames(config)) subscribe_.push_back([this] { listen_to_transforms(); });
@@ -96,11 +97,9 @@ void EventSubscriptions::listen_to_transforms() {
 
 /// Forgets the transforms of a time that is yet to come again.
 void EventSubscriptions::watch_clock(Stamp now) {
-  if (now < last_now_) {
-    transforms_->clear();
-    for (const auto& intake : intakes_) intake->give_up();
-  }
-  last_now_ = now;
+  if (clock_.note(now) == 0) return;
+  transforms_->clear();
+  for (const auto& intake : intakes_) intake->give_up();
 }
 
 void EventSubscriptions::retry_waiting() {

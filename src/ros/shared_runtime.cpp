@@ -2,7 +2,6 @@
 
 #include <ros/time.h>
 
-#include <algorithm>
 #include <utility>
 
 #include "messages/time_conversion.h"
@@ -13,8 +12,8 @@ namespace sampled_data_observers {
 SharedRuntime::SharedRuntime(const ObserverConfig& config, NodeLog log, std::string reset_service)
     : runtime_(std::make_unique<ObserverRuntime>(config)),
       statistics_(event_channels(config).size()),
+      clock_(config.jump_back_tolerance),
       reset_on_jump_back_(config.reset_on_time_jump_back),
-      jump_back_tolerance_(config.jump_back_tolerance),
       log_(std::move(log)),
       reset_service_(std::move(reset_service)) {}
 
@@ -30,12 +29,8 @@ void SharedRuntime::replace(std::unique_ptr<ObserverRuntime> next) {
 // The time is read under the lock: otherwise it might seem to go back from one use to the next.
 SharedRuntime::Access::Access(SharedRuntime& shared)
     : shared_(shared), lock_(shared.mutex_), now_(to_stamp(ros::Time::now())) {
-  if (shared.latest_ - now_ > shared.jump_back_tolerance_) {
-    went_back_ = shared.latest_ - now_;
-    shared.latest_ = now_;
-    if (shared.reset_on_jump_back_) shared.runtime_->start_anew(now_);
-  }
-  shared.latest_ = std::max(shared.latest_, now_);
+  went_back_ = shared.clock_.note(now_);
+  if (went_back_ > 0 && shared.reset_on_jump_back_) shared.runtime_->start_anew(now_);
 }
 
 SharedRuntime::Access::~Access() {

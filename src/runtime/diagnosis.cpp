@@ -79,12 +79,13 @@ std::string describe_old_stamps(const std::string& topic, Duration behind) {
 
 Diagnosis::Diagnosis(DiagnosisSubject subject)
     : subject_(std::move(subject)),
+      clock_(subject_.jump_back_tolerance),
       window_(subject_.channels.size()),
       totals_(subject_.channels.size()),
       memory_(subject_.channels.size()) {}
 
 void Diagnosis::update(const RunStatistics& window, Stamp now, Duration elapsed) {
-  if (now < now_) {  // time went back: what was in the future says nothing
+  if (clock_.note(now) > 0) {  // what was in the future says nothing
     for (ChannelMemory& memory : memory_) memory.forget_events();
     restored_ = 0;
   }

@@ -1,8 +1,10 @@
 // With reset_on_time_jump_back, under a clock that this test publishes: a bag that loops, a clock
 // that stops and goes on, one that is set back a little, and one that jumps ahead.
+#include <geometry_msgs/PointStamped.h>
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 #include <rosgraph_msgs/Clock.h>
+#include <tf2_msgs/TFMessage.h>
 
 #include <cmath>
 
@@ -98,6 +100,51 @@ TEST_F(TimeJumpsTest, ABagThatLoopsGivesTheSameEstimatesEachTime) {
     EXPECT_LT(client_.estimates[i - 1].header.stamp, client_.estimates[i].header.stamp);
   }
   EXPECT_EQ(EventStatus::USED, sample_at(1101.5, 2.0).outcome);
+}
+
+/// A step back within the tolerance forgets no transform.
+TEST_F(TimeJumpsTest, ACorrectedClockKeepsTheTransforms) {
+  const ros::NodeHandle turning("turning");
+  const ros::Publisher camera =
+      ros::NodeHandle(turning).advertise<geometry_msgs::PointStamped>("camera", 10);
+  const ros::Publisher tf = handle_.advertise<tf2_msgs::TFMessage>("/tf", 10);
+  std::vector<EventStatus> statuses;
+  const boost::function<void(const EventStatusConstPtr&)> take =
+      [&](const EventStatusConstPtr& status) { statuses.push_back(*status); };
+  const ros::Subscriber subscriber =
+      ros::NodeHandle(turning).subscribe<EventStatus>("events", 100, take);
+  ASSERT_TRUE(hold_clock_until(2000.0, [&] {
+    return camera.getNumSubscribers() > 0 && tf.getNumSubscribers() > 0 &&
+           subscriber.getNumPublishers() > 0 && ros::Time::now() == ros::Time(2000.0);
+  }));
+  geometry_msgs::PointStamped point;
+  point.header.frame_id = "lens";
+  point.point.x = 1.0;
+  const auto measure = [&](double stamp) {
+    point.header.stamp = ros::Time(stamp);
+    camera.publish(point);
+  };
+  for (const double stamp : {1999.0, 2000.0}) {
+    tf2_msgs::TFMessage message;
+    message.transforms.resize(1);
+    message.transforms[0].header.stamp = ros::Time(stamp);
+    message.transforms[0].header.frame_id = "map";
+    message.transforms[0].child_frame_id = "turntable";
+    message.transforms[0].transform.rotation.w = 1.0;
+    tf.publish(message);
+  }
+  measure(1999.2);
+  ASSERT_TRUE(hold_clock_until(2000.0, [&] { return !statuses.empty(); }));
+  EXPECT_EQ(EventStatus::USED, statuses[0].outcome) << statuses[0].reason;
+
+  ASSERT_TRUE(hold_clock_until(1999.9, [] { return ros::Time::now() == ros::Time(1999.9); }));
+  ros::WallDuration(0.3).sleep();  // the observer, too, hears the clock
+  measure(1999.4);
+  if (!hold_clock_until(1999.9, [&] { return statuses.size() > 1; })) {
+    hold_clock_until(2010.0, [&] { return statuses.size() > 1; });
+  }
+  ASSERT_EQ(2u, statuses.size());
+  EXPECT_EQ(EventStatus::USED, statuses[1].outcome) << statuses[1].reason;
 }
 
 }  // namespace

@@ -19,6 +19,7 @@
 #include "sampled_data_observers/ros/log_throttle.h"
 #include "sampled_data_observers/ros/node_log.h"
 #include "sampled_data_observers/ros/shared_runtime.h"
+#include "sampled_data_observers/runtime/clock_jumps.h"
 
 namespace sampled_data_observers {
 
@@ -60,7 +61,7 @@ class EventSubscriptions {
   std::vector<std::shared_ptr<EventIntake>> intakes_;
   std::vector<std::function<void()>> subscribe_;
   std::vector<ros::Subscriber> subscribers_;
-  Stamp last_now_ = 0;
+  ClockJumps clock_;
   ros::WallTimer retry_timer_;
   /// What came before the first time of a simulated clock, and what ends the wait for it.
   std::vector<std::function<void()>> deferred_;

@@ -9,6 +9,7 @@
 #include "sampled_data_observers/config/observer_config.h"
 #include "sampled_data_observers/real_time/priority_inheritance_mutex.h"
 #include "sampled_data_observers/ros/node_log.h"
+#include "sampled_data_observers/runtime/clock_jumps.h"
 #include "sampled_data_observers/runtime/observer_runtime.h"
 #include "sampled_data_observers/runtime/run_statistics.h"
 
@@ -58,9 +59,8 @@ class SharedRuntime {
   PriorityInheritanceMutex mutex_;
   std::unique_ptr<ObserverRuntime> runtime_;
   StatisticsRecorder statistics_;
-  Stamp latest_ = 0;
+  ClockJumps clock_;
   const bool reset_on_jump_back_;
-  const Duration jump_back_tolerance_;
   std::function<void()> time_went_back_;
   const NodeLog log_;
   const std::string reset_service_;

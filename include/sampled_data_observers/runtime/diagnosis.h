@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sampled_data_observers/hybrid/event.h"
+#include "sampled_data_observers/runtime/clock_jumps.h"
 #include "sampled_data_observers/runtime/run_statistics.h"
 
 namespace sampled_data_observers {
@@ -37,6 +38,8 @@ struct DiagnosisSubject {
   SamplingBounds sampling;
   /// The history window [ns].
   Duration history = 0;
+  /// By how much time may go back and is taken for corrected [ns].
+  Duration jump_back_tolerance = 0;
   /// As in ObserverConfig.
   std::string guarantee;
   std::string warning;
@@ -95,6 +98,7 @@ class Diagnosis {
   std::string rejections(const ChannelStatistics& statistics) const;
 
   const DiagnosisSubject subject_;
+  ClockJumps clock_;
   RunStatistics window_;
   RunStatistics totals_;
   std::vector<ChannelMemory> memory_;
