@@ -10,6 +10,7 @@
 #include "design/final_error.h"
 #include "design/request_error.h"
 #include "design/run_time_figures.h"
+#include "design/synthesis.h"
 
 namespace sampled_data_observers {
 namespace {

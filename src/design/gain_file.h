@@ -4,7 +4,7 @@
 #include <iosfwd>
 #include <string>
 
-#include "design/synthesis.h"
+#include "design/design_search.h"
 
 namespace sampled_data_observers {
 

@@ -9,6 +9,7 @@
 
 #include "design/packing.h"
 #include "design/request_error.h"
+#include "design/synthesis.h"
 #include "design/workers.h"
 
 namespace sampled_data_observers {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "design/synthesis.h"
+#include "design/design_search.h"
 
 namespace sampled_data_observers {
 

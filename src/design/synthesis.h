@@ -1,58 +1,13 @@
 #pragma once
 
-#include <functional>
-#include <map>
-#include <optional>
-#include <string>
-
-#include "design/design_method.h"
+#include "design/design_search.h"
 
 namespace sampled_data_observers {
 
-struct SynthesisOptions {
-  unsigned jobs = 1;
-  /// For one attempt [s]; a longer one is lost, with its process.
-  double time_limit = 20.0;
-  /// Called now and then with what is being done, for a progress display.
-  std::function<void(const std::string& what, std::size_t attempts)> on_progress;
-};
-
-/// A verified design, and how it was found.
-struct Design {
-  std::string method;
-  std::string observer_type;
-  Certificate certificate;
-  Objective objective = Objective::kFeasible;
-  /// |w| for which the final error was made small, where the plant has an N.
-  std::optional<double> disturbance;
-  /// All scalars with which it was made.
-  Parameters parameters;
-  double margin = 0.0;
-  /// Conditions of the theorem, which ball arithmetic proved all.
-  std::size_t proved_conditions = 0;
-  std::string solver;
-  double seconds = 0.0;
-  std::size_t attempts = 0;
-  /// Where T2 or the rate was to be as large as possible: that it could be made 1024 times what the
-  /// search began with, where it ended.
-  bool has_no_maximum = false;
-};
-
-/// Finds gains by a method: chooses what the user left open, searches for the parameters with a
-/// range, and for max-T2 and max-decay by bisection for the largest value (to 0.1 %; it begins with
-/// the T2 or the rate of the problem, less than which is no answer, or with a rate of 0.1/T2, and
-/// ends at 1024 times that). What counts as found is proved in ball arithmetic. Then, with
-/// the gains fixed, looks for a proof that reaches further than the one that led to them, as Remark
-/// 9 of ferrante2019 proposes.
-/// @throws RequestError when the method is not about the plant or the objective, or a parameter
-/// means nothing to it or is not finite; DesignError when the plant can't be observed, or no
-/// attempt led to gains that the theorem's own conditions accept; the message says what was tried
-/// and what to change.
+/// Finds gains by a method (search_design()). Then, with the gains fixed, looks for a proof that
+/// reaches further than the one that led to them, as Remark 9 of ferrante2019 proposes.
+/// @throws RequestError, DesignError  as search_design()
 Design synthesize(const DesignMethod& method, const DesignProblem& problem,
                   const SynthesisOptions& options);
-
-/// The same without the last step.
-Design search_design(const DesignMethod& method, const DesignProblem& problem,
-                     const SynthesisOptions& options);
 
 }  // namespace sampled_data_observers

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "design/synthesis.h"
+#include "design/design_search.h"
 
 namespace sampled_data_observers {
 

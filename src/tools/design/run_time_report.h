@@ -1,7 +1,7 @@
 #pragma once
 
 #include "design/assumed_disturbance.h"
-#include "design/synthesis.h"
+#include "design/design_search.h"
 
 namespace sampled_data_observers {
 
