@@ -2,9 +2,7 @@
 
 #include <Eigen/Core>
 
-// The library's headers are C.
-#include <arb_mat.h>
-
+#include "design/arb.h"
 #include "design/rigorous_check.h"
 
 namespace sampled_data_observers {

@@ -169,7 +169,8 @@ LmiSolution solve_with_sdpa(const LmiProgram& program, double time_limit,
                                time_limit);
   } catch (const std::system_error& error) {
     solution.message = "the program 'sdpa' can't be run (" + error.code().message() +
-                       "); Debian's package sdpa has it";
+                       "): install Debian's package sdpa, or, where there is none as in Debian 13, "
+                       "SDPA from its sources";
     return solution;
   }
   solution.seconds = std::chrono::duration<double>(Clock::now() - start).count();
