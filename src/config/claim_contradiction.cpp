@@ -52,8 +52,8 @@ void visit_pairs(const Vector& centre, Eigen::Index inputs, Visit&& visit) {
   // Its sequence is the standard's; the distributions' would not be.
   std::mt19937_64 engine(1);
   const auto fill = [&engine](Vector values) -> Vector {
-    for (double& value : values) {
-      value = std::ldexp(static_cast<double>(engine() >> 11), -52) - 1.0;  // in [-1, 1)
+    for (Eigen::Index i = 0; i < values.size(); ++i) {
+      values(i) = std::ldexp(static_cast<double>(engine() >> 11), -52) - 1.0;  // in [-1, 1)
     }
     return values;
   };
