@@ -91,6 +91,12 @@ ObserverConfig read_observer_config(const ConfigNode& tree, const PlantPluginLoa
   root.has("scenario");
   root.has("design");
   ObserverConfig config;
+  if (!root.has("observer")) {
+    throw root.error("observer",
+                     "the type of the observer, which the gain file of 'design synthesize' names, "
+                     "too: is that one missing beside the plant's?",
+                     "nothing");
+  }
   config.type = root.choice("observer", observer_types());
   PlantConfig plant_config = read_plant(root, load_plugin);
   config.plant = plant_config.plant;
