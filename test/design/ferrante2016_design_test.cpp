@@ -253,14 +253,6 @@ TEST(Ferrante2016Proposition1, FindsAGainWhereThePolytopeIsTooLarge) {
   EXPECT_TRUE(all_hold(check(theorem().conditions(subject), design.certificate.values, 2001)));
 }
 
-TEST(Ferrante2016Proposition1, IsAtLeastAsFastAsCorollary1) {
-  const CertificateSubject subject = mass_spring(0.2, 3.0);
-  const Design fastest = design_by(kMethod, subject, {}, Objective::kMaxDecay);
-  const double rate = scalar_value(fastest.certificate.values, "decay");
-  EXPECT_NO_THROW(design_by("ferrante2016_proposition1", subject, {{"decay", 0.999 * rate}},
-                            Objective::kFeasible));
-}
-
 /// x' = x, samples 1 s apart: L e/(1 - |1 - L| e) times the noise is left, least for L = 1.
 TEST(Ferrante2016, HasTheLeastFinalErrorOfAScalarPlant) {
   for (const char* method : {kMethod, "ferrante2016_proposition1"}) {

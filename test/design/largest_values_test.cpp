@@ -141,5 +141,13 @@ TEST(LargestT2, MayNotExistAndTheGainFileSaysSo) {
   EXPECT_NE(file.str().find("max-T2  # the search ended here"), std::string::npos) << file.str();
 }
 
+TEST(Ferrante2016Proposition1, IsAtLeastAsFastAsCorollary1) {
+  const CertificateSubject subject = mass_spring(0.2, 3.0);
+  const Design fastest = design_by("ferrante2016_corollary1", subject, {}, Objective::kMaxDecay);
+  const double rate = scalar_value(fastest.certificate.values, "decay");
+  EXPECT_NO_THROW(design_by("ferrante2016_proposition1", subject, {{"decay", 0.999 * rate}},
+                            Objective::kFeasible));
+}
+
 }  // namespace
 }  // namespace sampled_data_observers::test
