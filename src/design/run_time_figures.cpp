@@ -48,7 +48,8 @@ class Run {
   /// What is no number bounds nothing.
   double bound(const std::vector<double>& state) const {
     const double value = bound_.bound(state.data());
-    return std::isnan(value) ? kInfinity : value;
+    if (std::isnan(value)) return kInfinity;
+    return value;
   }
 
   const ErrorBound& bound_;
