@@ -142,9 +142,6 @@ ObserverConfig read_observer_config(const ConfigNode& tree, const PlantPluginLoa
   config.options.history = read_history(root);
   config.options.future_tolerance =
       from_seconds(root.number_in("future_tolerance", 0.0, kLongest, 0.5));
-  if (config.jumps && config.jumps->detector) {
-    config.jumps->detector->future_tolerance = config.options.future_tolerance;
-  }
   config.period = from_seconds(1.0 / root.number_in("rate", 1e-3, 1e5, 100.0));
   config.publish_delay = from_seconds(root.number_in("publish_delay", 0.0, kLongest, 0.0));
   config.frame_id = root.text("frame_id", "");
@@ -155,6 +152,10 @@ ObserverConfig read_observer_config(const ConfigNode& tree, const PlantPluginLoa
   config.reset_on_time_jump_back = root.flag("reset_on_time_jump_back", false);
   config.jump_back_tolerance =
       from_seconds(root.number_in("jump_back_tolerance", 0.0, kLongest, 1.0));
+  if (config.jumps && config.jumps->detector) {
+    config.jumps->detector->future_tolerance = config.options.future_tolerance;
+    config.jumps->detector->jump_back_tolerance = config.jump_back_tolerance;
+  }
   config.gains_directory = root.text("gains_directory", "");
   // Otherwise stamps would leave the window before they are due, or an event from the tolerated
   // future would push all present ones out of it.

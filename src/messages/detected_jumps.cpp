@@ -10,7 +10,8 @@ DetectedJumps::DetectedJumps(std::unique_ptr<MessageSource> signal, const Detect
       outputs_(config.outputs),
       detector_(config.options),
       future_tolerance_(config.future_tolerance),
-      values_(outputs_ ? static_cast<std::size_t>(outputs_->size()) : 0) {}
+      values_(outputs_ ? static_cast<std::size_t>(outputs_->size()) : 0),
+      clock_(config.jump_back_tolerance) {}
 
 ros::Subscriber DetectedJumps::subscribe(ros::NodeHandle& handle, std::uint32_t queue_length,
                                          const Receiver& receive) const {
@@ -22,8 +23,7 @@ MessagePointer DetectedJumps::deserialize(std::uint8_t* data, std::uint32_t size
 }
 
 Reading DetectedJumps::read(const MessagePointer& message, Stamp receipt, Event& event) {
-  if (receipt < last_receipt_) detector_.restart();
-  last_receipt_ = receipt;
+  if (clock_.note(receipt) > 0) detector_.restart();
   event.size = 0;
   event.channel = kPlainJump;
   Event sample;

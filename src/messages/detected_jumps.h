@@ -5,11 +5,13 @@
 
 #include "sampled_data_observers/config/detector_config.h"
 #include "sampled_data_observers/messages/message_source.h"
+#include "sampled_data_observers/runtime/clock_jumps.h"
 
 namespace sampled_data_observers {
 
 /// Jumps that show in a signal: reads its messages from another source, and makes an event of each
-/// crossing. When the time of receipt goes back, the clock was set: the detector starts again.
+/// crossing. When the time of receipt goes back by more than the tolerance, the clock was set: the
+/// detector starts again.
 class DetectedJumps : public MessageSource {
  public:
   /// @param signal  its values are those that the formula of the signal takes
@@ -32,7 +34,7 @@ class DetectedJumps : public MessageSource {
   JumpDetector detector_;
   Duration future_tolerance_;
   std::vector<double> values_;
-  Stamp last_receipt_ = 0;
+  ClockJumps clock_;
 };
 
 }  // namespace sampled_data_observers

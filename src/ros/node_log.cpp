@@ -30,8 +30,7 @@ const LogLocation& location_of(const std::string& name, Level level) {
   return found->second;
 }
 
-void print(const std::string& name, Level level, const char* format, std::va_list arguments) {
-  const LogLocation& location = location_of(name, level);
+void print(const LogLocation& location, const char* format, std::va_list arguments) {
   if (!location.logger_enabled_) return;
   std::va_list again;
   va_copy(again, arguments);
@@ -40,30 +39,36 @@ void print(const std::string& name, Level level, const char* format, std::va_lis
   if (length < 0) return;
   std::string text(static_cast<std::size_t>(length) + 1, '\0');
   std::vsnprintf(text.data(), text.size(), format, arguments);
-  ros::console::print(nullptr, location.logger_, level, __FILE__, __LINE__, __func__, "%s",
-                      text.c_str());
+  ros::console::print(nullptr, location.logger_, location.level_, __FILE__, __LINE__, __func__,
+                      "%s", text.c_str());
 }
 
 }  // namespace
 
+NodeLog::NodeLog(std::string name)
+    : name_(std::move(name)),
+      info_(&location_of(name_, ros::console::levels::Info)),
+      warn_(&location_of(name_, ros::console::levels::Warn)),
+      fatal_(&location_of(name_, ros::console::levels::Fatal)) {}
+
 void NodeLog::info(const char* format, ...) const {
   std::va_list arguments;
   va_start(arguments, format);
-  print(name_, ros::console::levels::Info, format, arguments);
+  print(*info_, format, arguments);
   va_end(arguments);
 }
 
 void NodeLog::warn(const char* format, ...) const {
   std::va_list arguments;
   va_start(arguments, format);
-  print(name_, ros::console::levels::Warn, format, arguments);
+  print(*warn_, format, arguments);
   va_end(arguments);
 }
 
 void NodeLog::fatal(const char* format, ...) const {
   std::va_list arguments;
   va_start(arguments, format);
-  print(name_, ros::console::levels::Fatal, format, arguments);
+  print(*fatal_, format, arguments);
   va_end(arguments);
 }
 

@@ -72,6 +72,7 @@ TEST(DetectedJumpsTest, AreTheCrossingsOfTheSignal) {
   DetectorConfig detector;
   detector.signal = std::make_shared<const AffineMap>(Eigen::MatrixXd::Constant(1, 1, 2.0));
   detector.options.threshold = 10.0;
+  detector.jump_back_tolerance = 100;
   imu.detector = detector;
   const auto source = make_message_source(imu);
   const auto reading = [&](Stamp stamp, double x, Stamp receipt) {
@@ -89,6 +90,9 @@ TEST(DetectedJumpsTest, AreTheCrossingsOfTheSignal) {
   EXPECT_EQ(1500, jump.event.stamp);
   EXPECT_EQ(0, jump.event.size);
   EXPECT_EQ(kPlainJump, jump.event.channel);
+  // The clock is corrected: what was before goes on counting.
+  EXPECT_EQ(Reading::kPassedOver, reading(2500, 0.0, 2004).reading);
+  EXPECT_EQ(2750, reading(3000, 10.0, 1950).event.stamp);
   // The clock is set back: what was before counts no more.
   EXPECT_EQ(Reading::kPassedOver, reading(100, 0.0, 200).reading);
   EXPECT_EQ(150, reading(200, 10.0, 201).event.stamp);

@@ -20,6 +20,8 @@ struct DetectorConfig {
   JumpDetector::Options options;
   /// How far a stamp may lie after the time of its arrival [ns].
   Duration future_tolerance = kNanosecondsPerSecond / 2;
+  /// By how much time may go back and is taken for corrected [ns].
+  Duration jump_back_tolerance = kNanosecondsPerSecond;
 };
 
 /// Reads the signal of a section `detector` and what is looked for in it; other keys of the section

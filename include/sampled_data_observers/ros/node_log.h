@@ -2,13 +2,17 @@
 
 #include <string>
 
+namespace ros::console {
+struct LogLocation;
+}
+
 namespace sampled_data_observers {
 
 /// The log of one nodelet, under its name. The macros of rosconsole keep the name of whoever logs
 /// first from a line, so that in one manager all observers would log as one of them.
 class NodeLog {
  public:
-  explicit NodeLog(std::string name) : name_(std::move(name)) {}
+  explicit NodeLog(std::string name);
 
   const std::string& name() const { return name_; }
 
@@ -19,6 +23,10 @@ class NodeLog {
 
  private:
   std::string name_;
+  // Of each level, as long as the process lives.
+  const ros::console::LogLocation* info_;
+  const ros::console::LogLocation* warn_;
+  const ros::console::LogLocation* fatal_;
 };
 
 }  // namespace sampled_data_observers
