@@ -26,16 +26,23 @@ class ConfigError : public std::runtime_error {
 /// One node of a configuration tree, whether it was read from a YAML file or from the ROS parameter
 /// server. Scalars are kept as text and converted strictly where they are used.
 struct ConfigNode {
+  /// A scalar has its text in `scalar`, a sequence its nodes in `items`, a map its in `entries`; an
+  /// empty node has none of them.
   enum class Kind { kEmpty, kScalar, kSequence, kMap };
 
+  /// kEmpty where nothing stands behind a key.
   Kind kind = Kind::kEmpty;
   /// Where it stands: "file.yaml:12" or "parameters of /observer".
   std::string origin;
+  /// As written, without quotes.
   std::string scalar;
+  /// In order; they may be of different kinds.
   std::vector<ConfigNode> items;
   /// In order of appearance; keys are unique.
   std::vector<std::pair<std::string, ConfigNode>> entries;
 
+  /// The node below a key, as long as this node is not changed; null where there is no such key, or
+  /// this is no map.
   const ConfigNode* find(const std::string& key) const;
 
   /// What it is, for "found ...": "the text 'abc'", "a list of 3", "nothing", ...

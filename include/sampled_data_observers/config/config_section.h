@@ -18,9 +18,12 @@ namespace sampled_data_observers {
 /// value is not what was asked for.
 class ConfigSection {
  public:
+  /// @param node  must outlive the section
+  /// @param path  keys joined by '/', as messages show it; empty at the root
   /// @throws ConfigError when `node` is not a map.
   ConfigSection(const ConfigNode& node, std::string path);
 
+  /// Whether the key is there, of whatever kind its value is; it counts as asked for.
   bool has(const std::string& key);
 
   /// A finite number.
@@ -31,14 +34,19 @@ class ConfigSection {
   std::size_t count(const std::string& key, std::size_t low, std::size_t high,
                     std::size_t fallback);
 
+  /// A scalar that is not empty, as written.
   std::string text(const std::string& key);
+  /// The same, or `fallback` where the key is missing.
   std::string text(const std::string& key, const std::string& fallback);
   /// One of `choices`.
   std::string choice(const std::string& key, const std::vector<std::string>& choices);
+  /// A list of scalars of any length.
   std::vector<std::string> texts(const std::string& key);
+  /// A list of `size` scalars.
   std::vector<std::string> texts(const std::string& key, std::size_t size);
   /// true or false.
   bool flag(const std::string& key, bool fallback);
+  /// A list of `size` times true or false.
   std::vector<bool> flags(const std::string& key, std::size_t size);
 
   /// A matrix as nested lists, row by row. A negative size is free.
@@ -53,12 +61,15 @@ class ConfigSection {
   /// A list of lists of finite numbers, each of any length; or one such list alone.
   std::vector<Eigen::VectorXd> vectors(const std::string& key);
 
+  /// The map below a key, to be finished by itself.
   ConfigSection section(const std::string& key);
   /// A list of maps.
   std::vector<ConfigSection> sections(const std::string& key);
   /// A map whose keys are names that the user chose.
   std::vector<std::string> keys() const;
+  /// Whether the key is there and its value is a map; it counts as asked for.
   bool is_map(const std::string& key);
+  /// Whether the key is there and its value is a list; it counts as asked for.
   bool is_list(const std::string& key);
   /// Whether the key has a finite number.
   bool is_number(const std::string& key);
@@ -68,8 +79,11 @@ class ConfigSection {
   /// @throws ConfigError for a key that was never asked for.
   void finish() const;
 
+  /// Keys from the root to this section, joined by '/'; empty at the root.
   const std::string& path() const { return path_; }
+  /// File and line, or parameters of a node, where the section stands.
   const std::string& origin() const { return node_.origin; }
+  /// The path of a key of this section, as messages show it.
   std::string path_of(const std::string& key) const;
 
   /// A ConfigError at a key of this section.

@@ -17,6 +17,7 @@ struct DetectorConfig {
   /// From them to the outputs measured at a jump, evaluated for the message that shows it; null
   /// where it tells none.
   std::shared_ptr<const VectorMap> outputs;
+  /// What of the signal is a jump.
   JumpDetector::Options options;
   /// How far a stamp may lie after the time of its arrival [ns].
   Duration future_tolerance = kNanosecondsPerSecond / 2;
@@ -26,7 +27,8 @@ struct DetectorConfig {
 
 /// Reads the signal of a section `detector` and what is looked for in it; other keys of the section
 /// are left alone.
-/// @param fields  the names of the fields, which the formula of the signal may use
+/// @param section  `detector`
+/// @param fields   the names of the fields, which the formula of the signal may use
 /// @throws ConfigError for the first fault found.
 DetectorConfig read_detector(ConfigSection& section, const std::vector<std::string>& fields);
 

@@ -11,10 +11,13 @@ namespace sampled_data_observers {
 
 /// One place where events enter: a topic, and what its messages mean.
 struct EventChannel {
+  /// Of the events that its messages become.
   EventKind kind = EventKind::kSample;
+  /// As in Event.
   int channel = 0;
   /// Name in EventStatus: the sensor's, "input" or "jumps".
   std::string name;
+  /// The topic, and how its messages are read.
   TopicSource source;
   /// Place among all channels of the configuration.
   std::size_t index = 0;

@@ -20,6 +20,7 @@ struct SourceFrames {
   /// How long a message waits for transforms at its stamp.
   Duration timeout = 0;
 
+  /// Whether anything is to be transformed.
   bool any() const { return !frame.empty() || !body_frame.empty(); }
 };
 
@@ -28,7 +29,9 @@ SourceFrames read_source_frames(ConfigSection& source);
 
 /// A transform that never changes.
 struct StaticTransform {
+  /// The frame in which the child stands: its parent in tf.
   std::string frame;
+  /// The frame that is placed.
   std::string child_frame;
   /// Of the child's origin in the frame [m].
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();

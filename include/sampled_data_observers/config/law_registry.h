@@ -13,9 +13,12 @@ namespace sampled_data_observers {
 /// What the gains of a law are read with: the plant, where the estimate starts, and the names that
 /// formulas among the gains may use.
 struct LawContext {
+  /// To be passed on to the constructor of the law.
   ObserverContext observer;
+  /// For an ExpressionMap made of gains.
   ExpressionNames names;
 
+  /// The plant that is observed: its sizes are those that the gains must fit.
   const Plant& plant() const { return *observer.plant; }
 };
 

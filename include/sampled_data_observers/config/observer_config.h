@@ -19,9 +19,11 @@ namespace sampled_data_observers {
 struct ObserverConfig : RuntimeSetup {
   /// Observer type, such as "ConstantGainObserver".
   std::string type;
+  /// Priority and memory of the publishing thread.
   RealTimeOptions real_time;
-  /// What to do when time goes back by more than a tolerance [ns]: start anew, or only say so.
+  /// What to do when time goes back by more than the tolerance: start anew, or only say so.
   bool reset_on_time_jump_back = false;
+  /// By how much time may go back and is taken for corrected [ns].
   Duration jump_back_tolerance = 0;
   /// The directory of the files that may be loaded while running; empty: none may.
   std::string gains_directory;
@@ -34,6 +36,7 @@ struct ObserverConfig : RuntimeSetup {
   std::optional<TopicSource> jumps;
   /// Set where the estimate is also given in standard messages.
   std::optional<OutputsConfig> outputs;
+  /// Known without tf, and not overruled by it.
   std::vector<StaticTransform> static_transforms;
   /// Name of the theorem that guarantees something for these gains, and what; empty without a
   /// certificate that holds.

@@ -24,24 +24,31 @@ struct TransformOutput {
 /// The estimate in standard messages: that of a rigid body. doc/configuration.md describes the
 /// keys.
 struct OutputsConfig {
+  /// Which numbers of the estimate are the body's.
   BodyStates body;
+  /// In which the pose is given.
   std::string world_frame;
   /// Empty where no output needs it.
   std::string base_frame;
-  /// Topics.
+  /// Topic of nav_msgs/Odometry; empty: not published.
   std::optional<std::string> odometry;
+  /// Topic of geometry_msgs/PoseWithCovarianceStamped; empty: not published.
   std::optional<std::string> pose;
+  /// Topic of geometry_msgs/TwistWithCovarianceStamped; empty: not published.
   std::optional<std::string> twist;
+  /// Empty where tf is told nothing.
   std::optional<TransformOutput> transform;
 };
 
 /// What the numbers of a body may be named.
 struct BodyNames {
   std::vector<std::string> states;  ///< that are estimated
-  std::vector<std::string> inputs;
+  std::vector<std::string> inputs;  ///< that are known
 };
 
 /// Reads the section `outputs`; nothing where there is none.
+/// @param root         the section that holds it
+/// @param names        what its values may name
 /// @param world_frame  the key `frame_id`
 /// @throws ConfigError for the first fault: a name that does not exist, a frame that is missing.
 std::optional<OutputsConfig> read_outputs(ConfigSection& root, const BodyNames& names,

@@ -17,7 +17,9 @@ using PlantPluginLoader = std::function<std::shared_ptr<const PlantPlugin>(const
 
 /// A plant and the names that formulas of the same configuration may use.
 struct PlantConfig {
+  /// Never null.
   std::shared_ptr<const Plant> plant;
+  /// Of the states, the inputs and the parameters with their values.
   ExpressionNames names;
 };
 

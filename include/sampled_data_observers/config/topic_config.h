@@ -36,9 +36,12 @@ struct TopicSource {
   Duration min_interval = 0;
   /// Where the messages are no jumps but show them: how to detect them.
   std::optional<DetectorConfig> detector;
+  /// Into which frame the data are transformed, if any.
   SourceFrames frames;
-  /// Where the configuration says so, for messages about it.
+  /// Where the configuration says so, for messages about it: file and line, or parameters of a
+  /// node.
   std::string origin;
+  /// Where in these: keys joined by '/'.
   std::string path;
 };
 

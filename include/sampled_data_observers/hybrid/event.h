@@ -20,13 +20,16 @@ enum class EventKind : std::uint8_t {
   kRejected = 6     ///< something that the plant saw, and the estimate did not: no event itself
 };
 
-/// Channels of jumps: the event carries the outputs y_d at the jump or does not.
+/// Channel of jumps whose events carry no outputs.
 constexpr int kPlainJump = 0;
+/// Channel of jumps whose events carry the outputs y_d measured at them.
 constexpr int kMeasuredJump = 1;
 
 /// One event, as a view: the values belong to whoever made it.
 struct Event {
+  /// When it takes effect; 0 where that is unknown, and the event is of no use.
   Stamp stamp = 0;
+  /// Decides what `channel` and `values` mean.
   EventKind kind = EventKind::kSample;
   /// Index of the sensor for what is measured, kPlainJump or kMeasuredJump for jumps, the EventKind
   /// of what was rejected, else 0.
@@ -34,11 +37,13 @@ struct Event {
   /// u of inputs, y of what is measured. Of jumps: the label of the mode that follows, where the
   /// plant switches, then y_d. Of releases: the time since the jump [ns].
   const double* values = nullptr;
+  /// Number of values; what a channel takes, HybridSystem::event_size() says.
   Eigen::Index size = 0;
   /// Of jumps: when the reset takes effect, for a law that delays jumps; 0 where that is when the
   /// event arrives. It is no part of the jump itself.
   Stamp release = 0;
 
+  /// The values where they are: nothing is copied.
   Eigen::Map<const Eigen::VectorXd> vector() const { return {values, size}; }
 };
 

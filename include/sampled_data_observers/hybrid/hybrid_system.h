@@ -19,6 +19,7 @@ enum class Effect : std::uint8_t {
   kNotFinite   ///< nothing: the result would not have been finite
 };
 
+/// Whether the event reset the state.
 constexpr bool took_effect(Effect effect) {
   return effect == Effect::kApplied || effect == Effect::kPastGate || effect == Effect::kRestarted;
 }

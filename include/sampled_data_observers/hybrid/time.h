@@ -10,6 +10,7 @@ using Stamp = std::int64_t;
 /// A length of time in integer nanoseconds.
 using Duration = std::int64_t;
 
+/// 1 s as a Duration.
 constexpr Duration kNanosecondsPerSecond = 1000000000;
 
 /// Seconds, for formulas and people. Never fed back into a Stamp.

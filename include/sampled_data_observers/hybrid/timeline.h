@@ -13,8 +13,11 @@ namespace sampled_data_observers {
 
 /// What a state rests on, counted since the start (or the last restart).
 struct EventCounts {
+  /// Of all kinds, with or without effect.
   std::uint64_t events = 0;
+  /// Samples that took effect.
   std::uint64_t samples = 0;
+  /// Jumps that took effect.
   std::uint64_t jumps = 0;
   /// Stamp of the newest sample among them.
   std::optional<Stamp> last_sample;
@@ -38,9 +41,12 @@ struct EventCounts {
 /// Everything is allocated by the constructor; afterwards nothing is.
 class Timeline {
  public:
+  /// Where a state is written: state_size() entries.
   using StateRef = Eigen::Ref<Eigen::VectorXd>;
+  /// A state that is read: state_size() entries.
   using ConstStateRef = Eigen::Ref<const Eigen::VectorXd>;
 
+  /// How much is remembered.
   struct Limits {
     /// Length of the history window [ns], > 0.
     Duration history = 0;
@@ -48,6 +54,7 @@ class Timeline {
     std::size_t max_events = 0;
   };
 
+  /// What became of an event.
   enum class Insertion {
     kAppended,      ///< newest of all
     kRewound,       ///< put before `rewound` later events, which were applied again
@@ -55,15 +62,20 @@ class Timeline {
     kBeforeWindow,  ///< older than the history window; nothing changed
   };
 
+  /// What became of an event, and what it changed.
   struct InsertReport {
+    /// The following mean something for kAppended and kRewound only.
     Insertion insertion = Insertion::kAppended;
+    /// Number of later events that were applied again.
     std::size_t rewound = 0;
+    /// Of the event itself.
     Effect effect = Effect::kApplied;
     /// For a sample: stamp of the newest one of the same channel before it that took effect; for a
     /// jump: of the newest jump.
     std::optional<Stamp> previous;
   };
 
+  /// Whether there is a state at a stamp.
   enum class Query {
     kOk,
     kHeld,         ///< the flow to this stamp is not finite: the last finite state
@@ -78,7 +90,9 @@ class Timeline {
   // Events point into the timeline's own memory, which a move keeps and a copy would not.
   Timeline(const Timeline&) = delete;
   Timeline& operator=(const Timeline&) = delete;
+  /// What was moved from may only be destroyed or assigned to.
   Timeline(Timeline&&) = default;
+  /// What was moved from may only be destroyed or assigned to.
   Timeline& operator=(Timeline&&) = default;
 
   /// Takes in one event. The values are copied.

@@ -17,6 +17,7 @@ inline void add_product(const double* __restrict M, Eigen::Index rows, Eigen::In
   }
 }
 
+/// The same: x has M.cols() entries, y has M.rows().
 inline void add_product(const Eigen::MatrixXd& M, const double* x, double* y) {
   add_product(M.data(), M.rows(), M.cols(), x, y);
 }

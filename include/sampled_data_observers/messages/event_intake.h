@@ -20,6 +20,9 @@ class EventIntake {
   using Handler =
       std::function<void(const EventChannel&, const Event&, Reading, const std::string&)>;
 
+  /// @param channel  what the events are, and for how long their messages may wait
+  /// @param source   that of the channel
+  /// @param handle   called from take(), retry() and give_up()
   EventIntake(EventChannel channel, std::shared_ptr<MessageSource> source, Handler handle);
 
   /// Takes a message of the channel's source that arrived at `now`.

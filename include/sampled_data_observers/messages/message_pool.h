@@ -12,6 +12,7 @@ template <class M>
 class MessagePool {
  public:
   /// @param prototype  what every message of the pool starts as
+  /// @param size       how many are kept, all made now
   MessagePool(const M& prototype, std::size_t size) : prototype_(prototype) {
     for (std::size_t i = 0; i < size; ++i) messages_.push_back(boost::make_shared<M>(prototype_));
   }

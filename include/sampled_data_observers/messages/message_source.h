@@ -57,6 +57,7 @@ class MessageSource {
   /// values live until the next call, or as long as the message.
   /// @param message  one that this source gave
   /// @param receipt  the event's stamp where the source is configured so
+  /// @param event    of the kind that its channel has
   virtual Reading read(const MessagePointer& message, Stamp receipt, Event& event) = 0;
 
   /// Writes which transform a message lacks (see write_pair()).
@@ -66,6 +67,7 @@ class MessageSource {
 };
 
 /// The source that a configuration asks for.
+/// @param source      topic, type and fields
 /// @param transforms  where a source with frames finds what it needs; else it may be null
 /// @throws ConfigError for a message type, field or stamp that does not exist; it lists those that
 /// do. The same for frames of a type that has none.

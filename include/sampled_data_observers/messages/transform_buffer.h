@@ -26,6 +26,7 @@ void write_pair(const std::string& from, const std::string& to, std::string& tex
 /// so that both know the same.
 class TransformBuffer {
  public:
+  /// @param transforms  those of the configuration, which hold at every stamp
   explicit TransformBuffer(const std::vector<StaticTransform>& transforms);
 
   /// Takes in transforms that arrive at `now`. Those of children that the configuration has

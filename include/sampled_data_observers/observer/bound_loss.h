@@ -18,7 +18,9 @@ enum class BoundLoss : std::uint8_t {
 
 /// A guaranteed bound on |x − x̂|, infinite where there is none, and why; NaN without certificate.
 struct PublishedBound {
+  /// In units of the state, >= 0.
   double value = std::numeric_limits<double>::quiet_NaN();
+  /// kNone unless the value is infinite.
   BoundLoss loss = BoundLoss::kNone;
 };
 

@@ -17,11 +17,13 @@ enum class InnovationTrend : std::uint8_t {
 /// Allocates nothing.
 class InnovationWatch {
  public:
+  /// Number of samples over which a root mean square is taken.
   static constexpr int kWindow = 8;
 
   /// Takes in the norms of the next innovation and of the sample that it is of; returns trend().
   InnovationTrend add(double innovation, double output) noexcept;
 
+  /// As of the last full window.
   InnovationTrend trend() const { return trend_; }
 
  private:

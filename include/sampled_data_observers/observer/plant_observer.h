@@ -14,6 +14,7 @@ namespace sampled_data_observers {
 
 /// What every law is built from beside its gains.
 struct ObserverContext {
+  /// Must not be null.
   std::shared_ptr<const Plant> plant;
   Eigen::VectorXd initial_estimate;  ///< n
   Eigen::VectorXd initial_input;     ///< p: the input before the first input event
@@ -36,6 +37,7 @@ struct ObserverContext {
 /// all before u | mode after the jump | y_d | y_d known, where s = (x̂, extra) flows.
 class PlantObserver : public ObserverLaw {
  public:
+  /// The plant that is observed.
   const Plant& plant() const { return *plant_; }
 
   const std::vector<std::string>& estimate_names() const override { return plant_->state_names(); }
@@ -58,9 +60,9 @@ class PlantObserver : public ObserverLaw {
   void start_from(const double* estimate, double* state) const override;
   void innovation(const Event& sample, const double* state, double* innovation) const override;
 
-  /// The part s of a state that flows is its beginning; ds ← ṡ at a state, flow_size() entries
-  /// each.
+  /// Number of entries of s, the part of a state that flows: its beginning.
   Eigen::Index flow_size() const { return layout_.constants; }
+  /// ds ← ṡ at a state, flow_size() entries.
   void flow_derivative(const double* state, double* ds, double* workspace) const {
     derivative(held(state), state, ds, workspace);
   }
@@ -77,6 +79,7 @@ class PlantObserver : public ObserverLaw {
   /// What holds during a flow or at an event.
   struct Held {
     std::size_t mode = 0;  ///< position in plant().modes()
+    /// p entries
     const double* u = nullptr;
     /// The continuous outputs, sensor after sensor; null before each of them came once, anew
     /// after each jump.
@@ -85,6 +88,7 @@ class PlantObserver : public ObserverLaw {
 
   /// The outputs at a jump: those of sensor i begin at y_d + jump_output_offset(i), where known[i].
   struct JumpOutputs {
+    /// Of all sensors that measure at jumps.
     const double* y_d = nullptr;
     const double* known = nullptr;  ///< one entry per sensor: 1 or 0
   };
@@ -123,18 +127,24 @@ class PlantObserver : public ObserverLaw {
   /// x̂ ← g(x̂) of the mode that held before; x̂ stays where that has no jump map.
   void apply_plant_jump(const Held& held, double* state, double* workspace) const;
 
+  /// Number of states of the plant, and of x̂.
   Eigen::Index n() const { return plant_->states(); }
+  /// As flow_size(): n() and Extras::flowing.
   Eigen::Index flowing_size() const { return layout_.constants; }
+  /// The law's constants, Extras::constants entries.
   double* constants(double* state) const { return state + layout_.constants; }
+  /// The law's constants, Extras::constants entries.
   const double* constants(const double* state) const { return state + layout_.constants; }
   /// The law's timers [ns].
   double* timers(double* state) const { return state + layout_.timers + 1; }
   /// Time since the last jump, or the start [ns].
   double since_jump(const double* state) const { return state[layout_.timers]; }
+  /// What a state holds; its pointers point into the state.
   Held held(const double* state) const;
 
-  /// Where the outputs of a sensor begin among the continuous ones, or among those at jumps.
+  /// Where the outputs of a sensor begin in Held::y_c.
   Eigen::Index continuous_offset(std::size_t sensor) const { return offsets_[sensor]; }
+  /// Where the outputs of a sensor begin in JumpOutputs::y_d.
   Eigen::Index jump_output_offset(std::size_t sensor) const { return offsets_[sensor]; }
 
  private:

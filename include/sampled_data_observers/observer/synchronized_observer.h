@@ -10,6 +10,7 @@ namespace sampled_data_observers {
 
 /// A state that the flow map takes from a continuous output instead of from the estimate.
 struct OutputInjection {
+  /// Position among the states of the plant.
   Eigen::Index state = 0;
   /// A sensor that measures continuously and has one output.
   std::size_t sensor = 0;
@@ -20,6 +21,7 @@ struct OutputInjection {
 struct SynchronizedGains {
   std::vector<Eigen::MatrixXd> L_c;  ///< per sensor that measures continuously, n x m_i
   std::vector<Eigen::MatrixXd> L_d;  ///< per sensor that measures at jumps, n x m_i
+  /// Empty: f takes all states from x̂.
   std::vector<OutputInjection> output_injections;
 };
 

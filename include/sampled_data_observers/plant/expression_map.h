@@ -13,6 +13,8 @@ namespace sampled_data_observers {
 /// A formula that can't be used; name() tells which one.
 class ExpressionError : public std::invalid_argument {
  public:
+  /// @param name   of the formula
+  /// @param fault  what is wrong with it, for the user
   ExpressionError(std::string name, const std::string& fault)
       : std::invalid_argument(fault), name_(std::move(name)) {}
 
@@ -25,15 +27,15 @@ class ExpressionError : public std::invalid_argument {
 
 /// A formula with the name by which messages, and later formulas, call it.
 struct NamedExpression {
-  std::string name;
-  std::string text;
+  std::string name;  ///< a letter or _, then letters, digits and _
+  std::string text;  ///< in the syntax of ExpressionMap
 };
 
 /// The names that formulas may use.
 struct ExpressionNames {
-  std::vector<std::string> x;
-  std::vector<std::string> u;
-  std::vector<std::pair<std::string, double>> constants;
+  std::vector<std::string> x;                             ///< of the states, n
+  std::vector<std::string> u;                             ///< of the inputs, p
+  std::vector<std::pair<std::string, double>> constants;  ///< and their values
 };
 
 /// A vector map by formulas such as "-2*sin(x1) - 3*x2 + x3", evaluated by muParser: the usual

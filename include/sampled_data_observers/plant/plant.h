@@ -10,6 +10,7 @@
 #include "sampled_data_observers/plant/sensor.h"
 #include "sampled_data_observers/plant/vector_map.h"
 
+/// Plants that flow, are measured now and then and may jump, and observers of them.
 namespace sampled_data_observers {
 
 /// How a flow that has no closed form is integrated: by fixed steps from each event on.
@@ -35,8 +36,11 @@ struct PlantMode {
 struct PlantDescription {
   std::vector<std::string> state_names;  ///< n
   std::vector<std::string> input_names;  ///< p
+  /// As many as each mode has outputs.
   std::vector<Sensor> sensors;
+  /// At least one, with different labels.
   std::vector<PlantMode> modes;
+  /// For flows that are not affine.
   Integration integration;
 };
 
@@ -50,17 +54,25 @@ class Plant {
   Plant(const Plant&) = delete;
   Plant& operator=(const Plant&) = delete;
 
+  /// n names, in the order of x.
   const std::vector<std::string>& state_names() const { return description_.state_names; }
+  /// p names, in the order of u.
   const std::vector<std::string>& input_names() const { return description_.input_names; }
+  /// Their positions are the channels of what is measured.
   const std::vector<Sensor>& sensors() const { return description_.sensors; }
+  /// The plant starts in the first.
   const std::vector<PlantMode>& modes() const { return description_.modes; }
+  /// How flows that are not affine are integrated.
   const Integration& integration() const { return description_.integration; }
 
+  /// n
   Eigen::Index states() const { return static_cast<Eigen::Index>(state_names().size()); }
+  /// p
   Eigen::Index inputs() const { return static_cast<Eigen::Index>(input_names().size()); }
 
-  /// Whether the plant jumps, and whether its jump events carry a mode.
+  /// Whether there are jump events: the plant switches, or has a jump map.
   bool jumps() const;
+  /// Whether there are several modes, so that jump events carry one.
   bool switches() const { return modes().size() > 1; }
 
   /// Position in modes() of a label; nothing where no mode has it.
@@ -71,20 +83,25 @@ class Plant {
 
   /// A sensor's output map in one mode, as compute_innovation() needs it.
   struct Output {
+    /// y = h(x, u)
     const VectorMap* map = nullptr;
+    /// Number of outputs, m.
     Eigen::Index size = 0;
+    /// n
     Eigen::Index states = 0;
     /// size x states, column-major, where the map is C x; else null.
     const double* C = nullptr;
     /// Null where no output is an angle.
     const std::vector<bool>* angular = nullptr;
   };
+  /// @pre mode and sensor are positions in modes() and sensors()
   const Output& output(std::size_t mode, std::size_t sensor) const {
     return outputs_[mode * sensors().size() + sensor];
   }
 
-  /// Largest number of outputs of a sensor, and the number of all outputs of one timing.
+  /// The largest m of a sensor, of whatever timing.
   Eigen::Index max_outputs() const;
+  /// Number of outputs of all sensors of one timing together.
   Eigen::Index outputs(SensorTiming timing) const;
 
  private:

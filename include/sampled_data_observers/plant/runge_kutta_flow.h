@@ -22,7 +22,8 @@ class VectorField {
 /// It keeps scratch memory: one object serves one thread at a time. apply() allocates nothing.
 class RungeKuttaFlow {
  public:
-  /// @param step  ns, > 0
+  /// @param states  n, > 0
+  /// @param step    ns, > 0
   RungeKuttaFlow(Eigen::Index states, Duration step);
   ~RungeKuttaFlow();
 

@@ -19,11 +19,14 @@ const char* to_string(SensorTiming timing);
 
 /// A sensor with m outputs. Its output map belongs to the plant, which may have one per mode.
 struct Sensor {
+  /// As configurations and event statuses have it.
   std::string name;
+  /// Decides as events of which kind its values come.
   SensorTiming timing = SensorTiming::kSampled;
   /// m entries: whether the output is an angle [rad], so that its innovation is wrapped.
   std::vector<bool> angular;
 
+  /// m
   Eigen::Index outputs() const { return static_cast<Eigen::Index>(angular.size()); }
 };
 

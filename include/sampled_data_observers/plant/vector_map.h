@@ -39,8 +39,11 @@ class AffineMap : public VectorMap {
   /// M x
   explicit AffineMap(const Eigen::MatrixXd& M);
 
+  /// m x n
   const Eigen::MatrixXd& M() const { return M_; }
+  /// m x p; without columns where the map has no input
   const Eigen::MatrixXd& N() const { return N_; }
+  /// m entries
   const Eigen::VectorXd& c() const { return c_; }
 
   Eigen::Index size() const override { return M_.rows(); }

@@ -13,11 +13,13 @@ namespace sampled_data_observers {
 /// named: an absolute time of the steady clock, so that no delay of one adds to the next.
 class DeadlineThread {
  public:
+  /// Of the deadlines; no correction of the time of day moves it.
   using Clock = std::chrono::steady_clock;
   /// Returns the next deadline; one that has passed means at once. It must not throw.
   using Task = std::function<Clock::time_point()>;
 
   /// Runs the task at once for the first time.
+  /// @param task  called on the thread only, never twice at a time
   /// @param name  of the thread, as `top -H` shows it; at most 15 characters
   DeadlineThread(Task task, const std::string& name);
 

@@ -14,10 +14,14 @@ class PriorityInheritanceMutex {
   PriorityInheritanceMutex(const PriorityInheritanceMutex&) = delete;
   PriorityInheritanceMutex& operator=(const PriorityInheritanceMutex&) = delete;
 
+  /// Waits until no other thread holds it. @pre this thread does not hold it
   void lock() { pthread_mutex_lock(&mutex_); }
+  /// Returns at once whether this thread holds it now.
   bool try_lock() { return pthread_mutex_trylock(&mutex_) == 0; }
+  /// @pre this thread holds it
   void unlock() { pthread_mutex_unlock(&mutex_); }
 
+  /// For pthread_cond_wait() and its kin.
   pthread_mutex_t* native_handle() { return &mutex_; }
 
  private:

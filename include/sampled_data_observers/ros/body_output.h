@@ -14,10 +14,14 @@ namespace sampled_data_observers {
 template <class M>
 class BodyOutput {
  public:
+  /// Advertises the topic.
+  /// @param handle     resolves its name
+  /// @param topic      relative or absolute
   /// @param prototype  holds the frames
   BodyOutput(ros::NodeHandle& handle, const std::string& topic, const M& prototype)
       : messages_(prototype, kPoolSize), publisher_(handle.advertise<M>(topic, kQueueLength)) {}
 
+  /// Allocates nothing here, unless subscribers hold all messages of the pool.
   void publish(const ros::Time& stamp, const BodyEstimate& body) {
     const boost::shared_ptr<M> message = messages_.take();
     message->header.stamp = stamp;

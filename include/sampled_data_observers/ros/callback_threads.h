@@ -17,6 +17,7 @@ namespace sampled_data_observers {
 /// own also keeps its neighbours in the manager from occupying its threads.
 class CallbackThreads {
  public:
+  /// @param threads  how many callbacks may run at a time; they begin with start()
   explicit CallbackThreads(std::uint32_t threads);
   CallbackThreads(const CallbackThreads&) = delete;
   CallbackThreads& operator=(const CallbackThreads&) = delete;

@@ -13,7 +13,8 @@ namespace sampled_data_observers {
 /// is no estimate. /use_sim_time stays on the master when what published /clock is long gone.
 class ClockWatch {
  public:
-  /// @param log   of the nodelet
+  /// @param handle  its callback queue looks, every few seconds of wall time
+  /// @param log     of the nodelet
   ClockWatch(const ros::NodeHandle& handle, NodeLog log);
 
  private:

@@ -21,8 +21,11 @@ DiagnosisSubject diagnosis_subject(const ObserverConfig& config);
 /// stands still.
 class DiagnosticsReporter {
  public:
-  /// @param handle  its callback queue reports: it must not be that of a thread in a hurry
-  /// @param log    of the node or nodelet, whose name it bears
+  /// @param handle          its callback queue reports: it must not be that of a thread in a hurry
+  /// @param private_handle  where diagnostic_updater looks for its parameters
+  /// @param log             of the node or nodelet, whose name it bears
+  /// @param subject         what the observer is configured to do
+  /// @param recorder        what it does; read by nobody else
   DiagnosticsReporter(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle,
                       NodeLog log, DiagnosisSubject subject, StatisticsRecorder& recorder);
 

@@ -18,6 +18,9 @@ namespace sampled_data_observers {
 /// configuration says. To be used by the thread that publishes the estimates.
 class EstimateOutputs {
  public:
+  /// Advertises all topics.
+  /// @param handle  resolves their names
+  /// @param config  which outputs there are, and from which numbers
   /// @param period  of the estimates [ns]
   /// @param log     of the nodelet
   EstimateOutputs(ros::NodeHandle handle, const OutputsConfig& config, Duration period,

@@ -22,16 +22,21 @@ namespace sampled_data_observers {
 class EstimatePublication {
  public:
   /// Advertises; publishes nothing before start().
+  /// @param handle   its callback queue publishes under simulated time
+  /// @param runtime  makes the estimates
   /// @param outputs  what else is to publish the estimates; may be null
   EstimatePublication(const ros::NodeHandle& handle, SharedRuntime& runtime,
                       std::unique_ptr<EstimateOutputs> outputs);
 
-  /// @param log  of the nodelet
+  /// From now on estimates that are due are published.
+  /// @param config  when, and by what kind of thread
+  /// @param log     of the nodelet, for a priority or a lock that the system refuses
   void start(const ObserverConfig& config, const NodeLog& log);
 
   /// To be called after each event, by the callback queue.
   void notice_event();
 
+  /// The resolved name of the topic of StateEstimate.
   std::string topic() const { return publisher_.getTopic(); }
 
  private:

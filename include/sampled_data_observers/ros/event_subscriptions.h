@@ -28,11 +28,16 @@ namespace sampled_data_observers {
 class EventSubscriptions {
  public:
   /// Finds all faults of the channels' sources; subscribes to nothing before start().
-  /// @param log   of the nodelet
-  /// @throws ConfigError
+  /// @param handle       its callback queue receives
+  /// @param config       what the channels are
+  /// @param runtime      takes the events
+  /// @param publication  is told of each event
+  /// @param log          of the nodelet
+  /// @throws ConfigError for a source that make_message_source() refuses.
   EventSubscriptions(const ros::NodeHandle& handle, const ObserverConfig& config,
                      SharedRuntime& runtime, EstimatePublication& publication, NodeLog log);
 
+  /// Subscribes. Events of before the first time of a simulated clock wait for it.
   void start();
 
  private:

@@ -13,8 +13,9 @@ namespace sampled_data_observers {
 /// on meanwhile.
 class GainReloader {
  public:
-  /// @param tree    the whole configuration of `runtime`
-  /// @param config  the same, read
+  /// @param tree     the whole configuration of `runtime`
+  /// @param config   the same, read
+  /// @param runtime  whose gains are changed
   /// @throws ConfigError where there is no directory config.gains_directory.
   GainReloader(ConfigNode tree, const ObserverConfig& config, SharedRuntime& runtime);
 

@@ -15,7 +15,7 @@ namespace sampled_data_observers {
 /// A topic, and the type of message that is expected on it.
 struct ExpectedType {
   std::string topic;  ///< resolved
-  std::string type;
+  std::string type;   ///< "package/Type"
 };
 
 /// Looks every few seconds whether the ROS master still knows this nodelet. roscpp registers topics
@@ -29,8 +29,11 @@ class MasterWatch {
   /// empty where it is not.
   using TypeReceiver = std::function<void(std::size_t, const std::string&)>;
 
-  /// @param services  of this nodelet, at least one
-  /// @param log       of the nodelet
+  /// @param handle     its callback queue asks the master, and waits for its answer
+  /// @param services   of this nodelet, at least one
+  /// @param topics     that it subscribes to
+  /// @param take_type  called for each of them, every time
+  /// @param log        of the nodelet
   MasterWatch(const ros::NodeHandle& handle, std::vector<std::string> services,
               std::vector<ExpectedType> topics, TypeReceiver take_type, NodeLog log);
 

@@ -12,13 +12,17 @@ namespace sampled_data_observers {
 /// first from a line, so that in one manager all observers would log as one of them.
 class NodeLog {
  public:
+  /// @param name  of the nodelet, resolved
   explicit NodeLog(std::string name);
 
+  /// As given: what a line of the log is found by.
   const std::string& name() const { return name_; }
 
-  // By formats of printf.
+  /// A line by a format of printf, for people who look whether all is well.
   [[gnu::format(printf, 2, 3)]] void info(const char* format, ...) const;
+  /// The same of what is wrong and goes on.
   [[gnu::format(printf, 2, 3)]] void warn(const char* format, ...) const;
+  /// The same of what ends the nodelet.
   [[gnu::format(printf, 2, 3)]] void fatal(const char* format, ...) const;
 
  private:

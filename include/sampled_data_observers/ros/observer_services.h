@@ -21,10 +21,14 @@ namespace sampled_data_observers {
 class ObserverServices {
  public:
   /// Advertises them.
-  /// @param log   of the nodelet
+  /// @param handle   its callback queue serves
+  /// @param runtime  of the observer
+  /// @param gains    changes those of `runtime`
+  /// @param log      of the nodelet
   ObserverServices(const ros::NodeHandle& handle, SharedRuntime& runtime, GainReloader& gains,
                    NodeLog log);
 
+  /// Of all services, resolved.
   std::vector<std::string> names() const;
 
  private:

@@ -14,6 +14,9 @@ namespace sampled_data_observers {
 /// Listens to tf, on a thread of its own, for the transform between two frames.
 class OdometryListener {
  public:
+  /// Listens from now on.
+  /// @param odom_frame  the parent
+  /// @param base_frame  that of the body
   OdometryListener(std::string odom_frame, std::string base_frame);
 
   /// The pose of the base frame in the odometry's frame at a stamp, interpolated; nothing where it

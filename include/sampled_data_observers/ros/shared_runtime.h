@@ -22,13 +22,19 @@ class SharedRuntime {
   /// Exclusive use of the runtime, at one instant of ROS time, as long as it lives.
   class Access {
    public:
+    /// Waits for the thread that has it, then reads the clock. Where time went back, the runtime is
+    /// told, if it is to start anew.
     explicit Access(SharedRuntime& shared);
+    /// Lets others have it, and says so where time went back.
     ~Access();
     Access(const Access&) = delete;
     Access& operator=(const Access&) = delete;
 
+    /// The instant of ROS time; 0 while a simulated clock has not begun.
     Stamp now() const { return now_; }
+    /// The runtime; not to be kept beyond this access.
     ObserverRuntime* operator->() const { return shared_.runtime_.get(); }
+    /// The same by reference.
     ObserverRuntime& operator*() const { return *shared_.runtime_; }
 
    private:
@@ -39,10 +45,12 @@ class SharedRuntime {
     Duration went_back_ = 0;
   };
 
+  /// @param config         what the runtime is built from
   /// @param log            of the nodelet
   /// @param reset_service  to be called when time went back
   SharedRuntime(const ObserverConfig& config, NodeLog log, std::string reset_service);
 
+  /// Waits for the thread that uses the runtime now.
   Access access() { return Access(*this); }
 
   /// What to do, on whatever thread notices it, when time went back. To be set before the first

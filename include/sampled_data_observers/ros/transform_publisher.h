@@ -18,6 +18,7 @@ namespace sampled_data_observers {
 /// to an odometry that publishes odom → base, world → odom.
 class TransformPublisher {
  public:
+  /// @param handle    advertises /tf
   /// @param outputs   with a transform
   /// @param period    of the estimates [ns]
   /// @param log       of the nodelet
@@ -25,6 +26,8 @@ class TransformPublisher {
   TransformPublisher(ros::NodeHandle& handle, const OutputsConfig& outputs, Duration period,
                      NodeLog log, OdomFrame::Odometry odometry);
 
+  /// Publishes world → base now; next to an odometry, world → odom of the oldest estimates whose
+  /// odom → base is known, and drops those that waited for it too long.
   void publish(Stamp stamp, const BodyEstimate& body);
 
  private:

@@ -16,25 +16,33 @@ enum class HealthLevel : std::uint8_t { kOk = 0, kWarn = 1, kError = 2, kStale =
 
 /// One line of diagnostics: what is the matter and what to do, and the figures behind it.
 struct Finding {
+  /// kOk where there is nothing to do.
   HealthLevel level = HealthLevel::kOk;
+  /// For people: what is the matter, and the remedy.
   std::string message;
+  /// Names and figures, in the order in which they are shown.
   std::vector<std::pair<std::string, std::string>> values;
 };
 
 /// What an observer is configured to do, as far as diagnostics compare it with what it does.
 struct DiagnosisSubject {
+  /// One of the places where events enter.
   struct Channel {
     /// As in EventStatus.
     std::string name;
+    /// As configured.
     std::string topic;
+    /// Of the events that its messages become.
     EventKind kind = EventKind::kSample;
     /// Of its messages, as "package/Type".
     std::string type;
   };
 
+  /// In the order of RunStatistics::channels.
   std::vector<Channel> channels;
   /// Of the estimates [ns].
   Duration period = 0;
+  /// What intervals are compared with.
   SamplingBounds sampling;
   /// The history window [ns].
   Duration history = 0;
@@ -42,6 +50,7 @@ struct DiagnosisSubject {
   Duration jump_back_tolerance = 0;
   /// As in ObserverConfig.
   std::string guarantee;
+  /// As in ObserverConfig.
   std::string warning;
 };
 
@@ -49,9 +58,11 @@ struct DiagnosisSubject {
 /// measurement was not used. It keeps what it needs to tell since when something is so.
 class Diagnosis {
  public:
+  /// Of an observer that did nothing yet.
   explicit Diagnosis(DiagnosisSubject subject);
 
   /// Takes in what was recorded since the last call.
+  /// @param window   what was recorded, of as many channels as the subject has
   /// @param now      ROS time; 0 while there is none
   /// @param elapsed  ROS time since the last call [ns]; 0 where time stands still
   void update(const RunStatistics& window, Stamp now, Duration elapsed);
@@ -69,6 +80,7 @@ class Diagnosis {
   /// Whether what the certificate rests on does not hold now.
   bool is_suspended() const { return suspension_.has_value(); }
 
+  /// As given.
   const DiagnosisSubject& subject() const { return subject_; }
 
  private:

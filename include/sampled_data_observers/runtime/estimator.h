@@ -20,15 +20,17 @@ bool is_admissible(const Eigen::Ref<const Eigen::VectorXd>& values);
 /// The bounds T1 <= T2 on the time between samples, or between jumps where there are no samples,
 /// for which the gains were designed [ns].
 struct SamplingBounds {
-  Duration T1 = 0;
-  Duration T2 = 0;
+  Duration T1 = 0;  ///< the shortest, > 0
+  Duration T2 = 0;  ///< the longest
 };
 
 /// An estimate and what it rests on.
 struct Estimate {
+  /// Of the time at which it holds.
   Stamp stamp = 0;
   /// The whole state of the law; its first law.estimate_size() entries are the estimate.
   Eigen::VectorXd state;
+  /// The events with a stamp up to this one.
   EventCounts counts;
   /// Whether the last finite state is given because the flow to `stamp` is not finite.
   bool held = false;
@@ -39,8 +41,11 @@ struct Estimate {
 /// To be used by one thread at a time. Allocates nothing after construction.
 class Estimator {
  public:
+  /// How events are admitted and kept.
   struct Options {
+    /// How far back events are kept, and how many.
     Timeline::Limits history;
+    /// What intervals are compared with, in the report of each event.
     SamplingBounds sampling;
     /// How far a stamp may lie after the time of its arrival [ns], >= 0.
     Duration future_tolerance = 0;
@@ -52,6 +57,7 @@ class Estimator {
   /// @throws std::invalid_argument for options out of range.
   Estimator(std::shared_ptr<const ObserverLaw> law, const Options& options);
 
+  /// The observer that it runs.
   const ObserverLaw& law() const { return *law_; }
 
   /// Admits an event that arrived at `now`. Whatever it holds, the estimate stays finite.

@@ -21,6 +21,7 @@ enum class IntervalCheck : std::uint8_t {
 
 /// What an event did.
 struct EventReport {
+  /// What became of it.
   EventOutcome outcome = EventOutcome::kUsed;
   /// Number of later events that were applied again.
   std::size_t rewound = 0;
@@ -29,6 +30,7 @@ struct EventReport {
   /// Time since the newest sample of the same sensor, or the newest jump, that was used and has an
   /// earlier stamp; used samples and jumps only.
   std::optional<Duration> interval;
+  /// How `interval` compares with T1 and T2.
   IntervalCheck interval_check = IntervalCheck::kNone;
   /// The norm of the innovation of a sample or a continuous output, before it took effect; NaN for
   /// other events, and where there was no estimate.
@@ -39,6 +41,7 @@ struct EventReport {
   /// What the innovations of its sensor do.
   InnovationTrend trend = InnovationTrend::kSteady;
 
+  /// Whether the estimate rests on it.
   bool used() const { return outcome == EventOutcome::kUsed || outcome == EventOutcome::kUsedLate; }
   /// Whether the sample was used since its gate had kept out all others for too long.
   bool recovers() const { return effect == Effect::kPastGate || effect == Effect::kRestarted; }

@@ -13,6 +13,7 @@ namespace sampled_data_observers {
 /// rising, before another one counts; so it must before the first, too.
 class JumpDetector {
  public:
+  /// What a jump looks like in the signal.
   struct Options {
     double threshold = 0.0;   ///< in units of the signal
     double hysteresis = 0.0;  ///< not negative, in units of the signal
@@ -29,6 +30,7 @@ class JumpDetector {
     kNotFinite    ///< nothing: its value is NaN or infinite
   };
 
+  /// @pre options.hysteresis and options.refractory are not negative
   explicit JumpDetector(const Options& options) : options_(options) {}
 
   /// Takes in the next sample. One that is out of order or not finite is as if it had not come.

@@ -15,6 +15,7 @@ namespace sampled_data_observers {
 /// To be used by one thread at a time.
 class ObserverRuntime {
  public:
+  /// @throws std::invalid_argument for options out of range.
   explicit ObserverRuntime(const RuntimeSetup& setup);
 
   /// Takes in an event that arrived at `now`.
@@ -61,7 +62,9 @@ class ObserverRuntime {
   /// The bound on the error of an estimate as it can be given now (Estimator::bound()).
   PublishedBound bound(const Estimate& estimate) const { return estimator_.bound(estimate, now_); }
 
+  /// The observer and its events, to be looked at.
   const Estimator& estimator() const { return estimator_; }
+  /// What it was made from.
   const RuntimeSetup& setup() const { return setup_; }
 
   /// What the innovations of a sensor do.

@@ -12,7 +12,9 @@ namespace sampled_data_observers {
 
 /// A rigid transform that holds at a stamp.
 struct StampedTransform {
+  /// When it holds.
   Stamp stamp = 0;
+  /// From coordinates in the child frame to those in its parent [m].
   Eigen::Isometry3d transform = Eigen::Isometry3d::Identity();
 };
 

@@ -8,10 +8,13 @@ namespace sampled_data_observers {
 
 /// What is known of some recorded values.
 struct Range {
+  /// How many there were.
   std::uint64_t count = 0;
+  /// In the unit of the values.
   std::int64_t sum = 0;
   /// Of no meaning where count is 0.
   std::int64_t smallest = std::numeric_limits<std::int64_t>::max();
+  /// Of no meaning where count is 0.
   std::int64_t largest = std::numeric_limits<std::int64_t>::min();
 
   /// 0 where nothing was recorded.
@@ -19,6 +22,7 @@ struct Range {
     return count == 0 ? 0.0 : static_cast<double>(sum) / static_cast<double>(count);
   }
 
+  /// Joins what is known of other values.
   void add(const Range& other) {
     count += other.count;
     sum += other.sum;
@@ -32,6 +36,7 @@ struct Range {
 /// range and sum in the next, which is good enough for people to read.
 class RangeRecorder {
  public:
+  /// Takes in one value, in the unit that all of them have.
   void record(std::int64_t value) noexcept {
     count_.fetch_add(1, std::memory_order_relaxed);
     sum_.fetch_add(value, std::memory_order_relaxed);

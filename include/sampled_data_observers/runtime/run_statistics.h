@@ -20,9 +20,11 @@ struct ChannelStatistics {
   std::array<std::uint64_t, kEventOutcomes> outcomes{};
   /// Time of arrival minus stamp [ns].
   Range latency;
-  /// Time between used samples of this sensor [ns], and how many were outside of [T1, T2].
+  /// Time between used samples of this sensor [ns].
   Range interval;
+  /// How many of them were below T1.
   std::uint64_t short_intervals = 0;
+  /// How many of them were above T2.
   std::uint64_t long_intervals = 0;
   /// Stamps of the first and last samples whose interval was outside.
   Range violations;
@@ -32,23 +34,30 @@ struct ChannelStatistics {
   std::uint64_t after_bound = 0;
   /// The transform for which an event was rejected last, ever; empty: none was.
   std::string missing_transform;
-  /// Of the last sample: the norm of its innovation, and what these do; NaN without.
+  /// The norm of the innovation of the last sample; NaN without.
   double innovation = std::numeric_limits<double>::quiet_NaN();
+  /// What the innovations do, as of the last sample.
   InnovationTrend trend = InnovationTrend::kSteady;
 
+  /// Number of events, whatever became of them.
   std::uint64_t received() const;
+  /// Number of events with this outcome.
   std::uint64_t count(EventOutcome outcome) const {
     return outcomes[static_cast<std::size_t>(outcome)];
   }
+  /// Number of events on which the estimate rests.
   std::uint64_t used() const { return count(EventOutcome::kUsed) + count(EventOutcome::kUsedLate); }
 
+  /// Joins what happened later.
   void add(const ChannelStatistics& other);
 };
 
 /// What an observer did in some time.
 struct RunStatistics {
+  /// Of a time in which nothing happened.
   explicit RunStatistics(std::size_t channels) : channels(channels) {}
 
+  /// In the order of the configuration: sensors, input, jumps.
   std::vector<ChannelStatistics> channels;
   /// Of each estimate published: how long after it was due [ns].
   Range lateness;
@@ -60,13 +69,14 @@ struct RunStatistics {
   Range tick_cpu_time;
   /// Of the newest estimate.
   std::optional<Stamp> newest_estimate;
+  /// Of the newest estimate: that on |x − x̂|, infinite or NaN as in PublishedBound.
   double error_bound = 0.0;
   /// Stamp of the first estimate without finite error bound since the last one that had one.
   std::optional<Stamp> bound_lost_since;
   /// Why the last published estimate has none.
   BoundLoss bound_loss = BoundLoss::kNone;
 
-  /// @pre as many channels
+  /// Joins what happened later. @pre as many channels
   void add(const RunStatistics& later);
 };
 
@@ -74,8 +84,12 @@ struct RunStatistics {
 /// thread at a time may take.
 class StatisticsRecorder {
  public:
+  /// All that it needs for so many channels is allocated here.
   explicit StatisticsRecorder(std::size_t channels);
 
+  /// @param channel  position in RunStatistics::channels
+  /// @param event    as it was received
+  /// @param report   what became of it
   /// @param latency  time of arrival minus stamp [ns]
   void record_event(std::size_t channel, const Event& event, const EventReport& report,
                     Duration latency) noexcept;
@@ -84,6 +98,9 @@ class StatisticsRecorder {
   void record_missing_transform(std::size_t channel, const std::string& transform) noexcept;
 
   /// An estimate that was published.
+  /// @param law       whose state the estimate is
+  /// @param estimate  as published
+  /// @param bound     as published with it
   /// @param lateness  how long after it was due [ns]
   void record_estimate(const ObserverLaw& law, const Estimate& estimate,
                        const PublishedBound& bound, Duration lateness) noexcept;

@@ -12,11 +12,15 @@ namespace sampled_data_observers {
 
 /// What an ObserverRuntime is made from.
 struct RuntimeSetup {
+  /// Never null.
   std::shared_ptr<const Plant> plant;
+  /// An observer of that plant, never null.
   std::shared_ptr<const ObserverLaw> law;
+  /// How events are admitted and kept.
   Estimator::Options options;
-  /// Period of the published estimates, and how long after its stamp each is computed [ns].
+  /// Of the published estimates [ns].
   Duration period = 0;
+  /// How long after its stamp each of them is computed [ns].
   Duration publish_delay = 0;
   /// Whether each event that is used is followed by an estimate at once.
   bool publish_on_event = false;

@@ -50,6 +50,7 @@ class WaitingQueue {
     entries_.clear();
   }
 
+  /// Whether nothing waits.
   bool empty() const { return entries_.empty(); }
 
  private:
