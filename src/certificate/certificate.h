@@ -121,6 +121,11 @@ class Theorem {
 const std::vector<const Theorem*>& theorems();
 const Theorem* find_theorem(const std::string& name);
 
+/// The sections of a gain file that make a claim of its gains: the one that they were made for, and
+/// one that bounds their error at run time better, where there is such a one.
+constexpr const char* kCertificate = "certificate";
+constexpr const char* kRunTimeCertificate = "run_time_certificate";
+
 /// A claim with its proof.
 struct Certificate {
   const Theorem* theorem = nullptr;

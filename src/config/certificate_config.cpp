@@ -40,10 +40,12 @@ CertificateSubject read_subject(ConfigSection& section, const Plant& plant) {
 
 }  // namespace
 
-std::optional<CertificateConfig> read_certificate(ConfigSection& root, const Plant& plant) {
-  if (!root.has("certificate")) return std::nullopt;
-  ConfigSection section = root.section("certificate");
+std::optional<CertificateConfig> read_certificate(ConfigSection& root, const Plant& plant,
+                                                  const std::string& key) {
+  if (!root.has(key)) return std::nullopt;
+  ConfigSection section = root.section(key);
   CertificateConfig config;
+  config.section = key;
   config.origin = section.origin();
   Certificate& certificate = config.certificate;
   certificate.theorem = &read_theorem(section);

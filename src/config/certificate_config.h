@@ -9,8 +9,9 @@
 
 namespace sampled_data_observers {
 
-/// The section `certificate` of a gain file.
+/// The section `certificate` or `run_time_certificate` of a gain file.
 struct CertificateConfig {
+  std::string section;
   Certificate certificate;
   /// The plant that the claim is about: its file, relative to the gain file, and its fingerprint.
   std::string plant_file;
@@ -22,9 +23,10 @@ struct CertificateConfig {
   bool is_proved = false;
 };
 
-/// Reads the claim that `root` makes of its gains; nothing where it has no certificate. Does not
-/// check it.
+/// Reads the claim that a section of `root` makes of its gains; nothing where it has no such
+/// section. Does not check it.
 /// @throws ConfigError for a section that is no certificate for this plant.
-std::optional<CertificateConfig> read_certificate(ConfigSection& root, const Plant& plant);
+std::optional<CertificateConfig> read_certificate(ConfigSection& root, const Plant& plant,
+                                                  const std::string& section = kCertificate);
 
 }  // namespace sampled_data_observers

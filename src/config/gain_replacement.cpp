@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "certificate/certificate.h"
 #include "sampled_data_observers/config/config_section.h"
 
 namespace sampled_data_observers {
@@ -28,10 +29,10 @@ std::optional<ConfigNode> injection_of(const ConfigNode& tree) {
 ConfigNode replace_gains(ConfigNode base, const ConfigNode& gain_file) {
   ConfigSection file(gain_file, "");
   file.section("gains");
-  for (const char* key : {"observer", "certificate", "sampling"}) file.has(key);
+  for (const char* key : {"observer", kCertificate, kRunTimeCertificate, "sampling"}) file.has(key);
   file.finish();
   const std::optional<ConfigNode> injection = injection_of(base);
-  for (const char* key : {"gains", "certificate"}) remove(base, key);
+  for (const char* key : {"gains", kCertificate, kRunTimeCertificate}) remove(base, key);
   for (const auto& [key, value] : gain_file.entries) {
     remove(base, key);
     base.entries.emplace_back(key, value);

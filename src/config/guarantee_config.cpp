@@ -64,8 +64,9 @@ std::optional<ConfigError> objection_to_gains(ConfigSection& root, const Certifi
 
 /// What the plant's own maps, with the outputs that are injected, refute of what the files state.
 std::optional<ConfigError> objection_to_statements(ConfigSection& root,
-                                                   const Certificate& certificate,
+                                                   const CertificateConfig& claim,
                                                    const ObserverConfig& config) {
+  const Certificate& certificate = claim.certificate;
   const Plant& plant = *config.plant;
   Eigen::VectorXd state(config.law->state_size());
   config.law->initialize(state.data());
@@ -86,13 +87,14 @@ std::optional<ConfigError> objection_to_statements(ConfigSection& root,
                        in_words(plant, *others) + ", on which certificate/A rests" + kRemedy,
                        injections.empty() ? "none" : in_words(plant, injections));
   }
-  return root.section("certificate").error(found->key, found->expected + kRemedy, found->found);
+  return root.section(claim.section).error(found->key, found->expected + kRemedy, found->found);
 }
 
 /// Before the certificate is read: it could not be with the gains of another type.
-void require_theorem_for_type(ConfigSection& root, const std::string& type) {
-  if (!root.has("certificate")) return;
-  ConfigSection section = root.section("certificate");
+void require_theorem_for_type(ConfigSection& root, const std::string& key,
+                              const std::string& type) {
+  if (!root.has(key)) return;
+  ConfigSection section = root.section(key);
   const Theorem* theorem = find_theorem(section.text("theorem"));
   if (theorem == nullptr) return;
   const std::vector<std::string> types = theorem->observer_types();
@@ -105,7 +107,7 @@ void require_theorem_for_type(ConfigSection& root, const std::string& type) {
 std::optional<ConfigError> objection(ConfigSection& root, const ConfigNode& tree,
                                      const CertificateConfig& claim, const ObserverConfig& config,
                                      const ObserverLaw& law) {
-  const ConfigSection section = root.section("certificate");
+  const ConfigSection section = root.section(claim.section);
   const Certificate& certificate = claim.certificate;
   if (auto error = objection_to_gains(root, certificate)) return error;
   const std::string hash = plant_fingerprint(tree);
@@ -126,11 +128,11 @@ std::optional<ConfigError> objection(ConfigSection& root, const ConfigNode& tree
                           ", for which the gains were made" + kRemedy,
                       interval(to_seconds(sampling.T1), to_seconds(sampling.T2)));
   }
-  if (auto error = objection_to_statements(root, certificate, config)) return error;
+  if (auto error = objection_to_statements(root, claim, config)) return error;
   if (auto error = objection_to_step(root, *config.plant, law, true)) return error;
   const std::vector<ConditionCheck> checks = check(certificate);
   if (all_hold(checks)) return std::nullopt;
-  return root.error("certificate",
+  return root.error(claim.section,
                     "gains and matrices for which the conditions of " +
                         certificate.theorem->name() + " hold" + kRemedy,
                     "others: " + describe_violations(checks));
@@ -217,20 +219,47 @@ std::string conditions_of_bound(const Plant& plant, const ObserverLaw& law, Dura
   return text;
 }
 
+std::unique_ptr<const ErrorBound> bound_of(const ConfigSection& root,
+                                           const Certificate& certificate,
+                                           const ErrorAssumptions& assumptions) {
+  const Theorem& theorem = *certificate.theorem;
+  std::unique_ptr<const ErrorBound> bound;
+  try {
+    bound = theorem.error_bound(certificate.subject, certificate.values, assumptions);
+  } catch (const std::invalid_argument& fault) {
+    throw root.error("error_assumptions",
+                     "assumptions for which " + theorem.name() + " gives a bound", fault.what());
+  }
+  if (!bound) {
+    throw root.error("error_assumptions", "a certificate of a theorem that gives a bound",
+                     theorem.name());
+  }
+  return bound;
+}
+
 }  // namespace
 
 Guarantee read_guarantee(ConfigSection& root, const ConfigNode& tree, const ObserverConfig& config,
                          const ObserverLaw& law) {
   Guarantee guarantee;
   const bool allow_uncertified = root.flag("allow_uncertified", false);
-  require_theorem_for_type(root, config.type);
+  for (const char* key : {kCertificate, kRunTimeCertificate}) {
+    require_theorem_for_type(root, key, config.type);
+  }
   const auto claim = read_certificate(root, *config.plant);
+  const auto for_bound = read_certificate(root, *config.plant, kRunTimeCertificate);
   if (!claim) {
+    if (for_bound) {
+      throw root.error(kRunTimeCertificate,
+                       "the section 'certificate', what the gains were made for, beside it",
+                       "none");
+    }
     if (!root.has("error_assumptions")) return guarantee;
     throw root.error("error_assumptions",
                      "a certificate beside it (gains made by 'design synthesize')", "none");
   }
-  const auto error = objection(root, tree, *claim, config, law);
+  auto error = objection(root, tree, *claim, config, law);
+  if (!error && for_bound) error = objection(root, tree, *for_bound, config, law);
   if (error && !allow_uncertified) throw ConfigError(*error);
   const Certificate& certificate = claim->certificate;
   const Theorem& theorem = *certificate.theorem;
@@ -240,32 +269,30 @@ Guarantee read_guarantee(ConfigSection& root, const ConfigNode& tree, const Obse
         "they become known: " +
         theorem.name() + " is about those that take effect when they happen (jumps/late: rewind)";
   } else if (!error) {
+    const CertificateConfig* unproved = !claim->is_proved                    ? &*claim
+                                        : for_bound && !for_bound->is_proved ? &*for_bound
+                                                                             : nullptr;
     guarantee.text =
-        statement(certificate) + (claim->is_proved ? "; proved in ball arithmetic"
-                                                   : "; checked in floating point, not proved");
-    if (!claim->is_proved) {
+        statement(certificate) + (unproved == nullptr ? "; proved in ball arithmetic"
+                                                      : "; checked in floating point, not proved");
+    if (unproved != nullptr) {
       guarantee.remark =
-          claim->origin +
-          ": certificate: its conditions hold in floating point, but the file records no proof of "
+          unproved->origin + ": " + unproved->section +
+          ": its conditions hold in floating point, but the file records no proof of "
           "just these numbers: prove them with 'design verify GAINS --rigorous --record'";
     }
   }
   if (error) guarantee.warning = std::string("no guarantee and no error bound: ") + error->what();
   if (!root.has("error_assumptions")) return guarantee;
   require_bounded(root, config);
-  const ErrorAssumptions assumptions = read_assumptions(root, *claim, *config.plant, guarantee);
+  const CertificateConfig& basis = for_bound ? *for_bound : *claim;
+  const ErrorAssumptions assumptions = read_assumptions(root, basis, *config.plant, guarantee);
   if (error) return guarantee;
-  try {
-    guarantee.bound = theorem.error_bound(certificate.subject, certificate.values, assumptions);
-  } catch (const std::invalid_argument& fault) {
-    throw root.error("error_assumptions",
-                     "assumptions for which " + theorem.name() + " gives a bound", fault.what());
-  }
-  if (!guarantee.bound) {
-    throw root.error("error_assumptions", "a certificate of a theorem that gives a bound",
-                     theorem.name());
-  }
+  guarantee.bound = bound_of(root, basis.certificate, assumptions);
   guarantee.noise = assumptions.noise;
+  if (for_bound) {
+    guarantee.text += std::string("; error bound by the proof in ") + kRunTimeCertificate;
+  }
   guarantee.text += conditions_of_bound(*config.plant, law, guarantee.latency);
   return guarantee;
 }

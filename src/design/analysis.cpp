@@ -1,6 +1,8 @@
 #include "design/analysis.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "design/certify.h"
@@ -116,6 +118,19 @@ class GivenGains : public DesignMethod {
   NamedMatrices gains_;
 };
 
+AnalysisProblem final_error_problem(const Certificate& certificate,
+                                    const ErrorAssumptions& assumptions) {
+  AnalysisProblem problem;
+  problem.theorem = certificate.theorem;
+  problem.subject = certificate.subject;
+  problem.objective = Objective::kMinFinalError;
+  problem.assumptions = assumptions;
+  for (const NamedShape& shape : certificate.theorem->gains(problem.subject)) {
+    problem.gains[shape.name] = certificate.values.at(shape.name);
+  }
+  return problem;
+}
+
 /// Whether the analysis found as much as the design had, or more.
 bool is_as_good(const Design& analysis, const Design& design, const std::string& decay) {
   const auto value = [](const Design& of, const std::string& name) {
@@ -172,6 +187,7 @@ Design analyze(const AnalysisProblem& problem, const SynthesisOptions& options) 
   search.given = problem.given;
   search.objective = problem.objective;
   search.accepts_less = true;
+  search.accepts_slow = problem.accepts_slow;
   search.assumptions = problem.assumptions;
   Design found = search_design(method, search, options);
   const bool has_any_gamma =
@@ -197,17 +213,10 @@ Design analyze(const AnalysisProblem& problem, const SynthesisOptions& options) 
 
 Design prove_final_error(const Design& design, const ErrorAssumptions& assumptions,
                          const SynthesisOptions& options) {
-  const Certificate& certificate = design.certificate;
-  const Theorem& theorem = *certificate.theorem;
+  const Theorem& theorem = *design.certificate.theorem;
   if (!has_final_error_level(theorem)) return design;
-  AnalysisProblem problem;
-  problem.theorem = &theorem;
-  problem.subject = certificate.subject;
-  problem.objective = Objective::kMinFinalError;
-  problem.assumptions = assumptions;
-  for (const NamedShape& shape : theorem.gains(problem.subject)) {
-    problem.gains[shape.name] = certificate.values.at(shape.name);
-  }
+  AnalysisProblem problem = final_error_problem(design.certificate, assumptions);
+  problem.accepts_slow = false;
   const auto figure = [&](const Design& of) {
     return final_error(theorem, problem.subject, of.certificate.values, assumptions);
   };
@@ -219,9 +228,59 @@ Design prove_final_error(const Design& design, const ErrorAssumptions& assumptio
     if (figure(analysis) < figure(design)) {
       best.certificate = analysis.certificate;
       best.margin = analysis.margin;
+      best.proved_conditions = analysis.proved_conditions;
     }
   } catch (const DesignError&) {
     // The proof at hand is the best.
+  }
+  return best;
+}
+
+std::shared_ptr<const Design> prove_for_run_time(const Design& design,
+                                                 const ErrorAssumptions& assumptions,
+                                                 const SynthesisOptions& options) {
+  constexpr double kWorthwhile = 0.99;
+  const Certificate& certificate = design.certificate;
+  const Theorem& theorem = *certificate.theorem;
+  if (!has_final_error_level(theorem)) return nullptr;
+  AnalysisProblem problem = final_error_problem(certificate, assumptions);
+  PlantMatrices& plant = problem.subject.plant;
+  plant.C_p.resize(0, plant.states());
+  if (plant.N.cols() == 0 || !bounds_disturbances(theorem)) problem.assumptions.disturbance = 0.0;
+  const auto figure = [&](const Certificate& of) {
+    return has_bound_for(of, problem.assumptions)
+               ? final_error(theorem, of.subject, of.values, problem.assumptions)
+               : std::numeric_limits<double>::infinity();
+  };
+  std::shared_ptr<const Design> best;
+  double least = kWorthwhile * figure(certificate);
+  const auto improves = [&] {
+    try {
+      const Design found = analyze(problem, options);
+      const double value = figure(found.certificate);
+      if (!(value < least)) return false;
+      best = std::make_shared<const Design>(found);
+      least = value;
+      return true;
+    } catch (const DesignError&) {
+      return false;  // there need not be another proof
+    }
+  };
+  improves();
+  const std::string decay = theorem.decay_parameter();
+  if (decay.empty()) return best;
+  // No rate of that search need be possible: the one of the proof at hand is.
+  double& rate = problem.given[decay];
+  rate = scalar_value(certificate.values, decay);
+  improves();
+  if (!best) return best;
+  constexpr double kFinest = 1.05;
+  for (double factor = 1.7; factor > kFinest; factor = std::sqrt(factor)) {
+    const double from = scalar_value(best->certificate.values, decay);
+    rate = from * factor;
+    if (improves()) continue;
+    rate = from / factor;
+    improves();
   }
   return best;
 }

@@ -15,6 +15,8 @@ struct AnalysisProblem {
   Objective objective = Objective::kFeasible;
   /// For min-final-error.
   ErrorAssumptions assumptions;
+  /// Whether its proof may be about a rate at which the error hardly falls.
+  bool accepts_slow = true;
 };
 
 /// The objectives that have a meaning for a theorem and a plant, of which the first is its main
@@ -33,6 +35,13 @@ Design analyze(const AnalysisProblem& problem, const SynthesisOptions& options);
 /// itself where the search finds no better one.
 Design prove_final_error(const Design& design, const ErrorAssumptions& assumptions,
                          const SynthesisOptions& options);
+
+/// The gains of a design with the proof that gives the least bound on their final error, for its N
+/// (without one, for no disturbance) and no performance output; null where that is not less than
+/// what the design's own proof gives by 1 %.
+std::shared_ptr<const Design> prove_for_run_time(const Design& design,
+                                                 const ErrorAssumptions& assumptions,
+                                                 const SynthesisOptions& options);
 
 /// The design, or one with the same gains that analysis finds to be better by the objective.
 Design prove_further(const Design& design, const SynthesisOptions& options);

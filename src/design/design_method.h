@@ -47,6 +47,8 @@ struct DesignProblem {
   /// Whether a largest T2 or rate less than the one given is an answer, which for new gains it is
   /// not.
   bool accepts_less = false;
+  /// Whether the proof of a least final error may be about a rate at which the error hardly falls.
+  bool accepts_slow = false;
   /// What the final error of min-final-error is due to: noise and disturbance.
   ErrorAssumptions assumptions;
 };

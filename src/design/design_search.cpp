@@ -159,7 +159,8 @@ class DesignSearch {
       if (own != given.end()) {
         choices.fixed[parameter.name] = own->second;
       } else if (seeks_rate && parameter.name == method_.decay_parameter()) {
-        choices.open.push_back({parameter.name, final_error_rates(subject, problem_.assumptions)});
+        choices.open.push_back({parameter.name, final_error_rates(subject, problem_.assumptions,
+                                                                  problem_.accepts_slow)});
       } else if (parameter.search &&
                  (!default_value || problem_.searched.count(parameter.name) > 0)) {
         choices.open.push_back({parameter.name, *parameter.search});

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -36,6 +37,9 @@ struct Design {
   /// Where T2 or the rate was to be as large as possible: that it could be made 1024 times what the
   /// search began with, where it ended.
   bool has_no_maximum = false;
+  /// The same gains with the proof that bounds their error at run time better than this one; null
+  /// where there is none.
+  std::shared_ptr<const Design> for_run_time;
 };
 
 /// Finds gains by a method: chooses what the user left open, searches for the parameters with a

@@ -23,9 +23,10 @@ double final_error_of_level(const Theorem& theorem, const CertificateSubject& su
 ErrorAssumptions final_error_assumptions(const Parameters& parameters);
 
 /// Rates of convergence among which the one of the least final error is searched for [1/s]. Without
-/// disturbance the slowest is best: then the error shall fall by e in at most twenty times T2.
+/// disturbance the slowest gains are the best: unless that is accepted, the error shall fall by e in
+/// at most twenty times T2 then.
 SearchRange final_error_rates(const CertificateSubject& subject,
-                              const ErrorAssumptions& assumptions);
+                              const ErrorAssumptions& assumptions, bool accepts_slow);
 
 /// Whether the certificate gives a bound at run time under such assumptions.
 bool has_bound_for(const Certificate& certificate, const ErrorAssumptions& assumptions);

@@ -44,55 +44,11 @@ void write_values(const std::vector<NamedShape>& shapes, const NamedMatrices& va
   }
 }
 
-}  // namespace
-
-std::string proof_record(const Certificate& certificate, std::size_t conditions) {
-  return "  proof: ball arithmetic, " + std::to_string(conditions) +
-         " conditions\n  proof_hash: " + proof_fingerprint(certificate) + "\n";
-}
-
-std::string with_proof_record(const std::string& text, const std::string& record) {
-  std::istringstream lines(text);
-  std::ostringstream out;
-  bool is_inside = false;
-  bool is_recorded = false;
-  for (std::string line; std::getline(lines, line);) {
-    const bool is_of_section = line.empty() || line.front() == ' ' || line.front() == '#';
-    if (is_inside && !is_of_section) is_inside = false;
-    const std::string key = line.substr(0, line.find(':'));
-    if (is_inside && (key == "  proof" || key == "  proof_hash")) continue;
-    out << line << '\n';
-    const std::size_t value = line.find_first_not_of(' ', key.size() + 1);
-    const bool has_value = value != std::string::npos && line[value] != '#';
-    if (key != "certificate" || key.size() == line.size() || has_value) continue;
-    is_inside = true;
-    is_recorded = true;
-    out << record;
-  }
-  if (!is_recorded) {
-    throw std::invalid_argument(
-        "expected a line 'certificate:' with the keys of the section below it, indented by two "
-        "spaces, found none; add these lines to that section by hand:\n" +
-        record);
-  }
-  return out.str();
-}
-
-void write_gain_file(const Design& design, const GainFileOrigin& origin, std::ostream& out) {
+void write_claim(const Design& design, const GainFileOrigin& origin, std::ostream& out) {
   const Certificate& certificate = design.certificate;
   const CertificateSubject& subject = certificate.subject;
   const Theorem& theorem = *certificate.theorem;
-  out << "# Gains with a certificate, made by\n#   " << origin.command << "\n"
-      << "observer: " << design.observer_type << "\n\n"
-      << "sampling: {T1: " << shortest_decimal(subject.T1)
-      << ", T2: " << shortest_decimal(subject.T2) << "}  # s\n\n"
-      << "gains:\n";
-  for (const auto& [key, choice] : theorem.gain_choices()) {
-    out << "  " << key << ": " << choice << '\n';
-  }
-  write_values(theorem.gains(subject), certificate.values, out);
-  out << "\ncertificate:\n"
-      << "  theorem: " << theorem.name() << '\n'
+  out << "  theorem: " << theorem.name() << '\n'
       << "  guarantee: \"" << theorem.guarantee() << "\"\n"
       << "  plant: {file: \"" << origin.plant_file << "\", hash: " << origin.plant_hash << "}\n"
       << "  T1: " << shortest_decimal(subject.T1) << "\n"
@@ -122,6 +78,62 @@ void write_gain_file(const Design& design, const GainFileOrigin& origin, std::os
     separator = ", ";
   }
   out << "}\n  solver: " << design.solver << "\n  date: " << origin.date << '\n';
+}
+
+}  // namespace
+
+std::string proof_record(const Certificate& certificate, std::size_t conditions) {
+  return "  proof: ball arithmetic, " + std::to_string(conditions) +
+         " conditions\n  proof_hash: " + proof_fingerprint(certificate) + "\n";
+}
+
+std::string with_proof_record(const std::string& text, const std::string& section,
+                              const std::string& record) {
+  std::istringstream lines(text);
+  std::ostringstream out;
+  bool is_inside = false;
+  bool is_recorded = false;
+  for (std::string line; std::getline(lines, line);) {
+    const bool is_of_section = line.empty() || line.front() == ' ' || line.front() == '#';
+    if (is_inside && !is_of_section) is_inside = false;
+    const std::string key = line.substr(0, line.find(':'));
+    if (is_inside && (key == "  proof" || key == "  proof_hash")) continue;
+    out << line << '\n';
+    const std::size_t value = line.find_first_not_of(' ', key.size() + 1);
+    const bool has_value = value != std::string::npos && line[value] != '#';
+    if (key != section || key.size() == line.size() || has_value) continue;
+    is_inside = true;
+    is_recorded = true;
+    out << record;
+  }
+  if (!is_recorded) {
+    throw std::invalid_argument("expected a line '" + section +
+                                ":' with the keys of the section below it, indented by two "
+                                "spaces, found none; add these lines to that section by hand:\n" +
+                                record);
+  }
+  return out.str();
+}
+
+void write_gain_file(const Design& design, const GainFileOrigin& origin, std::ostream& out) {
+  const Certificate& certificate = design.certificate;
+  const CertificateSubject& subject = certificate.subject;
+  const Theorem& theorem = *certificate.theorem;
+  out << "# Gains with a certificate, made by\n#   " << origin.command << "\n"
+      << "observer: " << design.observer_type << "\n\n"
+      << "sampling: {T1: " << shortest_decimal(subject.T1)
+      << ", T2: " << shortest_decimal(subject.T2) << "}  # s\n\n"
+      << "gains:\n";
+  for (const auto& [key, choice] : theorem.gain_choices()) {
+    out << "  " << key << ": " << choice << '\n';
+  }
+  write_values(theorem.gains(subject), certificate.values, out);
+  out << '\n' << kCertificate << ":\n";
+  write_claim(design, origin, out);
+  if (!design.for_run_time) return;
+  out << "\n# The proof of these gains that bounds their error at run time best.\n"
+      << kRunTimeCertificate << ":\n";
+  write_claim(*design.for_run_time, origin, out);
 }
 
 }  // namespace sampled_data_observers

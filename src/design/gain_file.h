@@ -17,15 +17,17 @@ struct GainFileOrigin {
 };
 
 /// Writes a design as a gain file: a configuration that the nodelets read beside that of the plant,
-/// with the certificate of its gains. Numbers have 17 digits, so that reading gives the same.
+/// with the certificate of its gains, and that for their bound at run time. Numbers have 17 digits,
+/// so that reading gives the same.
 void write_gain_file(const Design& design, const GainFileOrigin& origin, std::ostream& out);
 
-/// The lines of a section `certificate` that record a proof in ball arithmetic.
+/// The lines of a section such as `certificate` that record a proof in ball arithmetic.
 /// @param conditions  how many were proved
 std::string proof_record(const Certificate& certificate, std::size_t conditions);
 
-/// The text of a gain file with such lines in its section `certificate`, in place of any there.
+/// The text of a gain file with such lines in a section, in place of any there.
 /// @throws std::invalid_argument for a section that is not written in lines of its own.
-std::string with_proof_record(const std::string& text, const std::string& record);
+std::string with_proof_record(const std::string& text, const std::string& section,
+                              const std::string& record);
 
 }  // namespace sampled_data_observers

@@ -26,11 +26,20 @@ std::string simulated_topic(const TopicSource& source, const std::string& type) 
 }
 
 /// What only an observer reads from the same tree.
-const char* const kObserverKeys[] = {"observer",         "gains",    "sampling",
-                                     "history",          "rate",     "initial_estimate",
-                                     "publish_delay",    "frame_id", "future_tolerance",
-                                     "certificate",      "design",   "error_assumptions",
-                                     "allow_uncertified"};
+const char* const kObserverKeys[] = {"observer",
+                                     "gains",
+                                     "sampling",
+                                     "history",
+                                     "rate",
+                                     "initial_estimate",
+                                     "publish_delay",
+                                     "frame_id",
+                                     "future_tolerance",
+                                     "certificate",
+                                     "design",
+                                     "error_assumptions",
+                                     "allow_uncertified",
+                                     "run_time_certificate"};
 
 class ScenarioReader {
  public:

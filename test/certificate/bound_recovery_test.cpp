@@ -7,7 +7,6 @@
 
 #include "certificate/certified_gains.h"
 #include "certificate/true_run.h"
-#include "config/plant_fingerprint.h"
 
 namespace sampled_data_observers::test {
 namespace {
@@ -22,7 +21,7 @@ const char kOscillatorSlow[] = "test/certificate/ferrante2019_oscillator_0.41.ya
 CertifiedGains with_plant(const char* gains, const std::string& change) {
   CertifiedGains result(gains);
   result.with(change);
-  return result.with("certificate: {plant: {hash: " + plant_fingerprint(result.tree()) + "}}");
+  return result.with_own_hash();
 }
 
 struct Tally {

@@ -311,6 +311,61 @@ TEST(CertifiedConfigTest, TakesTheDisturbanceThatTheGainsWereDesignedForWhereNon
   EXPECT_EQ(declared.guarantee.find("designed for"), std::string::npos);
 }
 
+ConfigNode without(ConfigNode tree, const std::string& section) {
+  tree.entries.erase(std::remove_if(tree.entries.begin(), tree.entries.end(),
+                                    [&](const auto& entry) { return entry.first == section; }),
+                     tree.entries.end());
+  return tree;
+}
+
+const char kTwoProofs[] = "config/examples/ferrante2019_oscillator/gains.yaml";
+
+TEST(CertifiedConfigTest, TakesTheBoundFromTheRunTimeCertificate) {
+  const auto bound_of = [](const ConfigNode& tree) {
+    const auto law = read_observer_config(tree, no_plant_plugins).law;
+    LawRunner runner(law);
+    runner.sample(0, {0.0});
+    return law->error_bound(runner.state().data());
+  };
+  const CertifiedGains both =
+      CertifiedGains(kTwoProofs).assuming("{initial_error: 0, noise: 1, disturbance: 0}");
+  ConfigNode other = both.tree();
+  for (auto& [key, value] : other.entries) {
+    if (key == kCertificate) value = *both.tree().find(kRunTimeCertificate);
+  }
+  const ConfigNode only_run_time = without(other, kRunTimeCertificate);
+  const ConfigNode only_design = without(both.tree(), kRunTimeCertificate);
+  EXPECT_EQ(bound_of(both.tree()), bound_of(only_run_time));
+  EXPECT_LT(bound_of(both.tree()), bound_of(only_design));
+  const std::string text = both.config().guarantee;
+  expect_parts(text, {"gamma = 32.9", "proved in ball arithmetic", "run_time_certificate"});
+}
+
+TEST(CertifiedConfigTest, RefusesARunTimeCertificateThatDoesNotHold) {
+  expect_parts(fault(CertifiedGains(kTwoProofs).with("run_time_certificate: {lambda_t: 0.5}")),
+               {"ferrante2019_oscillator", "run_time_certificate: expected gains and matrices",
+                "is violated by"});
+  expect_parts(fault(CertifiedGains(kTwoProofs).with("run_time_certificate: {plant: {hash: no}}")),
+               {"run_time_certificate/plant/hash: expected "});
+  const ConfigNode alone = without(CertifiedGains(kTwoProofs).tree(), kCertificate);
+  try {
+    read_observer_config(alone, no_plant_plugins);
+    FAIL();
+  } catch (const ConfigError& error) {
+    expect_parts(error.what(),
+                 {"run_time_certificate: expected the section 'certificate'", "found none"});
+  }
+}
+
+TEST(CertifiedConfigTest, SaysWhereARunTimeCertificateIsNotKnownToBeProved) {
+  const ObserverConfig config =
+      CertifiedGains(kTwoProofs).with("run_time_certificate: {proof_hash: 0}").config();
+  ASSERT_EQ(1u, config.warnings.size());
+  expect_parts(config.warnings.front(),
+               {"run_time_certificate", "design verify GAINS --rigorous --record"});
+  EXPECT_EQ(config.guarantee.find("proved in ball"), std::string::npos) << config.guarantee;
+}
+
 // P > Φ(τ)ᵀ P Φ(τ), which is enclosed between the values of τ that are looked at.
 TEST(CertifiedConfigTest, AConditionOfEightStatesHoldsOverAllTimes) {
   const Eigen::Index n = 8;

@@ -1,15 +1,29 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "config/certificate_config.h"
+#include "config/plant_fingerprint.h"
 #include "sampled_data_observers/config/observer_config.h"
 #include "sampled_data_observers/config/plant_config.h"
 #include "sampled_data_observers/config/yaml_file.h"
 
 namespace sampled_data_observers::test {
+
+/// A configuration whose claims are about the plant as it is now.
+inline ConfigNode with_own_hash(const ConfigNode& tree) {
+  ConfigNode result = tree;
+  for (const char* section : {kCertificate, kRunTimeCertificate}) {
+    if (tree.find(section) == nullptr) continue;
+    const std::string hash =
+        std::string(section) + ": {plant: {hash: " + plant_fingerprint(tree) + "}}";
+    result = override_with(result, read_yaml_text(hash, "test.yaml"));
+  }
+  return result;
+}
 
 /// A gain file of this repository with the plant that it names, as one configuration.
 class CertifiedGains {
@@ -35,9 +49,18 @@ class CertifiedGains {
 
   const ConfigNode& tree() const { return tree_; }
   ObserverConfig config() const { return read_observer_config(tree_, no_plant_plugins); }
-  Certificate certificate() const {
+  Certificate certificate(const std::string& section = kCertificate) const {
+    return claim(section)->certificate;
+  }
+  /// Nothing where the file has no such section.
+  std::optional<CertificateConfig> claim(const std::string& section) const {
     ConfigSection root(tree_, "");
-    return read_certificate(root, *read_plant(root, no_plant_plugins).plant)->certificate;
+    return read_certificate(root, *read_plant(root, no_plant_plugins).plant, section);
+  }
+  /// Makes its claims about the plant as it is now.
+  CertifiedGains& with_own_hash() {
+    tree_ = test::with_own_hash(tree_);
+    return *this;
   }
 
  private:

@@ -8,7 +8,6 @@
 
 #include "certificate/certified_gains.h"
 #include "config/design_config.h"
-#include "config/plant_fingerprint.h"
 #include "support/config_faults.h"
 
 namespace sampled_data_observers::test {
@@ -16,12 +15,6 @@ namespace {
 
 const char kNeuron[] = "config/examples/bernard2022_neuron_jump_based/gains.yaml";
 const char kInjection[] = "gains: {output_injection: {x1: membrane}}";
-
-/// With the fingerprint of the plant as it is now: a claim about just this plant.
-ConfigNode with_own_hash(const ConfigNode& tree) {
-  const std::string hash = "{certificate: {plant: {hash: " + plant_fingerprint(tree) + "}}}";
-  return override_with(tree, read_yaml_text(hash, "test.yaml"));
-}
 
 /// The message with which a configuration is refused.
 std::string refusal(const ConfigNode& tree) {

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <set>
 #include <sstream>
 #include <string>
 
@@ -188,6 +189,32 @@ TEST_F(DesignTool, RecordsAProofInTheGainFile) {
   EXPECT_EQ(run("verify --rigorous --record " + path("gains.yaml")).status, 2);
   EXPECT_EQ(read("gains.yaml"), wrong);
   EXPECT_NE(run("verify --record " + path("gains.yaml")).status, 0);
+}
+
+TEST_F(DesignTool, WritesAProofOfItsOwnForTheBoundAtRunTime) {
+  const std::string plant =
+      write("plant.yaml", oscillator("design:\n", "design:\n  N: [[1], [0]]\n  C_p: [[1, 0]]\n"));
+  const ToolRun made = synthesize(plant, "--objective min-gamma");
+  ASSERT_EQ(made.status, 0) << made.output;
+  const std::string file = read("gains.yaml");
+  EXPECT_NE(file.find("\nrun_time_certificate:\n"), std::string::npos) << file;
+  EXPECT_TRUE(made.says("by the proof for min-final-error"));
+  const ToolRun proved = run("verify --rigorous --record " + path("gains.yaml"));
+  EXPECT_EQ(proved.status, 0) << proved.output;
+  EXPECT_TRUE(proved.says("for the error bound at run time (run_time_certificate):"));
+  // Recording what is recorded changes nothing but the place of the lines.
+  const auto lines = [](const std::string& text) {
+    std::istringstream in(text);
+    std::multiset<std::string> all;
+    for (std::string line; std::getline(in, line);) all.insert(line);
+    return all;
+  };
+  EXPECT_EQ(lines(read("gains.yaml")), lines(file));
+  // A run-time certificate that does not hold is found.
+  std::string wrong = file;
+  wrong.insert(wrong.find("lambda_t: ", wrong.find("run_time_certificate")) + 10, "1");
+  write("gains.yaml", wrong);
+  EXPECT_EQ(run("verify " + path("gains.yaml")).status, 2);
 }
 
 TEST_F(DesignTool, DisprovesAGainFileWithAnotherGain) {
@@ -422,8 +449,8 @@ TEST_F(DesignTool, AnalyzesNoGainWithoutPerformanceOutput) {
 }
 
 TEST_F(DesignTool, WarnsOfGainsThatHardlyCorrect) {
-  const ToolRun slow =
-      synthesize(write("plant.yaml", oscillator("lambda_t: 0.05", "lambda_t: 1e-4")));
+  const ToolRun slow = synthesize(
+      write("plant.yaml", oscillator("lambda_t: 0.05", "lambda_t: 1e-4, gain_bound: 0.1")));
   ASSERT_EQ(slow.status, 0) << slow.output;
   EXPECT_TRUE(slow.says("these gains hardly correct")) << slow.output;
   EXPECT_TRUE(slow.says("--set lambda_t=NUMBER")) << slow.output;

@@ -88,7 +88,8 @@ void print_assumptions(const DeclaredAssumptions& declared, const DesignProblem&
   }
 }
 
-void print_run_time_figures(const Design& design, const ErrorAssumptions& assumptions) {
+void print_run_time_figures(const Design& main, const ErrorAssumptions& assumptions) {
+  const Design& design = main.for_run_time ? *main.for_run_time : main;
   const Certificate& certificate = design.certificate;
   ErrorAssumptions bounded = assumptions;
   // A proof without N is about plants without disturbance.

@@ -8,6 +8,7 @@
 
 #include "config/design_config.h"
 #include "console/option_checks.h"
+#include "design/analysis.h"
 #include "design/assumed_disturbance.h"
 #include "design/best_design.h"
 #include "design/final_error.h"
@@ -203,12 +204,15 @@ void synthesize_command(const SynthesizeArguments& arguments, const std::string&
     std::fprintf(stderr, "design: %s\n", error.what());
     throw ExitStatus{kNoDesign};
   }
+  if (problem.objective != Objective::kMinFinalError) {
+    design.for_run_time = prove_for_run_time(design, assumed.assumptions, options);
+  }
   const std::string text = save_gain_file(design, arguments.files.front(), config.plant_hash,
                                           command_line, arguments.output);
   std::printf("%s\nwritten to %s after %zu attempt%s in %.1f s\n", text.c_str(),
               arguments.output.c_str(), design.attempts, design.attempts == 1 ? "" : "s",
               design.seconds);
-  print_run_time_figures(design, problem.assumptions);
+  print_run_time_figures(design, assumed.assumptions);
   note_gains_near_their_bound(design);
   print_how_to_run(arguments, {config.noise, config.disturbance});
   if (!arguments.cross_check.empty()) {

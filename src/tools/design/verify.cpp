@@ -32,8 +32,8 @@ struct VerifyArguments {
   double time_limit = ProofOptions().time_limit;  // [s]
 };
 
-/// The claim of a gain file together with its plant: the one named, or the one given.
-CertificateConfig read_claim(const VerifyArguments& arguments) {
+/// The claims of a gain file together with its plant: the one named, or the one given.
+std::vector<CertificateConfig> read_claims(const VerifyArguments& arguments) {
   const ConfigNode gains = read_yaml_file(arguments.gains);
   const std::vector<std::string> files = plant_files_of(arguments.gains, arguments.plant);
   std::vector<ConfigNode> trees;
@@ -42,18 +42,25 @@ CertificateConfig read_claim(const VerifyArguments& arguments) {
   ConfigSection plant_root(plant_tree, "");
   const PlantConfig plant = read_plant(plant_root, load_plant_plugin);
   ConfigSection root(gains, "");
-  auto config = read_certificate(root, *plant.plant);
-  if (!config) throw root.error("certificate", "a gain file with a certificate", "none");
-  ConfigSection plant_section = plant_root.section("plant");
-  ConfigSection section = root.section("certificate");
-  require_no_contradiction(*plant.plant, config->certificate.subject.plant.stated, plant_section,
-                           section);
-  const std::string hash = plant_fingerprint(plant_tree);
-  if (hash != config->plant_hash) {
-    throw ConfigError(config->origin, "certificate/plant/hash",
-                      "the fingerprint of " + files.front() + ", " + hash, config->plant_hash);
+  if (!root.has(kCertificate)) {
+    throw root.error(kCertificate, "a gain file with a certificate", "none");
   }
-  return *config;
+  ConfigSection plant_section = plant_root.section("plant");
+  const std::string hash = plant_fingerprint(plant_tree);
+  std::vector<CertificateConfig> claims;
+  for (const char* key : {kCertificate, kRunTimeCertificate}) {
+    const auto claim = read_certificate(root, *plant.plant, key);
+    if (!claim) continue;
+    ConfigSection section = root.section(key);
+    require_no_contradiction(*plant.plant, claim->certificate.subject.plant.stated, plant_section,
+                             section);
+    if (hash != claim->plant_hash) {
+      throw ConfigError(claim->origin, claim->section + "/plant/hash",
+                        "the fingerprint of " + files.front() + ", " + hash, claim->plant_hash);
+    }
+    claims.push_back(*claim);
+  }
+  return claims;
 }
 
 void verify_in_floating_point(const Certificate& certificate) {
@@ -113,28 +120,32 @@ std::size_t verify_rigorously(const Certificate& certificate, double time_limit)
   return proofs.size();
 }
 
-void record_proof(const std::string& file, const Certificate& certificate, std::size_t conditions) {
+void record_proof(const std::string& file, const CertificateConfig& claim, std::size_t conditions) {
   std::ostringstream text;
   text << std::ifstream(file).rdbuf();
   std::string recorded;
   try {
-    recorded = with_proof_record(text.str(), proof_record(certificate, conditions));
+    recorded =
+        with_proof_record(text.str(), claim.section, proof_record(claim.certificate, conditions));
   } catch (const std::invalid_argument& fault) {
-    throw std::runtime_error(file + ": certificate: " + fault.what());
+    throw std::runtime_error(file + ": " + claim.section + ": " + fault.what());
   }
   replace_file(file, recorded);
   std::printf("recorded in %s\n", file.c_str());
 }
 
 void verify_command(const VerifyArguments& arguments) {
-  const CertificateConfig config = read_claim(arguments);
-  const Certificate& certificate = config.certificate;
-  std::printf("%s\n", statement(certificate).c_str());
-  if (arguments.is_rigorous) {
-    const std::size_t proved = verify_rigorously(certificate, arguments.time_limit);
-    if (arguments.records) record_proof(arguments.gains, certificate, proved);
-  } else {
-    verify_in_floating_point(certificate);
+  for (const CertificateConfig& claim : read_claims(arguments)) {
+    if (claim.section == kRunTimeCertificate) {
+      std::printf("for the error bound at run time (%s):\n", kRunTimeCertificate);
+    }
+    std::printf("%s\n", statement(claim.certificate).c_str());
+    if (arguments.is_rigorous) {
+      const std::size_t proved = verify_rigorously(claim.certificate, arguments.time_limit);
+      if (arguments.records) record_proof(arguments.gains, claim, proved);
+    } else {
+      verify_in_floating_point(claim.certificate);
+    }
   }
 }
 
