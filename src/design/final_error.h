@@ -23,8 +23,8 @@ double final_error_of_level(const Theorem& theorem, const CertificateSubject& su
 ErrorAssumptions final_error_assumptions(const Parameters& parameters);
 
 /// Rates of convergence among which the one of the least final error is searched for [1/s]. Without
-/// disturbance the slowest gains are the best: unless that is accepted, the error shall fall by e in
-/// at most twenty times T2 then.
+/// disturbance the slowest gains are the best: unless that is accepted, the error shall fall by e
+/// in at most twenty times T2 then.
 SearchRange final_error_rates(const CertificateSubject& subject,
                               const ErrorAssumptions& assumptions, bool accepts_slow);
 

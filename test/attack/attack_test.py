@@ -33,7 +33,7 @@ def certified_gains():
 
 
 def answers(path, plant=None):
-    return {verdict.name: verdict.answer for verdict in judge(path, plant, SECONDS)}
+    return [verdict.answer for verdict in judge(path, plant, SECONDS)]
 
 
 def times(factor):
@@ -104,7 +104,7 @@ class ClaimTest(unittest.TestCase):
         for path in paths:
             found = answers(path)
             self.assertGreaterEqual(len(found), 4, path)
-            self.assertEqual({"holds"}, set(found.values()), f"{path}: {found}")
+            self.assertEqual({"holds"}, set(found), f"{path}: {found}")
 
     def test_each_broken_value_is_refused(self):
         folder = os.path.join(ROOT, "config/examples/ferrante2019_oscillator")
@@ -113,13 +113,16 @@ class ClaimTest(unittest.TestCase):
         self.assertEqual("ferrante2019_theorem2", whole["certificate"]["theorem"])
         with tempfile.TemporaryDirectory() as broken:
             path = os.path.join(broken, "gains.yaml")
-            for section, key, change in BREAKS:
+            in_run_time = [("run_time_certificate", key, change) for section, key, change in BREAKS
+                           if section == "certificate" and key in whole["run_time_certificate"]]
+            self.assertGreater(len(in_run_time), 10)
+            for section, key, change in BREAKS + in_run_time:
                 document = copy.deepcopy(whole)
                 document[section][key] = change(document[section][key])
                 with open(path, "w", encoding="utf-8") as stream:
                     yaml.safe_dump(document, stream)
                 plant = os.path.join(folder, "plant.yaml")
-                self.assertIn("violated", answers(path, plant).values(), f"{key} changed")
+                self.assertIn("violated", answers(path, plant), f"{section}/{key} changed")
                 done = subprocess.run([DESIGN, "verify", path, "--plant", plant, "--rigorous"],
                                       stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
                 self.assertNotEqual(0, done.returncode, f"{key} changed: {done.stdout}")
@@ -128,7 +131,7 @@ class ClaimTest(unittest.TestCase):
         claims = sorted(glob.glob(os.path.join(FOLDER, "false_claims", "*_*.yaml")))
         self.assertGreaterEqual(len(claims), 2)
         for path in claims:
-            self.assertIn("violated", answers(path).values(), path)
+            self.assertIn("violated", answers(path), path)
 
 
 class CampaignTest(unittest.TestCase):

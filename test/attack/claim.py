@@ -103,12 +103,17 @@ def extended_by_identity(rows, total):
                     [zeros(total - n, n), identity(total - n)]])
 
 
-def read_claim(path, plant_path=None):
+def read_claims(path, plant_path=None):
+    """The claims that a gain file makes of its gains."""
     with open(path, encoding="utf-8") as stream:
         gain_file = yaml.safe_load(stream)
-    certificate = gain_file.get("certificate")
-    if not isinstance(certificate, dict):
+    if not isinstance(gain_file.get("certificate"), dict):
         raise Unreadable(f"{path} has no certificate")
+    return [read_claim(path, gain_file, gain_file[section], plant_path)
+            for section in ("certificate", "run_time_certificate") if section in gain_file]
+
+
+def read_claim(path, gain_file, certificate, plant_path):
     if plant_path is None:
         plant_path = os.path.join(os.path.dirname(path), certificate["plant"]["file"])
     with open(plant_path, encoding="utf-8") as stream:

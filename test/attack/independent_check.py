@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks claims of gain files again, in 60 digits and more, sharing no line with the package.
+"""Checks the claims of gain files again, in 60 digits and more, sharing no line with the package.
 
 Each condition of the claimed theorem is `holds`, `violated`, or `sampled`: not violated wherever it
 was looked at, but not enclosed for all times within --seconds.
@@ -16,7 +16,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import mpmath  # noqa: E402
 from mpmath import mp  # noqa: E402
 
-from claim import Unreadable, read_claim  # noqa: E402
+from claim import Unreadable, read_claims  # noqa: E402
 from high_precision import balancing, frobenius, symmetrized  # noqa: E402
 from theorems import conditions_of  # noqa: E402
 
@@ -36,11 +36,13 @@ def digits_for(claim):
 
 
 def judge(path, plant=None, seconds=60.0):
-    """The verdicts on all conditions of the claim in a gain file."""
+    """The verdicts on all conditions of the claims in a gain file."""
     mp.dps = 60
-    claim = read_claim(path, plant)
-    mp.dps = digits_for(claim)
-    return [condition.judge(seconds) for condition in conditions_of(claim)]
+    verdicts = []
+    for claim in read_claims(path, plant):
+        mp.dps = digits_for(claim)
+        verdicts += [condition.judge(seconds) for condition in conditions_of(claim)]
+    return verdicts
 
 
 def main():
