@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Every example of the papers, launched live: its estimates are those of simulate and replay."""
+import concurrent.futures
 import os
 import sys
 import tempfile
@@ -23,42 +24,62 @@ SPECIAL = {"bernard2022_neuron_high_gain": (10, 2), "bernard2022_neuron_jump_bas
 AT_LEAST = 75
 
 
+# Most of a launch is waiting.
+AT_ONCE = 3
+
+
 class LiveExamplesTest(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        launches = {"in_real_time": ("ferrante2016_mass_spring", "duration:=12")}
+        for name in example_names():
+            launches[name] = (name, *("%s:=%d" % argument for argument in zip(
+                ("duration", "speed"), SPECIAL.get(name, USUAL))))
+        pool = concurrent.futures.ThreadPoolExecutor(AT_ONCE)
+        cls.launched = {run: pool.submit(cls.launch, run, *arguments)
+                        for run, arguments in launches.items()}
 
-    def path(self, name):
-        return os.path.join(self.folder.name, name)
+    @classmethod
+    def tearDownClass(cls):
+        concurrent.futures.wait(cls.launched.values())
+        cls.folder.cleanup()
 
-    def launch(self, name, *arguments):
+    @classmethod
+    def path(cls, run, name):
+        os.makedirs(os.path.join(cls.folder.name, run), exist_ok=True)
+        return os.path.join(cls.folder.name, run, name)
+
+    @classmethod
+    def launch(cls, run, name, *arguments):
         port = free_port()
         command = ["roslaunch", "--port", str(port),
                    os.path.join(EXAMPLES, name, name + ".launch"),
-                   "output:=" + self.path("live.bag"), *arguments]
+                   "output:=" + cls.path(run, "live.bag"), *arguments]
         with RosProcess(command, port) as process:
             process.wait(120)
 
     def check(self, name):
-        duration, speed = SPECIAL.get(name, USUAL)
-        self.launch(name, "duration:=%d" % duration, "speed:=%d" % speed)
+        self.launched[name].result()
+        duration, _ = SPECIAL.get(name, USUAL)
         scenario = [path for path in (os.path.join(EXAMPLES, name, "plant.yaml"),
                                       os.path.join(EXAMPLES, name, "scenario.yaml"))
                     if os.path.exists(path)]
-        run_tool("simulate", *scenario, "-o", self.path("simulated.bag"), "--duration",
+        run_tool("simulate", *scenario, "-o", self.path(name, "simulated.bag"), "--duration",
                  str(duration))
-        run_tool("replay", self.path("simulated.bag"), *scenario,
+        run_tool("replay", self.path(name, "simulated.bag"), *scenario,
                  os.path.join(EXAMPLES, name, "observer.yaml"),
-                 os.path.join(EXAMPLES, name, "gains.yaml"), "-o", self.path("replayed.bag"))
-        run_tool("compare_estimates", self.path("live.bag"), self.path("replayed.bag"),
-                 "--at-least", str(AT_LEAST))
+                 os.path.join(EXAMPLES, name, "gains.yaml"), "-o",
+                 self.path(name, "replayed.bag"))
+        run_tool("compare_estimates", self.path(name, "live.bag"),
+                 self.path(name, "replayed.bag"), "--at-least", str(AT_LEAST))
 
     def test_in_real_time_the_estimates_approach_the_truth(self):
         import rosbag
-        self.launch("ferrante2016_mass_spring", "duration:=12")
+        self.launched["in_real_time"].result()
         truth = {}
         errors = []
-        with rosbag.Bag(self.path("live.bag")) as bag:
+        with rosbag.Bag(self.path("in_real_time", "live.bag")) as bag:
             for topic, message, _ in bag.read_messages(["/truth", "/estimate"]):
                 stamp = message.header.stamp.to_nsec()
                 if topic == "/truth":
@@ -69,10 +90,14 @@ class LiveExamplesTest(unittest.TestCase):
         self.assertLess(errors[-1], 0.5 * max(errors))
 
 
-def add_tests():
+def example_names():
     names = sorted(os.listdir(EXAMPLES))
     assert len(names) >= 13, names
-    for name in names:
+    return names
+
+
+def add_tests():
+    for name in example_names():
         setattr(LiveExamplesTest, "test_%s_live_as_replayed" % name,
                 lambda self, name=name: self.check(name))
 
