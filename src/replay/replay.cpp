@@ -15,6 +15,7 @@
 #include "messages/time_conversion.h"
 #include "replay/bag_source.h"
 #include "replay/comparison.h"
+#include "replay/summary_recorder.h"
 #include "replay/thinning.h"
 #include "replay/truth.h"
 #include "sampled_data_observers/config/event_channels.h"
@@ -37,7 +38,6 @@ class Replay {
     channels_ = bind_channels(config, bag_, transforms_, options.may_lack_input);
     if (has_frames(config)) transform_topics_ = transform_topics();
     for (const BagChannel& bound : channels_) {
-      if (!bound.is_recorded) summary_.not_recorded[bound.channel.name] = bound.topic;
       intakes_.emplace_back(
           bound.channel, bound.source,
           [this](const EventChannel& channel, const Event& event, Reading reading,
@@ -49,14 +49,16 @@ class Replay {
       truth_ = truth_from_samples(config, channels_, transforms_);
     }
     comparison_.emplace(truth_.quantities, config.plant);
-    plotted_ = truth_.quantities;
-    if (plotted_.empty()) {
+    std::vector<Quantity> plotted = truth_.quantities;
+    if (plotted.empty()) {
       for (const std::string& state : config.law->estimate_names()) {
-        plotted_.push_back(*state_quantity(*config.plant, state));
+        plotted.push_back(*state_quantity(*config.plant, state));
       }
     }
-    for (const Quantity& quantity : plotted_) summary_.plots.push_back({quantity.name, {}, {}, {}});
-    used_stamps_.resize(config.sensors.size());
+    recorder_.emplace(config, std::move(plotted));
+    for (const BagChannel& bound : channels_) {
+      if (!bound.is_recorded) recorder_->add_missing_topic(bound.channel.name, bound.topic);
+    }
     truth_estimate_ = runtime_.estimator().make_estimate();
     if (!options.output.empty()) open_for_writing(output_, options.output);
   }
@@ -86,14 +88,14 @@ class Replay {
     for (EventIntake& intake : intakes_) intake.give_up();
     output_.close();
 
-    summary_.bag = options_.bag;
-    summary_.observer = config_.type;
-    summary_.bag_seconds =
-        view.size() > 0 ? (view.getEndTime() - view.getBeginTime()).toSec() : 0.0;
+    ReplaySummary summary = recorder_->summary();
+    summary.bag = options_.bag;
+    summary.observer = config_.type;
+    summary.bag_seconds = view.size() > 0 ? (view.getEndTime() - view.getBeginTime()).toSec() : 0.0;
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
-    summary_.wall_seconds = wall.count();
-    finish_summary();
-    return std::move(summary_);
+    summary.wall_seconds = wall.count();
+    finish(summary);
+    return summary;
   }
 
  private:
@@ -153,7 +155,7 @@ class Replay {
     for (std::size_t i = 0; i < channels_.size(); ++i) {
       if (channels_[i].topic != instance.getTopic()) continue;
       if (is_thinned(i) && !kept_[i][next_[i]++]) {
-        ++summary_.samples_withheld;
+        recorder_->add_withheld_sample();
         continue;
       }
       received = true;
@@ -179,53 +181,13 @@ class Replay {
                                    : runtime_.reject(event, outcome_of(reading), *clock_);
     write(channel, event, report, missing, *clock_, status_);
     if (output_.isOpen()) output_.write(resolved("events"), to_ros_time(*clock_), status_);
-    count(event, report);
+    recorder_->add_event(event, report, status_.reason);
     const bool is_measurement =
         event.kind == EventKind::kSample || event.kind == EventKind::kOutput;
     if (report.used() && is_measurement) {
       const auto sensor = static_cast<std::size_t>(event.channel);
       comparison_->add_sample(sensor, event.stamp, event.values);
-      if (event.kind == EventKind::kSample) plot_sample(sensor, event);
     }
-  }
-
-  void count(const Event& event, const EventReport& report) {
-    const bool is_sample = event.kind == EventKind::kSample;
-    if (report.came_after_bound) ++summary_.after_bound;
-    if (!report.used()) {
-      ++summary_.rejected[status_.reason];
-      if (is_sample) ++summary_.samples_rejected;
-      return;
-    }
-    ++summary_.events_used;
-    if (event.kind == EventKind::kOutput) ++summary_.outputs_used;
-    if (event.kind == EventKind::kJump) ++summary_.jumps_used;
-    if (!is_sample) return;
-    ++summary_.samples_used;
-    if (report.outcome == EventOutcome::kUsedLate) ++summary_.samples_late;
-    if (report.recovers()) ++summary_.recovered[describe(report)];
-    used_stamps_[static_cast<std::size_t>(event.channel)].push_back(event.stamp);
-  }
-
-  /// Between the samples of each sensor, as they were taken, not as they arrived.
-  void count_intervals() {
-    double sum = 0.0;
-    for (std::vector<Stamp>& stamps : used_stamps_) {
-      std::sort(stamps.begin(), stamps.end());
-      for (std::size_t i = 1; i < stamps.size(); ++i) {
-        const Duration duration = stamps[i] - stamps[i - 1];
-        const double interval = to_seconds(duration);
-        summary_.interval_min =
-            summary_.intervals == 0 ? interval : std::min(summary_.interval_min, interval);
-        summary_.interval_max = std::max(summary_.interval_max, interval);
-        sum += interval;
-        ++summary_.intervals;
-        if (duration < config_.options.sampling.T1) ++summary_.intervals_short;
-        if (duration > config_.options.sampling.T2) ++summary_.intervals_long;
-      }
-    }
-    if (summary_.intervals > 0) sum /= static_cast<double>(summary_.intervals);
-    summary_.interval_mean = sum;
   }
 
   /// Lets time pass as a live observer would see it: from one due estimate to the next, however
@@ -245,28 +207,12 @@ class Replay {
     while (const Estimate* estimate = runtime_.next_due(now)) {
       write(runtime_, *estimate, estimate_message_);
       final_is_held_ = estimate->held;
-      ++summary_.estimates;
-      note_bound(estimate->stamp, runtime_.bound(*estimate).loss);
+      recorder_->add_estimate(*estimate, runtime_.bound(*estimate).loss);
       if (output_.isOpen()) {
         output_.write(resolved("estimate"), to_ros_time(estimate->stamp + config_.publish_delay),
                       estimate_message_);
       }
-      for (std::size_t i = 0; i < summary_.plots.size(); ++i) {
-        const Eigen::VectorXd& row = plotted_[i].row;
-        plot(summary_.plots[i].estimate, estimate->stamp,
-             row.dot(estimate->state.head(row.size())));
-      }
     }
-  }
-
-  /// That events may still come says the least, and is so from the first estimate on.
-  void note_bound(Stamp stamp, BoundLoss loss) {
-    if (loss == BoundLoss::kNone) return;
-    const bool may_go_on = !bound_loss_ || *bound_loss_ == BoundLoss::kStillOnTheirWay;
-    if (bound_loss_ && (!may_go_on || loss == *bound_loss_)) return;
-    bound_loss_ = loss;
-    summary_.bound_lost_at = to_seconds(stamp);
-    summary_.bound_loss = describe(loss);
   }
 
   void compare(const rosbag::MessageInstance& instance) {
@@ -277,9 +223,7 @@ class Replay {
       return;
     }
     if (!first_truth_) first_truth_ = stamp;
-    for (std::size_t i = 0; i < truth_values_.size(); ++i) {
-      plot(summary_.plots[i].truth, stamp, truth_values_[i]);
-    }
+    recorder_->add_truth(stamp, truth_values_);
     const double elapsed = to_seconds(stamp - *first_truth_);
     if (elapsed < options_.from || elapsed > options_.to) return;
     if (config_.options.latency == 0) {
@@ -305,50 +249,28 @@ class Replay {
                            runtime_.bound(truth_estimate_).value);
   }
 
-  void plot_sample(std::size_t sensor, const Event& event) {
-    summary_.sample_times.push_back(plot_time(event.stamp));
-    for (std::size_t i = 0; i < summary_.plots.size(); ++i) {
-      for (Eigen::Index output = 0; output < event.size; ++output) {
-        if (measures(*config_.plant, sensor, output, plotted_[i])) {
-          plot(summary_.plots[i].samples, event.stamp, event.values[output]);
-        }
-      }
-    }
-  }
-
-  double plot_time(Stamp stamp) {
-    if (!plot_origin_) plot_origin_ = stamp;
-    return to_seconds(stamp - *plot_origin_);
-  }
-
-  void plot(Series& series, Stamp stamp, double value) {
-    series.times.push_back(plot_time(stamp));
-    series.values.push_back(value);
-  }
-
-  void finish_summary() {
-    count_intervals();
-    if (summary_.estimates > 0) {
-      summary_.final_stamp = estimate_message_.header.stamp.toSec();
+  void finish(ReplaySummary& summary) const {
+    if (summary.estimates > 0) {
+      summary.final_stamp = estimate_message_.header.stamp.toSec();
       for (std::size_t i = 0; i < estimate_message_.names.size(); ++i) {
-        summary_.final_state.emplace_back(estimate_message_.names[i], estimate_message_.state[i]);
+        summary.final_state.emplace_back(estimate_message_.names[i], estimate_message_.state[i]);
       }
     }
-    summary_.diverged = how_it_diverged();
+    summary.diverged = how_it_diverged();
     for (const Quantity& quantity : comparison_->quantities()) {
-      summary_.compared.push_back(quantity.name);
+      summary.compared.push_back(quantity.name);
     }
-    summary_.compared_stamps = comparison_->size();
-    summary_.guarantee = config_.guarantee;
-    summary_.bounded = !std::isnan(config_.law->error_bound(truth_estimate_.state.data()));
-    summary_.truth_is_given = !options_.truth_topic.empty();
-    summary_.bound_stamps = comparison_->bound_check().stamps;
-    summary_.bound_exceeded = comparison_->bound_check().exceeded;
-    summary_.bound_share = comparison_->bound_check().share;
-    summary_.rmse = comparison_->rmse();
-    summary_.hold_rmse = comparison_->hold_rmse();
-    summary_.rmse_norm = Comparison::norm(summary_.rmse);
-    summary_.hold_rmse_norm = Comparison::norm(summary_.hold_rmse);
+    summary.compared_stamps = comparison_->size();
+    summary.guarantee = config_.guarantee;
+    summary.bounded = !std::isnan(config_.law->error_bound(truth_estimate_.state.data()));
+    summary.truth_is_given = !options_.truth_topic.empty();
+    summary.bound_stamps = comparison_->bound_check().stamps;
+    summary.bound_exceeded = comparison_->bound_check().exceeded;
+    summary.bound_share = comparison_->bound_check().share;
+    summary.rmse = comparison_->rmse();
+    summary.hold_rmse = comparison_->hold_rmse();
+    summary.rmse_norm = Comparison::norm(summary.rmse);
+    summary.hold_rmse_norm = Comparison::norm(summary.hold_rmse);
   }
 
   std::string how_it_diverged() const {
@@ -386,16 +308,12 @@ class Replay {
     std::vector<double> values;
   };
   std::deque<WaitingTruth> waiting_truth_;
-  std::optional<BoundLoss> bound_loss_;
   std::optional<Comparison> comparison_;
-  std::vector<Quantity> plotted_;
-  std::vector<std::vector<Stamp>> used_stamps_;
+  std::optional<SummaryRecorder> recorder_;
   std::optional<Stamp> clock_;
-  std::optional<Stamp> plot_origin_;
   EventStatus status_;
   StateEstimate estimate_message_;
   bool final_is_held_ = false;
-  ReplaySummary summary_;
 };
 
 }  // namespace

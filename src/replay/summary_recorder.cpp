@@ -1,0 +1,116 @@
+#include "replay/summary_recorder.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace sampled_data_observers {
+
+SummaryRecorder::SummaryRecorder(const ObserverConfig& config, std::vector<Quantity> plotted)
+    : config_(config), plotted_(std::move(plotted)), used_stamps_(config.sensors.size()) {
+  for (const Quantity& quantity : plotted_) summary_.plots.push_back({quantity.name, {}, {}, {}});
+}
+
+void SummaryRecorder::add_missing_topic(const std::string& name, const std::string& topic) {
+  summary_.not_recorded[name] = topic;
+}
+
+void SummaryRecorder::add_event(const Event& event, const EventReport& report,
+                                const std::string& reason) {
+  count(event, report, reason);
+  if (report.used() && event.kind == EventKind::kSample) {
+    plot_sample(static_cast<std::size_t>(event.channel), event);
+  }
+}
+
+void SummaryRecorder::count(const Event& event, const EventReport& report,
+                            const std::string& reason) {
+  const bool is_sample = event.kind == EventKind::kSample;
+  if (report.came_after_bound) ++summary_.after_bound;
+  if (!report.used()) {
+    ++summary_.rejected[reason];
+    if (is_sample) ++summary_.samples_rejected;
+    return;
+  }
+  ++summary_.events_used;
+  if (event.kind == EventKind::kOutput) ++summary_.outputs_used;
+  if (event.kind == EventKind::kJump) ++summary_.jumps_used;
+  if (!is_sample) return;
+  ++summary_.samples_used;
+  if (report.outcome == EventOutcome::kUsedLate) ++summary_.samples_late;
+  if (report.recovers()) ++summary_.recovered[describe(report)];
+  used_stamps_[static_cast<std::size_t>(event.channel)].push_back(event.stamp);
+}
+
+/// Between the samples of each sensor, as they were taken, not as they arrived.
+void SummaryRecorder::count_intervals() {
+  double sum = 0.0;
+  for (std::vector<Stamp>& stamps : used_stamps_) {
+    std::sort(stamps.begin(), stamps.end());
+    for (std::size_t i = 1; i < stamps.size(); ++i) {
+      const Duration duration = stamps[i] - stamps[i - 1];
+      const double interval = to_seconds(duration);
+      summary_.interval_min =
+          summary_.intervals == 0 ? interval : std::min(summary_.interval_min, interval);
+      summary_.interval_max = std::max(summary_.interval_max, interval);
+      sum += interval;
+      ++summary_.intervals;
+      if (duration < config_.options.sampling.T1) ++summary_.intervals_short;
+      if (duration > config_.options.sampling.T2) ++summary_.intervals_long;
+    }
+  }
+  if (summary_.intervals > 0) sum /= static_cast<double>(summary_.intervals);
+  summary_.interval_mean = sum;
+}
+
+void SummaryRecorder::add_estimate(const Estimate& estimate, BoundLoss loss) {
+  ++summary_.estimates;
+  note_bound(estimate.stamp, loss);
+  for (std::size_t i = 0; i < summary_.plots.size(); ++i) {
+    const Eigen::VectorXd& row = plotted_[i].row;
+    plot(summary_.plots[i].estimate, estimate.stamp, row.dot(estimate.state.head(row.size())));
+  }
+}
+
+/// That events may still come says the least, and is so from the first estimate on.
+void SummaryRecorder::note_bound(Stamp stamp, BoundLoss loss) {
+  if (loss == BoundLoss::kNone) return;
+  const bool may_go_on = !bound_loss_ || *bound_loss_ == BoundLoss::kStillOnTheirWay;
+  if (bound_loss_ && (!may_go_on || loss == *bound_loss_)) return;
+  bound_loss_ = loss;
+  summary_.bound_lost_at = to_seconds(stamp);
+  summary_.bound_loss = describe(loss);
+}
+
+void SummaryRecorder::add_truth(Stamp stamp, const std::vector<double>& values) {
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    plot(summary_.plots[i].truth, stamp, values[i]);
+  }
+}
+
+void SummaryRecorder::plot_sample(std::size_t sensor, const Event& event) {
+  summary_.sample_times.push_back(plot_time(event.stamp));
+  for (std::size_t i = 0; i < summary_.plots.size(); ++i) {
+    for (Eigen::Index output = 0; output < event.size; ++output) {
+      if (measures(*config_.plant, sensor, output, plotted_[i])) {
+        plot(summary_.plots[i].samples, event.stamp, event.values[output]);
+      }
+    }
+  }
+}
+
+double SummaryRecorder::plot_time(Stamp stamp) {
+  if (!plot_origin_) plot_origin_ = stamp;
+  return to_seconds(stamp - *plot_origin_);
+}
+
+void SummaryRecorder::plot(Series& series, Stamp stamp, double value) {
+  series.times.push_back(plot_time(stamp));
+  series.values.push_back(value);
+}
+
+ReplaySummary SummaryRecorder::summary() {
+  count_intervals();
+  return std::move(summary_);
+}
+
+}  // namespace sampled_data_observers

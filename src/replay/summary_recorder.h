@@ -1,0 +1,49 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "replay/comparison.h"
+#include "replay/summary.h"
+#include "sampled_data_observers/config/observer_config.h"
+#include "sampled_data_observers/runtime/estimator.h"
+
+namespace sampled_data_observers {
+
+/// What a replay says of its events and estimates: how many there were, the times between samples,
+/// when the bound was lost, and the curves of its picture.
+class SummaryRecorder {
+ public:
+  /// @param config   outlives it
+  /// @param plotted  what the picture shows
+  SummaryRecorder(const ObserverConfig& config, std::vector<Quantity> plotted);
+
+  void add_missing_topic(const std::string& name, const std::string& topic);
+  void add_withheld_sample() { ++summary_.samples_withheld; }
+  /// @param reason  as the event's status has it
+  void add_event(const Event& event, const EventReport& report, const std::string& reason);
+  void add_estimate(const Estimate& estimate, BoundLoss loss);
+  /// @param values  one for each quantity that is plotted
+  void add_truth(Stamp stamp, const std::vector<double>& values);
+
+  /// All that was added. The rest is for who knows it to fill in.
+  ReplaySummary summary();
+
+ private:
+  void count(const Event& event, const EventReport& report, const std::string& reason);
+  void count_intervals();
+  void note_bound(Stamp stamp, BoundLoss loss);
+  void plot_sample(std::size_t sensor, const Event& event);
+  void plot(Series& series, Stamp stamp, double value);
+  double plot_time(Stamp stamp);
+
+  const ObserverConfig& config_;
+  std::vector<Quantity> plotted_;
+  std::optional<Stamp> plot_origin_;
+  std::vector<std::vector<Stamp>> used_stamps_;  ///< of the samples of each sensor
+  std::optional<BoundLoss> bound_loss_;
+  ReplaySummary summary_;
+};
+
+}  // namespace sampled_data_observers
