@@ -12,4 +12,9 @@ inline double flowed_linearly(double start, double growth, double push, double d
   return start * std::exp(growth * duration) + push * integral;
 }
 
+/// w(duration) of ẇ = −rate (w − final), w(0) = start
+inline double decayed(double start, double final, double rate, double duration) {
+  return final + (start - final) * std::exp(-rate * duration);
+}
+
 }  // namespace sampled_data_observers

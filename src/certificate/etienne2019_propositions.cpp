@@ -1,100 +1,14 @@
-#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <utility>
 
-#include "certificate/bound_flow.h"
-#include "certificate/outward.h"
+#include "certificate/etienne2019_bound.h"
 #include "certificate/theorems.h"
 #include "certificate/wirtinger.h"
 #include "linear_algebra/matrix_functions.h"
 
 namespace sampled_data_observers {
 namespace {
-
-/// R_i = A + Ψ_i, or A alone for a linear plant.
-std::vector<Eigen::MatrixXd> flow_vertices_of(const PlantMatrices& plant) {
-  if (plant.is_linear()) return {plant.A()};
-  std::vector<Eigen::MatrixXd> R;
-  for (const Eigen::MatrixXd& vertex : plant.vertices) R.emplace_back(plant.A() + vertex);
-  return R;
-}
-
-/// V(z) = zᵀ P z of etienne2019, Theorem 1: from a sample on, V̇ = −α V + level² at worst.
-/// Until the first sample nothing is injected and the error flows as the plant does; later than T2
-/// after a sample it flows so, too, and is driven by what is held of that sample, L (C z + σ). The
-/// theorem goes on from the next sample, whatever z is there: what it adds to V is zero at samples.
-class IssBound : public ErrorBound {
- public:
-  /// @param level  bound on γ |Γ|; 0 for Proposition 1, which is about Γ = 0
-  IssBound(const CertificateSubject& subject, const NamedMatrices& values, double level,
-           const ErrorAssumptions& assumptions)
-      : T2_(subject.T2),
-        rate_(scalar_value(values, "alpha")),
-        initial_error_(assumptions.initial_error) {
-    const Eigen::MatrixXd& P = values.at("P");
-    const Eigen::MatrixXd& N = subject.plant.N;
-    const Eigen::MatrixXd& L = values.at("L");
-    final_ = raised(level * level / rate_);
-    per_error_ = std::sqrt(largest_eigenvalue_above(P));
-    least_ = positive_least_eigenvalue(P, "P");
-    growth_ = -std::numeric_limits<double>::infinity();
-    for (const Eigen::MatrixXd& flow : flow_vertices_of(subject.plant)) {
-      growth_ = std::max(growth_, growth_above(P, flow));
-    }
-    if (N.cols() > 0) {
-      push_ = std::sqrt(largest_eigenvalue_above(N.transpose() * P * N)) * assumptions.disturbance;
-    }
-    const Eigen::MatrixXd R = cholesky_root(P);
-    held_ = raised(norm2(R * L * subject.plant.C() * inverse_of(R)));
-    held_noise_ = raised(norm2(R * L)) * assumptions.noise;
-  }
-
-  // √V, the time since the last sample [s], whether there was one, and √V just after it.
-  Eigen::Index state_size() const override { return 4; }
-  void initialize(double* state) const override { begin(initial_error_, state); }
-  void begin(double error, double* state) const override {
-    state[0] = per_error_ * error;
-    state[1] = 0.0;
-    state[2] = 0.0;
-    state[3] = 0.0;
-  }
-  void flow(double duration, double* state) const override {
-    if (state[2] == 0.0) {
-      state[0] = flowed_linearly(state[0], growth_, push_, duration);
-      return;
-    }
-    const double foreseen = std::min(duration, std::max(0.0, T2_ - state[1]));
-    state[1] += duration;
-    state[0] = std::sqrt(final_ + (state[0] * state[0] - final_) * std::exp(-rate_ * foreseen));
-    if (state[1] <= T2_) return;
-    state[0] = flowed_linearly(state[0], growth_, push_ + held_ * state[3] + held_noise_,
-                               duration - foreseen);
-  }
-  void sample(double* state, double*) const override {
-    state[1] = 0.0;
-    state[2] = 1.0;
-    state[3] = state[0];
-  }
-  bool injects_between_samples() const override { return true; }
-  void jump(double, double* state) const override {
-    state[0] = std::numeric_limits<double>::infinity();
-  }
-  double bound(const double* state) const override { return state[0] / std::sqrt(least_); }
-
- private:
-  double T2_;
-  double rate_;
-  double final_ = 0.0;
-  double initial_error_;
-  double per_error_ = 0.0;
-  double least_ = 0.0;
-  double growth_ = 0.0;
-  double push_ = 0.0;
-  double held_ = 0.0;        // ‖L C‖ in the norm of P
-  double held_noise_ = 0.0;  // |L σ| in it
-};
 
 class Proposition : public Theorem {
  public:
@@ -150,7 +64,7 @@ class Proposition : public Theorem {
     all.push_back({"Y > 0", Y, std::nullopt});
     const MatrixExpression decayed = exponential(-(alpha * MatrixExpression(subject.T2)));
     int vertex = 0;
-    for (const Eigen::MatrixXd& R : flow_vertices_of(subject.plant)) {
+    for (const Eigen::MatrixXd& R : etienne2019_flows(subject.plant)) {
       ++vertex;
       for (const auto& [end, rho] :
            {std::pair<const char*, MatrixExpression>{"1", 1.0},
@@ -210,7 +124,7 @@ class WithoutInputs : public Proposition {
           "it is about measurements without noise and plants without disturbance; "
           "etienne2019_proposition2 bounds what they do");
     }
-    return std::make_unique<const IssBound>(subject, values, 0.0, assumptions);
+    return etienne2019_bound(subject, values, 0.0, assumptions);
   }
 };
 
@@ -299,8 +213,7 @@ class Proposition2 : public Proposition {
       const ErrorAssumptions& assumptions) const override {
     const double input = norm2(values.at("L")) * assumptions.noise +
                          norm2(subject.plant.N) * assumptions.disturbance;
-    return std::make_unique<const IssBound>(subject, values, scalar_value(values, "gamma") * input,
-                                            assumptions);
+    return etienne2019_bound(subject, values, scalar_value(values, "gamma") * input, assumptions);
   }
 };
 
@@ -384,8 +297,7 @@ class Proposition2Channels : public Proposition {
     if (has_disturbance(subject)) {
       input = std::hypot(input, assumptions.disturbance / scalar_value(values, "disturbance_size"));
     }
-    return std::make_unique<const IssBound>(subject, values, scalar_value(values, "gamma") * input,
-                                            assumptions);
+    return etienne2019_bound(subject, values, scalar_value(values, "gamma") * input, assumptions);
   }
 
  private:

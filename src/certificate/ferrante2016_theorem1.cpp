@@ -3,8 +3,8 @@
 
 #include "certificate/exponential_norm.h"
 #include "certificate/ferrante2016_bounds.h"
+#include "certificate/interval_bound.h"
 #include "certificate/linear_sampling.h"
-#include "certificate/sampled_error_bound.h"
 #include "certificate/theorems.h"
 #include "linear_algebra/matrix_functions.h"
 
@@ -26,7 +26,7 @@ class Theorem1Bound : public SampledErrorBound {
   Theorem1Bound(const CertificateSubject& subject, const ErrorAssumptions& assumptions,
                 const Eigen::MatrixXd& R, const Eigen::MatrixXd& kept, const Eigen::MatrixXd& L,
                 const FlowGrowth& growth)
-      : SampledErrorBound(subject, 1.0, assumptions.initial_error),
+      : SampledErrorBound(subject, assumptions, 1),
         noise_(assumptions.noise),
         first_growth_(unit(subject), subject.plant.A(), unit(subject), subject.T2, growth),
         first_weight_(R, subject.plant.A(), unit(subject), subject.T2, growth),
@@ -36,19 +36,19 @@ class Theorem1Bound : public SampledErrorBound {
         noise_weight_(R, subject.plant.A(), L, subject.T2, growth) {}
 
  protected:
-  double next_level(double level, double tau, double*) const override {
-    const double weight = weight_.at(tau);
-    const double kept = is_foreseen(tau) ? std::min(1.0, weight) : weight;
-    return kept * level + noise_weight_.at(tau) * noise_;
+  void begin_numbers(double error, double* level) const override { *level = error; }
+  void sample_numbers(const Interval& at, double* level, double*) const override {
+    if (at.is_first) {
+      *level = first_weight_.at(at.tau) * *level;
+      return;
+    }
+    const double weight = weight_.at(at.tau);
+    const double kept = is_foreseen(at.tau) ? std::min(1.0, weight) : weight;
+    *level = kept * *level + noise_weight_.at(at.tau) * noise_;
   }
-  double first_level(double level, double tau, double*) const override {
-    return first_weight_.at(tau) * level;
-  }
-  double error(double level, double tau) const override {
-    return growth_.at(tau) * level + noise_growth_.at(tau) * noise_;
-  }
-  double first_error(double level, double tau) const override {
-    return first_growth_.at(tau) * level;
+  double error(const Interval& at, const double* level) const override {
+    if (at.is_first) return first_growth_.at(at.tau) * *level;
+    return growth_.at(at.tau) * *level + noise_growth_.at(at.tau) * noise_;
   }
 
  private:

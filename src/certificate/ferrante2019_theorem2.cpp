@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
 #include "certificate/bound_flow.h"
 #include "certificate/ferrante2019_matrix.h"
+#include "certificate/interval_bound.h"
 #include "certificate/outward.h"
 #include "certificate/theorems.h"
 #include "linear_algebra/matrix_functions.h"
@@ -40,11 +40,11 @@ double initial_V(const CertificateSubject& subject, const NamedMatrices& values)
 ///   Ẇ = −2 λ W + γ² |w|² between samples (18), W⁺ = W + ω2 |η|² at them (19),
 /// and |ε|² <= W / λ_min(P1). T1 plays no part. Later than T2 after a sample the timer stands
 /// still: then V̇ lacks −δ e^{δτ} θ̃ᵀ P2 θ̃ and Ẇ = (δ − 2 λ) W + γ² |w|², until the next sample.
-class LyapunovErrorBound : public ErrorBound {
+class LyapunovErrorBound : public SampledErrorBound {
  public:
   LyapunovErrorBound(const CertificateSubject& subject, const NamedMatrices& values, double rate,
                      const ErrorAssumptions& assumptions)
-      : T2_(subject.T2),
+      : SampledErrorBound(subject, assumptions, kEntries),
         rate_(2.0 * rate),
         late_growth_(std::max(0.0, scalar_value(values, "delta")) - rate_) {
     const LyapunovBounds V = bounds_of_V(subject, values);
@@ -55,54 +55,46 @@ class LyapunovErrorBound : public ErrorBound {
     }
     per_sample_ = V.omega_2 * assumptions.noise * assumptions.noise;
     least_ = positive_least_eigenvalue(values.at("P1"), "P1");
-    initial_error_ = assumptions.initial_error;
     of_estimate_ = V.alpha_2;
     // θ̃ = C ε − θ at first, and √V is a norm of (ε, θ̃).
     root_per_error_ = std::sqrt(initial_V(subject, values));
     root_of_injection_ = std::sqrt(V.omega_2) * assumptions.initial_injection;
   }
 
-  // W, the time since the last sample [s], and, while nothing has happened yet, what of W is ε's.
-  Eigen::Index state_size() const override { return 3; }
-  void initialize(double* state) const override { begin(initial_error_, state); }
-  void begin(double error, double* state) const override {
-    const double root = root_per_error_ * error + root_of_injection_;
-    state[0] = root * root;
-    state[1] = 0.0;
-    state[2] = of_estimate_ * error * error;
-  }
-  void flow(double duration, double* state) const override {
-    if (duration == 0.0) return;
-    const double foreseen = std::min(duration, std::max(0.0, T2_ - state[1]));
-    state[0] = final_ + (state[0] - final_) * std::exp(-rate_ * foreseen);
-    state[1] += duration;
-    state[2] = kHasFlowed;
-    if (state[1] <= T2_) return;
-    state[0] = flowed_linearly(state[0], late_growth_, push_, duration - foreseen);
-  }
-  void sample(double* state, double*) const override {
-    // A sample sets θ̃ to −η: of V, only ε's part stays. How large that is, is known at first only.
-    state[0] = (state[2] != kHasFlowed ? state[2] : state[0]) + per_sample_;
-    state[1] = 0.0;
-    state[2] = kHasFlowed;
-  }
   bool injects_between_samples() const override { return true; }
-  void jump(double, double* state) const override {
-    state[0] = std::numeric_limits<double>::infinity();
+
+ protected:
+  void begin_numbers(double error, double* numbers) const override {
+    const double root = root_per_error_ * error + root_of_injection_;
+    numbers[kW] = root * root;
+    numbers[kOfEstimate] = of_estimate_ * error * error;
   }
-  double bound(const double* state) const override { return std::sqrt(state[0] / least_); }
+  void flow_numbers(double duration, const Interval& from, double* numbers) const override {
+    double& W = numbers[kW];
+    const double foreseen = foreseen_part(duration, from.tau);
+    W = decayed(W, final_, rate_, foreseen);
+    if (is_late(from.tau + duration)) {
+      W = flowed_linearly(W, late_growth_, push_, duration - foreseen);
+    }
+  }
+  void sample_numbers(const Interval& at, double* numbers, double*) const override {
+    // A sample sets θ̃ to −η: of V, only ε's part stays. How large that is, is known at first only.
+    const bool has_flowed = !at.is_first || at.tau > 0.0;
+    numbers[kW] = numbers[has_flowed ? kW : kOfEstimate] + per_sample_;
+  }
+  double error(const Interval&, const double* numbers) const override {
+    return std::sqrt(numbers[kW] / least_);
+  }
 
  private:
-  static constexpr double kHasFlowed = -1.0;
+  enum Entry { kW, kOfEstimate, kEntries };  // W, and what of it is ε's where the estimate begins
 
-  double T2_;
-  double rate_;               // 2 λ
-  double late_growth_;        // δ − 2 λ
-  double push_ = 0.0;         // γ² |w|²
-  double final_ = 0.0;        // of W, without noise
-  double per_sample_ = 0.0;   // ω2 |η|²
-  double of_estimate_ = 0.0;  // εᵀ P1 ε of |ε| = 1
-  double initial_error_ = 0.0;
+  double rate_;                     // 2 λ
+  double late_growth_;              // δ − 2 λ
+  double push_ = 0.0;               // γ² |w|²
+  double final_ = 0.0;              // of W, without noise
+  double per_sample_ = 0.0;         // ω2 |η|²
+  double of_estimate_ = 0.0;        // εᵀ P1 ε of |ε| = 1
   double root_per_error_ = 0.0;     // √V at first, of |ε| = 1
   double root_of_injection_ = 0.0;  // and of θ
   double least_ = 0.0;              // λ_min(P1)

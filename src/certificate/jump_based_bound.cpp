@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "certificate/bound_flow.h"
+#include "certificate/interval_bound.h"
 #include "certificate/outward.h"
 #include "linear_algebra/matrix_functions.h"
 
@@ -17,12 +18,12 @@ double weighted_norm(const Eigen::MatrixXd& a, const Eigen::MatrixXd& P) {
 
 /// |x − x̂|_P is at most the sum of two parts: one that comes from the error just after the last
 /// jump, and one that the disturbance has caused since.
-class JumpBasedBound : public ErrorBound {
+class JumpBasedBound : public IntervalBound {
  public:
   JumpBasedBound(const CertificateSubject& subject, const Eigen::MatrixXd& P,
                  const Eigen::MatrixXd& reset, const Eigen::MatrixXd& L_d,
                  const JumpContraction& contraction, const ErrorAssumptions& assumptions)
-      : T1_(subject.T1), T2_(subject.T2), contraction_(contraction) {
+      : IntervalBound(subject, assumptions, kEntries), contraction_(contraction) {
     const Eigen::MatrixXd& A = subject.plant.A();
     growth_ = growth_above(P, A);
     push_ = weighted_norm(subject.plant.N, P) * assumptions.disturbance;
@@ -30,70 +31,70 @@ class JumpBasedBound : public ErrorBound {
     const Eigen::MatrixXd A_d = jump_of(subject.plant.mode());
     uncorrected_ = raised(std::sqrt(largest_generalized_eigenvalue(A_d.transpose() * P * A_d, P)));
     noise_ = weighted_norm(L_d, P) * assumptions.noise;
-    initial_error_ = assumptions.initial_error;
     per_error_ = std::sqrt(largest_eigenvalue_above(P));
     least_ = std::sqrt(positive_least_eigenvalue(P, "P"));
   }
 
-  Eigen::Index state_size() const override { return kEntries; }
-  void initialize(double* state) const override { begin(initial_error_, state); }
-  void begin(double error, double* state) const override {
-    state[kAfterJump] = per_error_ * error;
-    state[kCausedSince] = 0.0;
-    state[kTau] = 0.0;
-    state[kJumped] = 0.0;
-  }
-  void flow(double duration, double* state) const override {
-    state[kTau] += duration;
-    state[kCausedSince] = flowed_linearly(state[kCausedSince], growth_, push_, duration);
-  }
   void jump(double moved, double* state) const override {
-    const double tau = state[kTau];
-    const bool is_foreseen = state[kJumped] != 0.0 && T1_ <= tau && tau <= T2_;
+    const auto [tau, is_first] = interval(state);
+    const double after_jump = numbers(state)[kAfterJump];
     const double carried =
-        is_foreseen ? state[kAfterJump] * std::exp(contraction_.offset + contraction_.slope * tau)
-                    : reset_ * flowed_linearly(state[kAfterJump], growth_, 0.0, tau);
-    begin_interval(unless_told_twice(carried + reset_ * state[kCausedSince] + noise_, moved, state),
-                   state);
+        !is_first && is_foreseen(tau)
+            ? after_jump * std::exp(contraction_.offset + contraction_.slope * tau)
+            : reset_ * flowed_linearly(after_jump, growth_, 0.0, tau);
+    const double after = carried + reset_ * numbers(state)[kCausedSince] + noise_;
+    go_on_from(unless_told_twice(after, moved, state), state);
   }
   void uncorrected_jump(double moved, double* state) const override {
-    begin_interval(unless_told_twice(uncorrected_ * before_jump(state), moved, state), state);
+    go_on_from(unless_told_twice(uncorrected_ * before_jump(state), moved, state), state);
   }
   void refused_jump(double moved, double* state) const override {
     const double before = before_jump(state);
-    begin_interval(std::max(before, uncorrected_ * before + per_error_ * moved), state);
+    go_on_from(std::max(before, uncorrected_ * before + per_error_ * moved), state);
   }
   void sample(double*, double*) const override {}
-  double bound(const double* state) const override { return before_jump(state) / least_; }
+
+ protected:
+  void begin_numbers(double error, double* numbers) const override {
+    numbers[kAfterJump] = per_error_ * error;
+    numbers[kCausedSince] = 0.0;
+  }
+  void flow_numbers(double duration, const Interval&, double* numbers) const override {
+    numbers[kCausedSince] = flowed_linearly(numbers[kCausedSince], growth_, push_, duration);
+  }
+  double error(const Interval& at, const double* numbers) const override {
+    return weighted_error(at, numbers) / least_;
+  }
 
  private:
-  enum Entry { kAfterJump, kCausedSince, kTau, kJumped, kEntries };
+  enum Entry { kAfterJump, kCausedSince, kEntries };
 
+  /// Of |x − x̂|_P.
+  double weighted_error(const Interval& at, const double* numbers) const {
+    return flowed_linearly(numbers[kAfterJump], growth_, 0.0, at.tau) + numbers[kCausedSince];
+  }
   double before_jump(const double* state) const {
-    return flowed_linearly(state[kAfterJump], growth_, 0.0, state[kTau]) + state[kCausedSince];
+    return weighted_error(interval(state), numbers(state));
   }
   /// A jump sooner after another than T1 is more likely one that was told twice: then x stayed
   /// where it was, and only x̂ jumped.
   double unless_told_twice(double after, double moved, const double* state) const {
-    if (state[kJumped] == 0.0 || state[kTau] >= T1_) return after;
+    const auto [tau, is_first] = interval(state);
+    if (is_first || !is_too_soon(tau)) return after;
     return std::max(after, before_jump(state) + per_error_ * moved);
   }
-  static void begin_interval(double after, double* state) {
-    state[kAfterJump] = after;
-    state[kCausedSince] = 0.0;
-    state[kTau] = 0.0;
-    state[kJumped] = 1.0;
+  static void go_on_from(double after, double* state) {
+    numbers(state)[kAfterJump] = after;
+    numbers(state)[kCausedSince] = 0.0;
+    begin_interval(state);
   }
 
-  double T1_;
-  double T2_;
   JumpContraction contraction_;
   double growth_ = 0.0;
   double push_ = 0.0;
   double reset_ = 0.0;        // ‖A_d − L_d H_d‖ in the norm of P
   double uncorrected_ = 0.0;  // ‖A_d‖ in it
   double noise_ = 0.0;
-  double initial_error_ = 0.0;
   double per_error_ = 0.0;  // |e|_P of |e| = 1
   double least_ = 0.0;
 };

@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "certificate/exponential_norm.h"
+#include "certificate/interval_bound.h"
 #include "certificate/linear_sampling.h"
 #include "certificate/outward.h"
-#include "certificate/sampled_error_bound.h"
 #include "certificate/spectral_norm.h"
 #include "certificate/theorems.h"
 #include "linear_algebra/matrix_functions.h"
@@ -32,7 +32,8 @@ class Theorem2Bound : public SampledErrorBound {
  public:
   Theorem2Bound(const CertificateSubject& subject, const ErrorAssumptions& assumptions,
                 const Eigen::MatrixXd& R, std::unique_ptr<const TimeVaryingGain> gain)
-      : SampledErrorBound(subject, raised(norm2(R)), assumptions.initial_error),
+      : SampledErrorBound(subject, assumptions, 1),
+        per_error_(raised(norm2(R))),
         n_(R.rows()),
         m_(subject.plant.C().rows()),
         noise_(assumptions.noise),
@@ -51,16 +52,15 @@ class Theorem2Bound : public SampledErrorBound {
   }
 
  protected:
-  double next_level(double level, double tau, double* workspace) const override {
-    const Factors factors = factors_at(tau, workspace);
-    const double kept = is_foreseen(tau) ? std::min(1.0, factors.kept) : factors.kept;
-    return kept * level + factors.noise * noise_;
+  void begin_numbers(double error, double* level) const override { *level = per_error_ * error; }
+  void sample_numbers(const Interval& at, double* level, double* workspace) const override {
+    const Factors factors = factors_at(at.tau, workspace);
+    const double kept = is_foreseen(at.tau) ? std::min(1.0, factors.kept) : factors.kept;
+    *level = kept * *level + factors.noise * noise_;
   }
-  double first_level(double level, double tau, double* workspace) const override {
-    return next_level(level, tau, workspace);
+  double error(const Interval& at, const double* level) const override {
+    return growth_.at(at.tau) * *level;
   }
-  double error(double level, double tau) const override { return growth_.at(tau) * level; }
-  double first_error(double level, double tau) const override { return error(level, tau); }
 
  private:
   /// Matrices of n x n in the workspace.
@@ -139,6 +139,7 @@ class Theorem2Bound : public SampledErrorBound {
     return kRounding * std::sqrt(dot(b, b, n_ * n_));
   }
 
+  double per_error_;  ///< the level of an error of norm 1, at most
   Eigen::Index n_;
   Eigen::Index m_;
   double noise_;
