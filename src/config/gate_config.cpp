@@ -1,10 +1,5 @@
 #include "config/gate_config.h"
 
-#include <algorithm>
-#include <optional>
-#include <vector>
-
-#include "observer/gated_samples.h"
 #include "sampled_data_observers/runtime/estimator.h"
 
 namespace sampled_data_observers {
@@ -63,11 +58,11 @@ Gate read_gate(ConfigSection section, const Sensor& sensor, bool has_covariance)
 
 }  // namespace
 
-std::shared_ptr<const ObserverLaw> read_gates(ConfigSection& root, const Plant& plant,
-                                              std::shared_ptr<const ObserverLaw> law) {
-  Eigen::VectorXd state(law->state_size());
-  law->initialize(state.data());
-  const bool has_covariance = law->covariance(state.data()) != nullptr;
+std::vector<std::optional<Gate>> read_gates(ConfigSection& root, const Plant& plant,
+                                            const ObserverLaw& law) {
+  Eigen::VectorXd state(law.state_size());
+  law.initialize(state.data());
+  const bool has_covariance = law.covariance(state.data()) != nullptr;
   std::vector<std::optional<Gate>> gates;
   ConfigSection sensors = root.section("sensors");
   for (const Sensor& sensor : plant.sensors()) {
@@ -80,10 +75,7 @@ std::shared_ptr<const ObserverLaw> read_gates(ConfigSection& root, const Plant& 
     }
     gates.back() = read_gate(section.section("gate"), sensor, has_covariance);
   }
-  const bool is_gated = std::any_of(
-      gates.begin(), gates.end(), [](const std::optional<Gate>& gate) { return gate.has_value(); });
-  if (!is_gated) return law;
-  return std::make_shared<const GatedSamples>(law, std::move(gates));
+  return gates;
 }
 
 }  // namespace sampled_data_observers

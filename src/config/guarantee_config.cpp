@@ -105,8 +105,7 @@ void require_theorem_for_type(ConfigSection& root, const std::string& key,
 
 /// Why a certificate does not hold for a configuration, if so.
 std::optional<ConfigError> objection(ConfigSection& root, const ConfigNode& tree,
-                                     const CertificateConfig& claim, const ObserverConfig& config,
-                                     const ObserverLaw& law) {
+                                     const CertificateConfig& claim, const ObserverConfig& config) {
   const ConfigSection section = root.section(claim.section);
   const Certificate& certificate = claim.certificate;
   if (auto error = objection_to_gains(root, certificate)) return error;
@@ -129,7 +128,7 @@ std::optional<ConfigError> objection(ConfigSection& root, const ConfigNode& tree
                       interval(to_seconds(sampling.T1), to_seconds(sampling.T2)));
   }
   if (auto error = objection_to_statements(root, claim, config)) return error;
-  if (auto error = objection_to_step(root, *config.plant, law, true)) return error;
+  if (auto error = objection_to_step(root, *config.plant, *config.law, true)) return error;
   const std::vector<ConditionCheck> checks = check(certificate);
   if (all_hold(checks)) return std::nullopt;
   return root.error(claim.section,
@@ -192,8 +191,8 @@ ErrorAssumptions read_assumptions(ConfigSection& root, const CertificateConfig& 
 
 /// Theorems are about the law itself, and about outputs that are there all the time where they are
 /// continuous.
-void require_bounded(ConfigSection& root, const ObserverConfig& config) {
-  if (config.law->delays_jumps()) {
+void require_bounded(ConfigSection& root, const ObserverConfig& config, bool delays_jumps) {
+  if (delays_jumps) {
     throw root.error("error_assumptions", "jumps/late: rewind beside it",
                      "delayed, for which there is no bound");
   }
@@ -240,7 +239,7 @@ std::unique_ptr<const ErrorBound> bound_of(const ConfigSection& root,
 }  // namespace
 
 Guarantee read_guarantee(ConfigSection& root, const ConfigNode& tree, const ObserverConfig& config,
-                         const ObserverLaw& law) {
+                         bool delays_jumps) {
   Guarantee guarantee;
   const bool allow_uncertified = root.flag("allow_uncertified", false);
   for (const char* key : {kCertificate, kRunTimeCertificate}) {
@@ -258,12 +257,12 @@ Guarantee read_guarantee(ConfigSection& root, const ConfigNode& tree, const Obse
     throw root.error("error_assumptions",
                      "a certificate beside it (gains made by 'design synthesize')", "none");
   }
-  auto error = objection(root, tree, *claim, config, law);
-  if (!error && for_bound) error = objection(root, tree, *for_bound, config, law);
+  auto error = objection(root, tree, *claim, config);
+  if (!error && for_bound) error = objection(root, tree, *for_bound, config);
   if (error && !allow_uncertified) throw ConfigError(*error);
   const Certificate& certificate = claim->certificate;
   const Theorem& theorem = *certificate.theorem;
-  if (!error && config.law->delays_jumps()) {
+  if (!error && delays_jumps) {
     guarantee.warning =
         "the certificate says nothing of jumps/late: delayed, which lets jumps take effect when "
         "they become known: " +
@@ -284,7 +283,7 @@ Guarantee read_guarantee(ConfigSection& root, const ConfigNode& tree, const Obse
   }
   if (error) guarantee.warning = std::string("no guarantee and no error bound: ") + error->what();
   if (!root.has("error_assumptions")) return guarantee;
-  require_bounded(root, config);
+  require_bounded(root, config, delays_jumps);
   const CertificateConfig& basis = for_bound ? *for_bound : *claim;
   const ErrorAssumptions assumptions = read_assumptions(root, basis, *config.plant, guarantee);
   if (error) return guarantee;
@@ -293,7 +292,7 @@ Guarantee read_guarantee(ConfigSection& root, const ConfigNode& tree, const Obse
   if (for_bound) {
     guarantee.text += std::string("; error bound by the proof in ") + kRunTimeCertificate;
   }
-  guarantee.text += conditions_of_bound(*config.plant, law, guarantee.latency);
+  guarantee.text += conditions_of_bound(*config.plant, *config.law, guarantee.latency);
   return guarantee;
 }
 

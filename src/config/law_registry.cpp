@@ -2,21 +2,53 @@
 
 #include <map>
 #include <stdexcept>
+#include <utility>
 
-#include "config/gains/builders.h"
+#include "config/gains/readers.h"
+#include "observer/constant_gain_observer.h"
+#include "observer/sample_and_hold_observer.h"
+#include "observer/time_varying_gain_observer.h"
 
 namespace sampled_data_observers {
 namespace {
 
+/// For a law that is made of what `read` returns.
+template <class Law, auto read>
+std::shared_ptr<const ObserverLaw> build(ConfigSection& gains, const LawContext& context) {
+  return std::make_shared<const Law>(context.observer, read(gains, context));
+}
+
+std::shared_ptr<const ObserverLaw> build_time_varying_gain(ConfigSection& gains,
+                                                           const LawContext& context) {
+  const auto [P, lambda] = read_time_varying_gains(gains, context);
+  return std::make_shared<const TimeVaryingGainObserver>(context.observer, P, lambda);
+}
+
+std::shared_ptr<const ObserverLaw> build_high_gain(ConfigSection& gains,
+                                                   const LawContext& context) {
+  auto [form, saturation, ell, K, maps] = read_high_gains(gains, context);
+  switch (form) {
+    case HighGains::Form::kTransformed:
+      return std::make_shared<const TransformedHighGainObserver>(context.observer, saturation, ell,
+                                                                 K.front(), std::move(maps));
+    case HighGains::Form::kOriginal:
+      return std::make_shared<const OriginalHighGainObserver>(context.observer, saturation, ell,
+                                                              K.front(), std::move(maps.T));
+    case HighGains::Form::kLinear:
+      break;
+  }
+  return std::make_shared<const LinearHighGainObserver>(context.observer, saturation, ell, K);
+}
+
 std::map<std::string, LawBuilder>& builders() {
   static std::map<std::string, LawBuilder> all = {
-      {"ConstantGainObserver", build_constant_gain},
+      {"ConstantGainObserver", build<ConstantGainObserver, read_sampled_gains>},
       {"HighGainObserver", build_high_gain},
-      {"HybridKalmanFilter", build_hybrid_kalman_filter},
-      {"IntersampleInjectionObserver", build_intersample_injection},
-      {"SampleAndHoldObserver", build_sample_and_hold},
-      {"SwitchedObserver", build_switched},
-      {"SynchronizedObserver", build_synchronized},
+      {"HybridKalmanFilter", build<HybridKalmanFilter, read_covariances>},
+      {"IntersampleInjectionObserver", build<IntersampleInjectionObserver, read_intersample_gains>},
+      {"SampleAndHoldObserver", build<SampleAndHoldObserver, read_sampled_gains>},
+      {"SwitchedObserver", build<SwitchedObserver, read_switched_gains>},
+      {"SynchronizedObserver", build<SynchronizedObserver, read_synchronized_gains>},
       {"TimeVaryingGainObserver", build_time_varying_gain},
   };
   return all;

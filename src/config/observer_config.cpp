@@ -3,13 +3,11 @@
 #include <stdexcept>
 #include <utility>
 
-#include "certificate/guaranteed_bound.h"
 #include "config/contraction_check.h"
 #include "config/gate_config.h"
 #include "config/guarantee_config.h"
 #include "config/integration_check.h"
-#include "observer/delayed_jumps.h"
-#include "observer/limited_jumps.h"
+#include "config/law_config.h"
 #include "sampled_data_observers/config/config_section.h"
 #include "sampled_data_observers/config/law_registry.h"
 #include "sampled_data_observers/config/plant_config.h"
@@ -45,18 +43,16 @@ Timeline::Limits read_history(ConfigSection& root) {
   return limits;
 }
 
-/// The source of jumps, and what bounds and delays them around `law`.
-TopicSource read_jumps(ConfigSection& root, const Plant& plant,
-                       std::shared_ptr<const ObserverLaw>& law) {
+/// The source of jumps, and how the law takes them.
+TopicSource read_jumps(ConfigSection& root, const Plant& plant, LawLayers& layers) {
   ConfigSection section = root.section_or_empty("jumps");
   TopicSource source = read_jump_source(root, section, plant);
-  if (section.has("late") && section.choice("late", {"rewind", "delayed"}) == "delayed") {
-    law = std::make_shared<const DelayedJumps>(law);
-  }
+  layers.delays_jumps =
+      section.has("late") && section.choice("late", {"rewind", "delayed"}) == "delayed";
   JumpLimits limits;
   limits.min_separation = from_seconds(section.number_in("min_separation", 0.0, kLongest, 1e-6));
   limits.max_per_second = section.number_in("max_per_second", 1.0, 1e6, 1000.0);
-  law = std::make_shared<const LimitedJumps>(law, limits);
+  layers.jump_limits = limits;
   section.finish();
   return source;
 }
@@ -70,18 +66,6 @@ RealTimeOptions read_real_time(ConfigSection& root) {
   options.lock_memory = section.flag("lock_memory", false);
   section.finish();
   return options;
-}
-
-Eigen::VectorXd read_named_values(ConfigSection& root, const std::string& key,
-                                  const std::vector<std::string>& names) {
-  Eigen::VectorXd values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(names.size()));
-  if (!root.has(key)) return values;
-  ConfigSection section = root.section(key);
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    values(static_cast<Eigen::Index>(i)) = section.number(names[i]);
-  }
-  section.finish();
-  return values;
 }
 
 }  // namespace
@@ -98,47 +82,37 @@ ObserverConfig read_observer_config(const ConfigNode& tree, const PlantPluginLoa
                      "nothing");
   }
   config.type = root.choice("observer", observer_types());
-  PlantConfig plant_config = read_plant(root, load_plugin);
+  const PlantConfig plant_config = read_plant(root, load_plugin);
   config.plant = plant_config.plant;
   const Plant& plant = *config.plant;
 
   config.sensors = read_sensor_sources(root, plant);
   for (const auto& source : config.sensors) config.has_topic.push_back(source.has_value());
 
-  LawContext context;
-  context.observer.plant = config.plant;
-  context.observer.initial_estimate =
-      read_named_values(root, "initial_estimate", plant.state_names());
-  context.observer.initial_input = Eigen::VectorXd::Zero(plant.inputs());
-  context.names = std::move(plant_config.names);
-  ConfigSection gains = root.section("gains");
-  config.law = build_law(config.type, gains, context);
-  gains.finish();
-  const std::shared_ptr<const ObserverLaw> bare_law = config.law;
-  if (const auto error = objection_to_step(root, plant, *bare_law, false)) {
+  config.law = read_law(root, plant_config);
+  if (const auto error = objection_to_step(root, plant, *config.law, false)) {
     throw ConfigError(*error);
   }
   if (plant.inputs() > 0) config.input = read_input_source(root, plant);
-  if (plant.jumps()) config.jumps = read_jumps(root, plant, config.law);
+  LawLayers layers;
+  if (plant.jumps()) config.jumps = read_jumps(root, plant, layers);
 
   config.static_transforms = read_static_transforms(root);
 
   config.options.sampling = read_sampling(root, plant);
-  Guarantee guarantee = read_guarantee(root, tree, config, *bare_law);
+  Guarantee guarantee = read_guarantee(root, tree, config, layers.delays_jumps);
   config.guarantee = std::move(guarantee.text);
   config.warning = std::move(guarantee.warning);
   if (!guarantee.remark.empty()) config.warnings.push_back(std::move(guarantee.remark));
   if (config.guarantee.empty()) {
-    const std::string found = find_divergence(*bare_law, plant, config.options.sampling);
+    const std::string found = find_divergence(*config.law, plant, config.options.sampling);
     if (!found.empty()) config.warnings.push_back("gains: " + found);
   }
   config.options.latency = guarantee.latency;
-  if (guarantee.bound) {
-    config.law = std::make_shared<const GuaranteedBound>(config.law, std::move(guarantee.bound),
-                                                         config.plant, guarantee.noise);
-  }
-  // Around the error bound, which must not see what a gate keeps out.
-  config.law = read_gates(root, plant, config.law);
+  layers.bound = std::move(guarantee.bound);
+  layers.noise = guarantee.noise;
+  layers.gates = read_gates(root, plant, *config.law);
+  config.law = assemble(config.law, config.plant, std::move(layers));
   config.options.history = read_history(root);
   config.options.future_tolerance =
       from_seconds(root.number_in("future_tolerance", 0.0, kLongest, 0.5));

@@ -1,9 +1,7 @@
 #include <algorithm>
-#include <utility>
 
 #include "config/expression_config.h"
-#include "config/gains/builders.h"
-#include "observer/high_gain_observer.h"
+#include "config/gains/readers.h"
 
 namespace sampled_data_observers {
 namespace {
@@ -53,9 +51,7 @@ void check_names(ConfigSection& gains, const ExpressionNames& names,
   }
 }
 
-std::shared_ptr<const ObserverLaw> build_transformed(ConfigSection& gains,
-                                                     const LawContext& context,
-                                                     const Saturation& saturation, double ell) {
+TransformedHighGainObserver::Maps read_maps(ConfigSection& gains, const LawContext& context) {
   TransformedHighGainObserver::Maps maps;
   maps.T = read_T(gains, context.names);
   ExpressionNames of_z;
@@ -72,25 +68,30 @@ std::shared_ptr<const ObserverLaw> build_transformed(ConfigSection& gains,
   ExpressionReader phi(of_z_and_x);
   phi.read_definitions(gains, "definitions");
   maps.Phi = phi.read_text(gains, "Phi");
-  return std::make_shared<const TransformedHighGainObserver>(
-      context.observer, saturation, ell, gains.vector("K", maps.T->size()), std::move(maps));
+  return maps;
 }
 
 }  // namespace
 
-std::shared_ptr<const ObserverLaw> build_high_gain(ConfigSection& gains,
-                                                   const LawContext& context) {
+HighGains read_high_gains(ConfigSection& gains, const LawContext& context) {
+  using Form = HighGains::Form;
   const std::string form = gains.choice("form", {"linear", "transformed", "original"});
   const double ell = gains.number("ell");
-  const Saturation saturation = read_saturations(gains, context.plant().state_names());
+  HighGains result{
+      Form::kLinear, read_saturations(gains, context.plant().state_names()), ell, {}, {}};
   if (form == "linear") {
-    return std::make_shared<const LinearHighGainObserver>(context.observer, saturation, ell,
-                                                          gains.vectors("K"));
+    result.K = gains.vectors("K");
+    return result;
   }
-  if (form == "transformed") return build_transformed(gains, context, saturation, ell);
-  const std::shared_ptr<const VectorMap> T = read_T(gains, context.names);
-  return std::make_shared<const OriginalHighGainObserver>(context.observer, saturation, ell,
-                                                          gains.vector("K", T->size()), T);
+  if (form == "transformed") {
+    result.form = Form::kTransformed;
+    result.maps = read_maps(gains, context);
+  } else {
+    result.form = Form::kOriginal;
+    result.maps.T = read_T(gains, context.names);
+  }
+  result.K = {gains.vector("K", result.maps.T->size())};
+  return result;
 }
 
 }  // namespace sampled_data_observers

@@ -1,5 +1,4 @@
-#include "config/gains/builders.h"
-#include "observer/intersample_injection_observer.h"
+#include "config/gains/readers.h"
 #include "sampled_data_observers/config/gains_config.h"
 
 namespace sampled_data_observers {
@@ -31,8 +30,8 @@ void require_linear_outputs(ConfigSection& gains, const Plant& plant) {
 
 }  // namespace
 
-std::shared_ptr<const ObserverLaw> build_intersample_injection(ConfigSection& gains,
-                                                               const LawContext& context) {
+std::vector<IntersampleGains> read_intersample_gains(ConfigSection& gains,
+                                                     const LawContext& context) {
   const Plant& plant = context.plant();
   const std::vector<Eigen::MatrixXd> L =
       read_gain_per_sensor(gains, "L", plant, SensorTiming::kSampled, plant.states());
@@ -50,7 +49,7 @@ std::shared_ptr<const ObserverLaw> build_intersample_injection(ConfigSection& ga
     for (std::size_t i = 0; i < L.size(); ++i) result[i].H = H[i];
   }
   read_initial_theta(gains, plant, result);
-  return std::make_shared<const IntersampleInjectionObserver>(context.observer, std::move(result));
+  return result;
 }
 
 }  // namespace sampled_data_observers

@@ -1,9 +1,7 @@
 #include <algorithm>
-#include <utility>
 
 #include "config/expression_config.h"
-#include "config/gains/builders.h"
-#include "observer/switched_observer.h"
+#include "config/gains/readers.h"
 #include "sampled_data_observers/config/gains_config.h"
 
 namespace sampled_data_observers {
@@ -40,7 +38,7 @@ std::vector<GainMap> read_gain_maps(ConfigSection& modes, const std::string& lab
 
 }  // namespace
 
-std::shared_ptr<const ObserverLaw> build_switched(ConfigSection& gains, const LawContext& context) {
+SwitchedGains read_switched_gains(ConfigSection& gains, const LawContext& context) {
   const Plant& plant = context.plant();
   SwitchedGains result;
   if (gains.has("L_c")) {
@@ -68,7 +66,7 @@ std::shared_ptr<const ObserverLaw> build_switched(ConfigSection& gains, const La
     }
     modes.finish();
   }
-  return std::make_shared<const SwitchedObserver>(context.observer, std::move(result));
+  return result;
 }
 
 }  // namespace sampled_data_observers

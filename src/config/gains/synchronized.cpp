@@ -1,6 +1,5 @@
-#include "config/gains/builders.h"
+#include "config/gains/readers.h"
 #include "sampled_data_observers/config/gains_config.h"
-#include "sampled_data_observers/observer/synchronized_observer.h"
 
 namespace sampled_data_observers {
 namespace {
@@ -18,8 +17,7 @@ std::vector<Eigen::MatrixXd> read_gains(ConfigSection& gains, const std::string&
 
 }  // namespace
 
-std::shared_ptr<const ObserverLaw> build_synchronized(ConfigSection& gains,
-                                                      const LawContext& context) {
+SynchronizedGains read_synchronized_gains(ConfigSection& gains, const LawContext& context) {
   const Plant& plant = context.plant();
   if (!gains.has("L_c") && !gains.has("L_d")) {
     throw ConfigError(gains.origin(), gains.path(), "L_c, L_d or both", "neither");
@@ -28,7 +26,7 @@ std::shared_ptr<const ObserverLaw> build_synchronized(ConfigSection& gains,
   result.L_c = read_gains(gains, "L_c", plant, SensorTiming::kContinuous);
   result.L_d = read_gains(gains, "L_d", plant, SensorTiming::kAtJumps);
   result.output_injections = read_output_injections(gains, plant);
-  return std::make_shared<const SynchronizedObserver>(context.observer, std::move(result));
+  return result;
 }
 
 }  // namespace sampled_data_observers

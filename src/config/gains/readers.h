@@ -1,0 +1,46 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "observer/high_gain_observer.h"
+#include "observer/hybrid_kalman_filter.h"
+#include "observer/intersample_injection_observer.h"
+#include "observer/switched_observer.h"
+#include "sampled_data_observers/config/law_registry.h"
+#include "sampled_data_observers/observer/synchronized_observer.h"
+
+namespace sampled_data_observers {
+
+// What the section `gains` says, for each observer type in a file of its own. All keys of the
+// section are read; whether the gains fit the plant beyond their sizes is for the law to say.
+
+/// Of a TimeVaryingGainObserver.
+struct TimeVaryingGains {
+  std::optional<Eigen::MatrixXd> P;  ///< n x n
+  double lambda = 0.0;
+};
+
+/// Of a HighGainObserver, in one of its three forms.
+struct HighGains {
+  enum class Form { kLinear, kTransformed, kOriginal };
+  Form form = Form::kLinear;
+  Saturation saturation;
+  double ell = 0.0;
+  std::vector<Eigen::VectorXd> K;          ///< one, unless the form is linear
+  TransformedHighGainObserver::Maps maps;  ///< of the original form T only
+};
+
+/// L of each sampled sensor: of a ConstantGainObserver and of a SampleAndHoldObserver.
+std::vector<Eigen::MatrixXd> read_sampled_gains(ConfigSection& gains, const LawContext& context);
+HighGains read_high_gains(ConfigSection& gains, const LawContext& context);
+std::vector<IntersampleGains> read_intersample_gains(ConfigSection& gains,
+                                                     const LawContext& context);
+KalmanCovariances read_covariances(ConfigSection& gains, const LawContext& context);
+SwitchedGains read_switched_gains(ConfigSection& gains, const LawContext& context);
+SynchronizedGains read_synchronized_gains(ConfigSection& gains, const LawContext& context);
+TimeVaryingGains read_time_varying_gains(ConfigSection& gains, const LawContext& context);
+
+}  // namespace sampled_data_observers

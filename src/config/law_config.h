@@ -1,0 +1,36 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "certificate/error_bound.h"
+#include "observer/gated_samples.h"
+#include "observer/limited_jumps.h"
+#include "sampled_data_observers/config/config_section.h"
+#include "sampled_data_observers/config/plant_config.h"
+
+namespace sampled_data_observers {
+
+/// Reads the keys `observer`, `initial_estimate` and `gains`: the law alone, with zero as its first
+/// input.
+/// @throws ConfigError for the first fault found.
+std::shared_ptr<const ObserverLaw> read_law(ConfigSection& root, const PlantConfig& plant);
+
+/// What lies around a law.
+struct LawLayers {
+  bool delays_jumps = false;
+  std::optional<JumpLimits> jump_limits;    ///< nothing where the plant does not jump
+  std::unique_ptr<const ErrorBound> bound;  ///< null where none is asked for
+  double noise = 0.0;                       ///< that the bound rests on
+  std::vector<std::optional<Gate>> gates;   ///< one per sensor
+};
+
+/// GatedSamples( GuaranteedBound( LimitedJumps( DelayedJumps( law ) ) ) ), each where it is asked
+/// for. Limits count jumps when they happen, whether delayed or not. The bound sees which of them
+/// were refused, and must not see the samples that a gate keeps out.
+std::shared_ptr<const ObserverLaw> assemble(std::shared_ptr<const ObserverLaw> law,
+                                            const std::shared_ptr<const Plant>& plant,
+                                            LawLayers layers);
+
+}  // namespace sampled_data_observers
