@@ -48,6 +48,20 @@ const Theorem* find_theorem(const std::string& name) {
   return found == all.end() ? nullptr : *found;
 }
 
+std::vector<std::string> gains_beside(const Theorem& theorem, const CertificateSubject& subject,
+                                      const LawGains& law) {
+  const std::vector<NamedShape> known = theorem.gains(subject);
+  std::vector<std::string> names;
+  for (const LawGain& gain : law.all) {
+    const bool is_known = std::any_of(known.begin(), known.end(), [&](const NamedShape& shape) {
+      return is_named(gain.name, shape.name);
+    });
+    const bool is_zero = gain.value.size() > 0 && gain.value.isZero(0.0);
+    if (!is_known && !is_zero) names.push_back(gain.name);
+  }
+  return names;
+}
+
 std::vector<ConditionCheck> check(const Certificate& certificate) {
   return check(certificate.theorem->conditions(certificate.subject), certificate.values);
 }

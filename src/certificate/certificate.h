@@ -8,6 +8,7 @@
 #include "certificate/condition.h"
 #include "certificate/error_bound.h"
 #include "certificate/plant_matrices.h"
+#include "sampled_data_observers/observer/law_gains.h"
 
 namespace sampled_data_observers {
 
@@ -70,12 +71,10 @@ class Theorem {
 
   // The shapes of all that has a value in a certificate, for an applicable subject.
 
-  /// Gains of the observer.
+  /// Gains of the observer, by the names that its law has for them (LawGains).
   virtual std::vector<NamedShape> gains(const CertificateSubject& subject) const = 0;
   /// What else the section `gains` of its observer must say: the form of a HighGainObserver.
   virtual std::map<std::string, std::string> gain_choices() const { return {}; }
-  /// Keys of the section `gains` with which the observer's law would be another one.
-  virtual std::vector<std::string> excluded_gains() const { return {}; }
   /// Matrices and multipliers in which the conditions are linear where all else is fixed.
   virtual std::vector<NamedShape> multipliers(const CertificateSubject& subject) const = 0;
   /// Scalars that are chosen: rates, levels, and those searched for.
@@ -120,6 +119,11 @@ class Theorem {
 /// All theorems, and the one of a name; null where there is none.
 const std::vector<const Theorem*>& theorems();
 const Theorem* find_theorem(const std::string& name);
+
+/// The names of those gains of a law that a theorem does not name and that are not zero: with them
+/// the law is another one than it is about.
+std::vector<std::string> gains_beside(const Theorem& theorem, const CertificateSubject& subject,
+                                      const LawGains& law);
 
 /// The sections of a gain file that make a claim of its gains: the one that they were made for, and
 /// one that bounds their error at run time better, where there is such a one.

@@ -285,9 +285,6 @@ class Equation17 : public Theorem {
   std::vector<NamedShape> gains(const CertificateSubject&) const override {
     return {scalar_shape("lambda")};
   }
-  /// With it, the gain would be (36).
-  std::vector<std::string> excluded_gains() const override { return {"P"}; }
-
   std::vector<NamedShape> multipliers(const CertificateSubject&) const override { return {}; }
   std::vector<NamedShape> parameters(const CertificateSubject&) const override { return {}; }
   bool is_homogeneous(const CertificateSubject&) const override { return true; }

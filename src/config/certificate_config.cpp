@@ -1,9 +1,11 @@
 #include "config/certificate_config.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
 #include "certificate/proof_fingerprint.h"
+#include "config/claimed_gains.h"
 #include "config/named_values.h"
 
 namespace sampled_data_observers {
@@ -17,6 +19,15 @@ const Theorem& read_theorem(ConfigSection& section) {
   std::vector<std::string> names;
   for (const Theorem* theorem : theorems()) names.push_back(theorem->name());
   return *find_theorem(section.choice("theorem", names));
+}
+
+void require_theorem_for_type(ConfigSection& root, const ConfigSection& section,
+                              const Theorem& theorem) {
+  const std::string type = root.text("observer");
+  const std::vector<std::string> types = theorem.observer_types();
+  if (std::count(types.begin(), types.end(), type) > 0) return;
+  throw section.error("theorem", "a theorem about a " + type + ", the type of this observer",
+                      theorem.name() + ", which is about " + types.front());
 }
 
 CertificateSubject read_subject(ConfigSection& section, const Plant& plant) {
@@ -41,7 +52,7 @@ CertificateSubject read_subject(ConfigSection& section, const Plant& plant) {
 }  // namespace
 
 std::optional<CertificateConfig> read_certificate(ConfigSection& root, const Plant& plant,
-                                                  const std::string& key) {
+                                                  const LawGains& law, const std::string& key) {
   if (!root.has(key)) return std::nullopt;
   ConfigSection section = root.section(key);
   CertificateConfig config;
@@ -49,6 +60,7 @@ std::optional<CertificateConfig> read_certificate(ConfigSection& root, const Pla
   config.origin = section.origin();
   Certificate& certificate = config.certificate;
   certificate.theorem = &read_theorem(section);
+  require_theorem_for_type(root, section, *certificate.theorem);
   certificate.subject = read_subject(section, plant);
   try {
     certificate.theorem->require_applicable(certificate.subject);
@@ -66,14 +78,8 @@ std::optional<CertificateConfig> read_certificate(ConfigSection& root, const Pla
   const Theorem& theorem = *certificate.theorem;
   certificate.values = read_named_values(section, theorem.parameters(certificate.subject));
   certificate.values.merge(read_named_values(section, theorem.multipliers(certificate.subject)));
-  ConfigSection gains = root.section("gains");
   certificate.values.merge(
-      read_gain_values(gains, theorem.gains(certificate.subject), certificate.subject));
-  for (const std::string& key : theorem.excluded_gains()) {
-    if (!gains.has(key)) continue;
-    throw gains.error(
-        key, "no " + key + ", with which the gains are not those of " + theorem.name(), "a value");
-  }
+      gains_of_theorem(root.section("gains"), theorem, certificate.subject, law));
   if (section.has("proof_hash")) {
     config.is_proved = section.text("proof_hash") == proof_fingerprint(certificate);
   }

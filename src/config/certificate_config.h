@@ -25,8 +25,10 @@ struct CertificateConfig {
 
 /// Reads the claim that a section of `root` makes of its gains; nothing where it has no such
 /// section. Does not check it.
-/// @throws ConfigError for a section that is no certificate for this plant.
+/// @param law  the gains of the law that `root` describes
+/// @throws ConfigError for a section that is no certificate for this plant and type of observer.
 std::optional<CertificateConfig> read_certificate(ConfigSection& root, const Plant& plant,
+                                                  const LawGains& law,
                                                   const std::string& section = kCertificate);
 
 }  // namespace sampled_data_observers

@@ -7,7 +7,7 @@
 
 #include "certificate/plant_matrices.h"
 #include "sampled_data_observers/config/config_section.h"
-#include "sampled_data_observers/observer/synchronized_observer.h"
+#include "sampled_data_observers/observer/law_gains.h"
 #include "sampled_data_observers/plant/plant.h"
 
 namespace sampled_data_observers {

@@ -1,5 +1,6 @@
 #include "sampled_data_observers/config/config_section.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <locale>
@@ -224,6 +225,16 @@ Eigen::MatrixXd ConfigSection::matrix(const std::string& key, Eigen::Index rows,
                 "a " + std::to_string(found_rows) + " x " + std::to_string(found_cols) + " matrix");
   }
   return result;
+}
+
+bool ConfigSection::is_matrix(const std::string& key) {
+  if (!is_list(key)) return false;
+  const std::vector<ConfigNode>& rows = node_.find(key)->items;
+  return std::all_of(rows.begin(), rows.end(), [](const ConfigNode& row) {
+    return row.kind == ConfigNode::Kind::kSequence &&
+           std::all_of(row.items.begin(), row.items.end(),
+                       [](const ConfigNode& item) { return as_number(item).has_value(); });
+  });
 }
 
 Eigen::VectorXd ConfigSection::vector(const std::string& key, Eigen::Index size) {

@@ -30,7 +30,9 @@ DesignConfig read_design_config(const std::vector<std::string>& files,
   const ConfigNode tree = merge(trees);
   ConfigSection root(tree, "");
   DesignConfig config;
-  config.plant = read_plant(root, load_plugin).plant;
+  const PlantConfig plant_config = read_plant(root, load_plugin);
+  config.plant = plant_config.plant;
+  config.names = plant_config.names;
   config.plant_hash = plant_fingerprint(tree);
   ConfigSection section = root.section_or_empty("design");
   const Eigen::Index n = config.plant->states();

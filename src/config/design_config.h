@@ -13,6 +13,8 @@ namespace sampled_data_observers {
 /// What a plant file says to a design.
 struct DesignConfig {
   std::shared_ptr<const Plant> plant;
+  /// That formulas among the gains of an observer may use.
+  ExpressionNames names;
   /// With N, C_p and, where given, T1 and T2 (else 0).
   CertificateSubject subject;
   /// The section design/parameters.

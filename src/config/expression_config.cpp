@@ -42,9 +42,11 @@ std::shared_ptr<const VectorMap> ExpressionReader::read_matrix(ConfigSection& se
                                                                const std::string& key,
                                                                std::size_t rows,
                                                                std::size_t cols) const {
+  const auto texts = section.text_matrix(key, rows, cols);
+  if (section.is_matrix(key)) return constant_map(section.matrix(key, -1, -1));
   std::vector<NamedExpression> expressions;
   std::size_t i = 0;
-  for (const std::vector<std::string>& row : section.text_matrix(key, rows, cols)) {
+  for (const std::vector<std::string>& row : texts) {
     ++i;
     std::size_t j = 0;
     for (const std::string& text : row) {
@@ -52,6 +54,16 @@ std::shared_ptr<const VectorMap> ExpressionReader::read_matrix(ConfigSection& se
     }
   }
   return make(section, key, expressions);
+}
+
+std::shared_ptr<const VectorMap> ExpressionReader::constant_map(
+    const Eigen::MatrixXd& matrix) const {
+  const Eigen::MatrixXd rows = matrix.transpose();
+  const auto of = [&](const std::vector<std::string>& names) {
+    return Eigen::MatrixXd::Zero(rows.size(), static_cast<Eigen::Index>(names.size()));
+  };
+  return std::make_shared<const AffineMap>(
+      of(names_.x), of(names_.u), Eigen::Map<const Eigen::VectorXd>(rows.data(), rows.size()));
 }
 
 std::shared_ptr<const VectorMap> ExpressionReader::make(

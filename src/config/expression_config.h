@@ -29,7 +29,7 @@ class ExpressionReader {
   /// The map to one entry by the formula below `key`.
   std::shared_ptr<const VectorMap> read_text(ConfigSection& section, const std::string& key) const;
 
-  /// The map whose entries are those of a matrix, row by row.
+  /// The map whose entries are those of a matrix, row by row: an AffineMap where these are numbers.
   std::shared_ptr<const VectorMap> read_matrix(ConfigSection& section, const std::string& key,
                                                std::size_t rows, std::size_t cols) const;
 
@@ -38,6 +38,7 @@ class ExpressionReader {
  private:
   std::shared_ptr<const VectorMap> make(ConfigSection& section, const std::string& key,
                                         const std::vector<NamedExpression>& expressions) const;
+  std::shared_ptr<const VectorMap> constant_map(const Eigen::MatrixXd& matrix) const;
 
   ExpressionNames names_;
   std::vector<NamedExpression> definitions_;

@@ -1,32 +1,22 @@
 #include "config/guarantee_config.h"
 
-#include <algorithm>
 #include <cmath>
 #include <locale>
-#include <map>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
 
 #include "config/certificate_config.h"
 #include "config/claim_contradiction.h"
+#include "config/claimed_gains.h"
 #include "config/integration_check.h"
 #include "config/number_text.h"
 #include "config/plant_fingerprint.h"
-#include "sampled_data_observers/config/gains_config.h"
 
 namespace sampled_data_observers {
 namespace {
 
 constexpr double kLargestAssumption = 1e50;
-
-const char kRemedy[] =
-    "; make them again with 'design synthesize', or set allow_uncertified: true to run without "
-    "guarantee";
-
-/// Keys of `gains` that no theorem names and that are looked at beside it, or change nothing of
-/// what it says: where θ begins is an assumption of the bound.
-const char* const kBesideGains[] = {"theta0", "variant", "output_injection"};
 
 std::string interval(double low, double high) {
   std::ostringstream text;
@@ -34,32 +24,6 @@ std::string interval(double low, double high) {
   text.precision(12);
   text << '[' << low << ", " << high << "] s";
   return text.str();
-}
-
-/// Every key of the gains that the law computes with must be one that the theorem is about.
-std::optional<ConfigError> objection_to_gains(ConfigSection& root, const Certificate& certificate) {
-  ConfigSection gains = root.section("gains");
-  const Theorem& theorem = *certificate.theorem;
-  const std::vector<NamedShape> known = theorem.gains(certificate.subject);
-  const std::map<std::string, std::string> choices = theorem.gain_choices();
-  for (const std::string& key : gains.keys()) {
-    const bool is_known = std::any_of(known.begin(), known.end(), [&](const NamedShape& shape) {
-      return shape.name.substr(0, shape.name.find('/')) == key;
-    });
-    const bool is_beside = choices.count(key) > 0 ||
-                           std::count(std::begin(kBesideGains), std::end(kBesideGains), key) > 0;
-    if (is_known || is_beside) continue;
-    return gains.error(key, "only gains that " + theorem.name() + " is about" + kRemedy,
-                       "'" + key + "', which changes the observer that it is about");
-  }
-  if (gains.has("output_injection") && !certificate.subject.plant.stated.A) {
-    return gains.error("output_injection",
-                       "certificate/A, the flow of the error under the injection (design again "
-                       "with design/A), or no output injection" +
-                           std::string(kRemedy),
-                       "a certificate about the plant's own flow");
-  }
-  return std::nullopt;
 }
 
 /// What the plant's own maps, with the outputs that are injected, refute of what the files state.
@@ -74,33 +38,21 @@ std::optional<ConfigError> objection_to_statements(ConfigSection& root,
   const StatedErrorMaps& stated = certificate.subject.plant.stated;
   if (!stated.A) {
     if (const auto found = refute_lipschitz_claims(plant, centre)) {
-      return root.section("plant").error(found->key, found->expected + kRemedy, found->found);
+      return root.section("plant").error(found->key, found->expected + kGainsRemedy, found->found);
     }
   }
   if (stated.is_empty()) return std::nullopt;
-  ConfigSection gains = root.section("gains");
-  const std::vector<OutputInjection> injections = read_output_injections(gains, plant);
+  const std::vector<OutputInjection> injections = config.law->gains().output_injections;
   const auto found = refute_error_maps(plant, stated, injections, centre);
   if (!found) return std::nullopt;
   if (const auto others = injections_that_explain(plant, stated, centre)) {
-    return gains.error("output_injection",
-                       in_words(plant, *others) + ", on which certificate/A rests" + kRemedy,
-                       injections.empty() ? "none" : in_words(plant, injections));
+    return root.section("gains").error(
+        "output_injection",
+        in_words(plant, *others) + ", on which certificate/A rests" + kGainsRemedy,
+        injections.empty() ? "none" : in_words(plant, injections));
   }
-  return root.section(claim.section).error(found->key, found->expected + kRemedy, found->found);
-}
-
-/// Before the certificate is read: it could not be with the gains of another type.
-void require_theorem_for_type(ConfigSection& root, const std::string& key,
-                              const std::string& type) {
-  if (!root.has(key)) return;
-  ConfigSection section = root.section(key);
-  const Theorem* theorem = find_theorem(section.text("theorem"));
-  if (theorem == nullptr) return;
-  const std::vector<std::string> types = theorem->observer_types();
-  if (std::count(types.begin(), types.end(), type) > 0) return;
-  throw section.error("theorem", "a theorem about a " + type + ", the type of this observer",
-                      theorem->name() + ", which is about " + types.front());
+  return root.section(claim.section)
+      .error(found->key, found->expected + kGainsRemedy, found->found);
 }
 
 /// Why a certificate does not hold for a configuration, if so.
@@ -108,14 +60,17 @@ std::optional<ConfigError> objection(ConfigSection& root, const ConfigNode& tree
                                      const CertificateConfig& claim, const ObserverConfig& config) {
   const ConfigSection section = root.section(claim.section);
   const Certificate& certificate = claim.certificate;
-  if (auto error = objection_to_gains(root, certificate)) return error;
+  if (auto error = objection_to_gains(root.section("gains"), *certificate.theorem,
+                                      certificate.subject, config.law->gains())) {
+    return error;
+  }
   const std::string hash = plant_fingerprint(tree);
   if (claim.plant_hash != hash) {
     return section.error("plant/hash",
                          hash +
                              ", the fingerprint of the plant and sensors configured: the gains "
                              "were made for others (" +
-                             claim.plant_file + ")" + kRemedy,
+                             claim.plant_file + ")" + kGainsRemedy,
                          claim.plant_hash);
   }
   const CertificateSubject& subject = certificate.subject;
@@ -124,7 +79,7 @@ std::optional<ConfigError> objection(ConfigSection& root, const ConfigNode& tree
       (sampling.T1 < from_seconds(subject.T1) || sampling.T2 > from_seconds(subject.T2))) {
     return root.error("sampling",
                       "T1 and T2 inside " + interval(subject.T1, subject.T2) +
-                          ", for which the gains were made" + kRemedy,
+                          ", for which the gains were made" + kGainsRemedy,
                       interval(to_seconds(sampling.T1), to_seconds(sampling.T2)));
   }
   if (auto error = objection_to_statements(root, claim, config)) return error;
@@ -133,7 +88,7 @@ std::optional<ConfigError> objection(ConfigSection& root, const ConfigNode& tree
   if (all_hold(checks)) return std::nullopt;
   return root.error(claim.section,
                     "gains and matrices for which the conditions of " +
-                        certificate.theorem->name() + " hold" + kRemedy,
+                        certificate.theorem->name() + " hold" + kGainsRemedy,
                     "others: " + describe_violations(checks));
 }
 
@@ -166,7 +121,7 @@ double read_disturbance(ConfigSection& section, const CertificateConfig& claim,
 }
 
 ErrorAssumptions read_assumptions(ConfigSection& root, const CertificateConfig& claim,
-                                  const Plant& plant, Guarantee& guarantee) {
+                                  const LawGains& law, Guarantee& guarantee) {
   ErrorAssumptions assumptions;
   ConfigSection section = root.section("error_assumptions");
   assumptions.initial_error = assumption(section, "initial_error");
@@ -181,11 +136,7 @@ ErrorAssumptions read_assumptions(ConfigSection& root, const CertificateConfig& 
   }
   guarantee.latency = from_seconds(section.number_in("latency", 0.0, kLongestLatency, 0.0));
   section.finish();
-  ConfigSection theta = root.section("gains").section_or_empty("theta0");
-  for (const Sensor& sensor : plant.sensors()) {
-    if (!theta.has(sensor.name)) continue;
-    assumptions.initial_injection = theta.vector(sensor.name, sensor.outputs()).norm();
-  }
+  assumptions.initial_injection = law.initial_injection;
   return assumptions;
 }
 
@@ -242,11 +193,9 @@ Guarantee read_guarantee(ConfigSection& root, const ConfigNode& tree, const Obse
                          bool delays_jumps) {
   Guarantee guarantee;
   const bool allow_uncertified = root.flag("allow_uncertified", false);
-  for (const char* key : {kCertificate, kRunTimeCertificate}) {
-    require_theorem_for_type(root, key, config.type);
-  }
-  const auto claim = read_certificate(root, *config.plant);
-  const auto for_bound = read_certificate(root, *config.plant, kRunTimeCertificate);
+  const ObserverLaw& law = *config.law;
+  const auto claim = read_certificate(root, *config.plant, law.gains());
+  const auto for_bound = read_certificate(root, *config.plant, law.gains(), kRunTimeCertificate);
   if (!claim) {
     if (for_bound) {
       throw root.error(kRunTimeCertificate,
@@ -285,14 +234,14 @@ Guarantee read_guarantee(ConfigSection& root, const ConfigNode& tree, const Obse
   if (!root.has("error_assumptions")) return guarantee;
   require_bounded(root, config, delays_jumps);
   const CertificateConfig& basis = for_bound ? *for_bound : *claim;
-  const ErrorAssumptions assumptions = read_assumptions(root, basis, *config.plant, guarantee);
+  const ErrorAssumptions assumptions = read_assumptions(root, basis, law.gains(), guarantee);
   if (error) return guarantee;
   guarantee.bound = bound_of(root, basis.certificate, assumptions);
   guarantee.noise = assumptions.noise;
   if (for_bound) {
     guarantee.text += std::string("; error bound by the proof in ") + kRunTimeCertificate;
   }
-  guarantee.text += conditions_of_bound(*config.plant, *config.law, guarantee.latency);
+  guarantee.text += conditions_of_bound(*config.plant, law, guarantee.latency);
   return guarantee;
 }
 

@@ -31,31 +31,6 @@ NamedMatrices read_named_values(ConfigSection& section, const std::vector<NamedS
   return values;
 }
 
-NamedMatrices read_gain_values(ConfigSection& gains, const std::vector<NamedShape>& shapes,
-                               const CertificateSubject& subject) {
-  NamedMatrices values;
-  for (const NamedShape& shape : shapes) {
-    const bool is_injection = shape.name == "H" && gains.has("variant");
-    if (is_injection) {
-      const bool predicts =
-          gains.choice("variant", {"predictor", "zero_order_hold"}) == "predictor";
-      values["H"] = predicts ? Eigen::MatrixXd(-subject.plant.C() * values.at("L"))
-                             : Eigen::MatrixXd::Zero(shape.rows, shape.cols);
-    } else if (shape.name.find('/') == std::string::npos && gains.is_map(shape.name)) {
-      // Below the name of its one sensor.
-      ConfigSection sensors = gains.section(shape.name);
-      const std::vector<std::string> names = sensors.keys();
-      if (names.size() != 1) {
-        throw gains.error(shape.name, "the gain of one sensor", std::to_string(names.size()));
-      }
-      values[shape.name] = read_value(sensors, names.front(), shape);
-    } else {
-      values.merge(read_named_values(gains, {shape}));
-    }
-  }
-  return values;
-}
-
 StatedErrorMaps read_stated_error_maps(ConfigSection& section, Eigen::Index n) {
   StatedErrorMaps stated;
   if (section.has("A")) stated.A = section.matrix("A", n, n);

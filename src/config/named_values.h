@@ -13,12 +13,6 @@ namespace sampled_data_observers {
 /// @throws ConfigError for one that is missing or has another shape.
 NamedMatrices read_named_values(ConfigSection& section, const std::vector<NamedShape>& shapes);
 
-/// The same for the gains of an observer, in all the forms that the observer types accept: a matrix
-/// per sensor, and the variants of the intersample injection.
-/// @param gains  a section of its own: keys that are no gains of the theorem are not looked at
-NamedMatrices read_gain_values(ConfigSection& gains, const std::vector<NamedShape>& shapes,
-                               const CertificateSubject& subject);
-
 /// Reads the maps A and A_d of the error, n x n, where the section states them.
 StatedErrorMaps read_stated_error_maps(ConfigSection& section, Eigen::Index n);
 

@@ -21,6 +21,10 @@ class ConstantGainObserver : public PlantObserver {
   /// @throws std::invalid_argument when a size does not fit the plant.
   ConstantGainObserver(ObserverContext context, std::vector<Eigen::MatrixXd> L);
 
+  LawGains gains() const override {
+    return LawGains().add("L", L_, plant(), SensorTiming::kSampled);
+  }
+
  protected:
   void sample(std::size_t sensor, const double* y, const Held& held, double* state,
               double* workspace) const override;

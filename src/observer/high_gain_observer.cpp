@@ -43,6 +43,10 @@ HighGainObserver::HighGainObserver(const ObserverContext& context, const Extras&
   if (plant().sensors().empty()) {
     throw std::invalid_argument("a sensor that is measured continuously is needed");
   }
+  for (Eigen::Index i = 0; i < n(); ++i) {
+    const std::string& state = plant().state_names()[static_cast<std::size_t>(i)];
+    if (const auto bounds = saturation_.bounds(i)) listed_.add("saturations/" + state, *bounds);
+  }
 }
 
 void HighGainObserver::check_start() const {
@@ -75,6 +79,10 @@ LinearHighGainObserver::LinearHighGainObserver(const ObserverContext& context,
   const Eigen::MatrixXd& A = affine(*plant().modes().front().flow, "a flow").M();
   const Eigen::MatrixXd H = stacked_outputs(plant());
   L_c_ = high_gain(A, H, observable_form(A, H), ell, K);
+  listed().add("ell", ell);
+  for (std::size_t i = 0; i < K.size(); ++i) {
+    listed().add(K.size() == 1 ? "K" : "K/" + std::to_string(i + 1), K[i].transpose());
+  }
   build_flow();
 }
 

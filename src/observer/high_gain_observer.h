@@ -18,6 +18,9 @@ namespace sampled_data_observers {
 /// The plant has one mode. There are three forms, one class each.
 class HighGainObserver : public PlantObserver {
  public:
+  /// ell, K (K/1, K/2, … where there are several), saturations/state, and T, Phi and Theta, which
+  /// are formulas.
+  LawGains gains() const override { return listed_; }
   bool is_saturated(const double* state) const override { return saturation_.is_active(state); }
 
  protected:
@@ -28,12 +31,16 @@ class HighGainObserver : public PlantObserver {
 
   const Saturation& saturation() const { return saturation_; }
 
+  /// To be called by the constructor of each form for what gains() has beside the saturations.
+  LawGains& listed() { return listed_; }
+
   /// To be called at the end of the constructor of a form that may be undefined at some estimates.
   /// @throws std::invalid_argument where it is at the initial one.
   void check_start() const;
 
  private:
   Saturation saturation_;
+  LawGains listed_;
 };
 
 /// Example 4.2, for a flow and outputs that are affine and observable together:

@@ -36,6 +36,7 @@ HybridKalmanFilter::HybridKalmanFilter(const ObserverContext& context,
   for (std::size_t i = 0; i < all.size(); ++i) {
     Eigen::MatrixXd root = checked_positive_definite("R of sensor '" + all[i].name + "'",
                                                      covariances.R[i], all[i].outputs());
+    listed_.add("R/" + all[i].name, root);
     factor_cholesky(root.data(), root.rows());
     noise_roots_.push_back(root);
   }
@@ -49,6 +50,7 @@ HybridKalmanFilter::HybridKalmanFilter(const ObserverContext& context,
       outputs_.back().emplace_back(C.transpose());
     }
   }
+  listed_.add("P0", P0_).add("Q", Q).add("Q_d", Q_d_);
   build_flow();
 }
 

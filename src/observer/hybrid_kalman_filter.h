@@ -36,6 +36,8 @@ class HybridKalmanFilter : public PlantObserver {
   /// fit it or are not definite as they must be.
   HybridKalmanFilter(const ObserverContext& context, const KalmanCovariances& covariances);
 
+  /// The covariances that it is tuned by.
+  LawGains gains() const override { return listed_; }
   /// P, n x n.
   const double* covariance(const double* state) const override { return constants(state); }
   void start_from(const double* estimate, double* state) const override;
@@ -62,6 +64,7 @@ class HybridKalmanFilter : public PlantObserver {
   /// Of each mode and sensor: (L⁻¹ C)ᵀ, n x m.
   std::vector<std::vector<Eigen::MatrixXd>> outputs_;
   std::vector<CovarianceFlow> covariance_flows_;  ///< one per mode
+  LawGains listed_;
 };
 
 }  // namespace sampled_data_observers

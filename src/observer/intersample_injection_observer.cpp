@@ -1,6 +1,7 @@
 #include "observer/intersample_injection_observer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -39,6 +40,16 @@ IntersampleInjectionObserver::IntersampleInjectionObserver(const ObserverContext
     begin += sensor.outputs();
   }
   build_flow();
+}
+
+LawGains IntersampleInjectionObserver::gains() const {
+  LawGains all;
+  for (std::size_t i = 0; i < gains_.size(); ++i) {
+    const std::string of_sensor = "/" + plant().sensors()[i].name;
+    all.add("L" + of_sensor, gains_[i].L).add("H" + of_sensor, gains_[i].H);
+    all.initial_injection = std::hypot(all.initial_injection, gains_[i].initial_theta.norm());
+  }
+  return all;
 }
 
 void IntersampleInjectionObserver::initialize(double* state) const {

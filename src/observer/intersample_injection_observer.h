@@ -32,6 +32,7 @@ class IntersampleInjectionObserver : public PlantObserver {
   /// @throws std::invalid_argument when a size does not fit the plant.
   IntersampleInjectionObserver(const ObserverContext& context, std::vector<IntersampleGains> gains);
 
+  LawGains gains() const override;
   void initialize(double* state) const override;
 
  protected:

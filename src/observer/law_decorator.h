@@ -14,6 +14,7 @@ namespace sampled_data_observers {
 class LawDecorator : public ObserverLaw {
  public:
   const std::vector<std::string>& estimate_names() const override { return law_->estimate_names(); }
+  LawGains gains() const override { return law_->gains(); }
   Eigen::Index state_size() const override { return inner_size() + own_size_; }
   Eigen::Index workspace_size() const override { return law_->workspace_size(); }
   Eigen::Index event_size(EventKind kind, int channel) const override {

@@ -42,6 +42,8 @@ TransformedHighGainObserver::TransformedHighGainObserver(const ObserverContext& 
   require(maps_.T && maps_.T->size() == gain_.size(), "T: as many entries as K");
   require(maps_.Phi && maps_.Phi->size() == 1, "Phi: one entry");
   require(maps_.Theta && maps_.Theta->size() == n(), "Theta: one entry per state");
+  listed().add("ell", ell).add("K", K.transpose());
+  for (const char* map : {"T", "Phi", "Theta"}) listed().add(map, Eigen::MatrixXd());
   build_flow();
   check_start();
 }
@@ -95,6 +97,7 @@ OriginalHighGainObserver::OriginalHighGainObserver(const ObserverContext& contex
       gain_(scaled_gain(ell, K, plant())) {
   require(gain_.size() == n(), "K: as many entries as the plant has states");
   require(T_ && T_->size() == n(), "T: as many entries as the plant has states");
+  listed().add("ell", ell).add("K", K.transpose()).add("T", Eigen::MatrixXd());
   build_flow();
   check_start();
 }

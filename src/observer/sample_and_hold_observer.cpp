@@ -18,4 +18,12 @@ SampleAndHoldObserver::SampleAndHoldObserver(const ObserverContext& context,
                                              const std::vector<Eigen::MatrixXd>& L)
     : IntersampleInjectionObserver(context, held_innovation(L)) {}
 
+LawGains SampleAndHoldObserver::gains() const {
+  LawGains all;
+  for (const LawGain& gain : IntersampleInjectionObserver::gains().all) {
+    if (is_named(gain.name, "L")) all.add(gain.name, -gain.value);
+  }
+  return all;
+}
+
 }  // namespace sampled_data_observers

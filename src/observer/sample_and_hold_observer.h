@@ -19,6 +19,9 @@ class SampleAndHoldObserver : public IntersampleInjectionObserver {
   /// @param L  one gain per sensor of the plant, in its order, in the paper's sign
   /// @throws std::invalid_argument when a size does not fit the plant.
   SampleAndHoldObserver(const ObserverContext& context, const std::vector<Eigen::MatrixXd>& L);
+
+  /// L_i in the paper's sign. H_i = 0 is none of them.
+  LawGains gains() const override;
 };
 
 }  // namespace sampled_data_observers

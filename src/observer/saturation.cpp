@@ -25,6 +25,11 @@ void Saturation::bound(Eigen::Index state, double low, double high) {
   high_(state) = high;
 }
 
+std::optional<Eigen::RowVector2d> Saturation::bounds(Eigen::Index state) const {
+  if (low_(state) == -kInfinity) return std::nullopt;
+  return Eigen::RowVector2d(low_(state), high_(state));
+}
+
 void Saturation::apply(double* x) const {
   for (Eigen::Index i = 0; i < size(); ++i) {
     if (low_(i) == -kInfinity) continue;

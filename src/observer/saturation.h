@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 
 namespace sampled_data_observers {
 
@@ -14,6 +15,9 @@ class Saturation {
   void bound(Eigen::Index state, double low, double high);
 
   Eigen::Index size() const { return low_.size(); }
+
+  /// (low, high) of a state; nothing where it has no bounds.
+  std::optional<Eigen::RowVector2d> bounds(Eigen::Index state) const;
 
   /// Brings each entry of x (n entries) into its bounds; a bounded one that is NaN to its lower
   /// one.

@@ -41,6 +41,17 @@ bool is_identity(const VectorMap& map) {
   return affine.M().isIdentity(0.0) && affine.N().isZero(0.0) && affine.c().isZero(0.0);
 }
 
+/// The n x m gain that a map of τ gives row by row; without entries where it depends on τ.
+Eigen::MatrixXd constant_gain(const VectorMap& map, Eigen::Index n) {
+  const AffineMap* affine = map.affine();
+  if (affine == nullptr || !affine->M().isZero(0.0)) return {};
+  Eigen::MatrixXd gain(n, affine->c().size() / n);
+  for (Eigen::Index i = 0; i < affine->c().size(); ++i) {
+    gain(i / gain.cols(), i % gain.cols()) = affine->c()(i);
+  }
+  return gain;
+}
+
 /// P⁻¹ Hᵀ (H P⁻¹ Hᵀ)⁻¹; empty where H has no rows.
 Eigen::MatrixXd projection_gain(const Eigen::MatrixXd& P, const Eigen::MatrixXd& H,
                                 const std::string& where) {
@@ -93,6 +104,25 @@ void SwitchedObserver::check() const {
               "L_d of sensor '" + sensor.name + "': one row per state, one column per output");
     }
   }
+}
+
+LawGains SwitchedObserver::gains() const {
+  LawGains all;
+  for (std::size_t mode = 0; mode < plant().modes().size(); ++mode) {
+    const std::string label = std::to_string(plant().modes()[mode].label);
+    if (!gains_.L_c.empty()) {
+      all.add("L_c/" + label, gains_.L_c[mode], plant(), SensorTiming::kContinuous);
+    }
+    if (!gains_.L_d.empty()) {
+      std::vector<Eigen::MatrixXd> L_d;
+      for (const auto& map : gains_.L_d[mode]) {
+        L_d.push_back(map ? constant_gain(*map, n()) : Eigen::MatrixXd());
+      }
+      all.add("L_d/" + label, L_d, plant(), SensorTiming::kAtJumps);
+    }
+    if (!gains_.P.empty() && gains_.P[mode]) all.add("projection/" + label, *gains_.P[mode]);
+  }
+  return all;
 }
 
 SwitchedObserver::Projection SwitchedObserver::make_projection(std::size_t mode) const {

@@ -41,6 +41,9 @@ class SwitchedObserver final : public PlantObserver {
   /// jump map, dependent outputs of a mode to project on, and sensors that no gain uses.
   SwitchedObserver(const ObserverContext& context, SwitchedGains gains);
 
+  /// Of each mode q: L_c/q/sensor, L_d/q/sensor and projection/q.
+  LawGains gains() const override;
+
  protected:
   bool flow_is_affine() const override;
   void derivative(const Held& held, const double* s, double* ds, double* workspace) const override;

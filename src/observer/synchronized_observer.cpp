@@ -26,6 +26,14 @@ SynchronizedObserver::SynchronizedObserver(const ObserverContext& context, Synch
   build_flow();
 }
 
+LawGains SynchronizedObserver::gains() const {
+  LawGains all;
+  all.add("L_c", gains_.L_c, plant(), SensorTiming::kContinuous);
+  all.add("L_d", gains_.L_d, plant(), SensorTiming::kAtJumps);
+  all.output_injections = gains_.output_injections;
+  return all;
+}
+
 bool SynchronizedObserver::flow_is_affine() const {
   const std::vector<Sensor>& sensors = plant().sensors();
   return PlantObserver::flow_is_affine() &&

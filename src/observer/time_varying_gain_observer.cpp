@@ -68,7 +68,10 @@ PlantObserver::Extras TimeVaryingGainObserver::extras(const Plant& plant, const 
 TimeVaryingGainObserver::TimeVaryingGainObserver(const ObserverContext& context,
                                                  const std::optional<Eigen::MatrixXd>& P,
                                                  double lambda)
-    : TimeVaryingGainObserver(context, make_gains(*context.plant, P, lambda)) {}
+    : TimeVaryingGainObserver(context, make_gains(*context.plant, P, lambda)) {
+  if (P) listed_.add("P", (*P + P->transpose()) / 2.0);  // as CertificateGain has it
+  listed_.add("lambda", lambda);
+}
 
 TimeVaryingGainObserver::TimeVaryingGainObserver(const ObserverContext& context, Gains gains)
     : PlantObserver(context, extras(*context.plant, gains), {SensorTiming::kSampled}),

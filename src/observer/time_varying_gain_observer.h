@@ -30,6 +30,9 @@ class TimeVaryingGainObserver : public PlantObserver {
   TimeVaryingGainObserver(const ObserverContext& context, const std::optional<Eigen::MatrixXd>& P,
                           double lambda);
 
+  /// P and lambda.
+  LawGains gains() const override { return listed_; }
+
  protected:
   bool flow_is_affine() const override { return true; }
   void sample(std::size_t sensor, const double* y, const Held& held, double* state,
@@ -45,6 +48,7 @@ class TimeVaryingGainObserver : public PlantObserver {
 
   Gains gains_;               ///< one per sensor
   LinearFlow backward_flow_;  ///< of ẋ = −A x
+  LawGains listed_;
 };
 
 }  // namespace sampled_data_observers

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "config/certificate_config.h"
+#include "config/law_config.h"
 #include "config/plant_fingerprint.h"
 #include "sampled_data_observers/config/observer_config.h"
 #include "sampled_data_observers/config/plant_config.h"
@@ -49,13 +50,14 @@ class CertifiedGains {
 
   const ConfigNode& tree() const { return tree_; }
   ObserverConfig config() const { return read_observer_config(tree_, no_plant_plugins); }
+  /// Nothing where the file has no such section.
+  std::optional<CertificateConfig> claim(const std::string& section = kCertificate) const {
+    ConfigSection root(tree_, "");
+    const PlantConfig plant = read_plant(root, no_plant_plugins);
+    return read_certificate(root, *plant.plant, read_law(root, plant)->gains(), section);
+  }
   Certificate certificate(const std::string& section = kCertificate) const {
     return claim(section)->certificate;
-  }
-  /// Nothing where the file has no such section.
-  std::optional<CertificateConfig> claim(const std::string& section) const {
-    ConfigSection root(tree_, "");
-    return read_certificate(root, *read_plant(root, no_plant_plugins).plant, section);
   }
   /// Makes its claims about the plant as it is now.
   CertifiedGains& with_own_hash() {

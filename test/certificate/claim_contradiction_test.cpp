@@ -111,6 +111,37 @@ TEST(ClaimTest, EveryKeyOfTheGainsMustBeOneOfTheTheorems) {
                {"gains/projection: expected only gains that bernard2022_section7_3_2 is about"});
 }
 
+/// A ball whose height is measured while it flies, too: L_c of it is none of the theorem's gains.
+TEST(ClaimTest, AGainThatTheTheoremDoesNotNameMustBeZero) {
+  const auto with_L_c = [](const std::string& L_c) {
+    return refusal("config/examples/bernard2022_bouncing_ball/gains.yaml",
+                   "sensors: {level: {C: [[1, 0]], measured: continuous, source: {topic: level}}}\n"
+                   "gains: {L_c: " +
+                       L_c + "}");
+  };
+  EXPECT_EQ("no fault", with_L_c("[[0], [0]]"));
+  expect_parts(
+      with_L_c("[[0], [1e-9]]"),
+      {"test.yaml:2: gains/L_c: expected only gains that bernard2022_corollary5_2 is about",
+       "make them again with 'design synthesize'", "allow_uncertified: true",
+       "found 'L_c', which changes the observer that it is about"});
+}
+
+TEST(ClaimTest, AProofOfTheInverseOutputGainIsForNoGainFromACertificate) {
+  const char kInverse[] = "test/certificate/attack/all_outputs/sferlazza2019_equation17.yaml";
+  EXPECT_EQ("no fault", refusal(kInverse, "{}"));
+  expect_parts(refusal(kInverse, "gains: {P: [[1, 0], [0, 1]]}"),
+               {"gains/P: expected only gains that sferlazza2019_equation17 is about"});
+}
+
+TEST(ClaimTest, AGainThatIsAFormulaIsNotTheOneThatWasProved) {
+  expect_parts(refusal("config/examples/bernard2022_switched/gains.yaml",
+                       "gains: {L_d: {1: [[1 + 0 * tau], [0], [0]]}}"),
+               {"gains/L_d/1: expected a 3 x 1 matrix of numbers, since "
+                "bernard2022_section7_3_2 is about it",
+                "found a formula"});
+}
+
 const char kHighGain[] = R"yaml(
 observer: HighGainObserver
 plant: {states: [x], A: [[0]], jump_map: {A_d: [[1]]}}
@@ -134,6 +165,10 @@ TEST(ClaimTest, AProofForAnObserverWithoutSaturationsIsForNoOther) {
       override_with(tree, read_yaml_text("gains: {saturations: {x: [-1, 1]}}", "test.yaml"));
   expect_parts(refusal(saturated), {"gains/saturations: expected only gains that "
                                     "bernard2022_example4_2 is about"});
+  const ConfigNode nonlinear =
+      override_with(tree, read_yaml_text("gains: {form: original, K: [1], T: [x]}", "test.yaml"));
+  expect_parts(refusal(nonlinear),
+               {"gains/T: expected only gains that bernard2022_example4_2 is about"});
 }
 
 TEST(ClaimTest, DelayedJumpsLoseTheGuarantee) {

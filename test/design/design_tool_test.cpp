@@ -448,6 +448,26 @@ TEST_F(DesignTool, AnalyzesNoGainWithoutPerformanceOutput) {
   EXPECT_TRUE(all.says("max-T2")) << all.output;
 }
 
+TEST_F(DesignTool, SpeaksOfNoObserverThatComputesWithOtherGains) {
+  const std::string example = SDO_SOURCE_DIR "/config/examples/bernard2022_switched/";
+  std::ostringstream text;
+  text << std::ifstream(example + "gains.yaml").rdbuf();
+  std::string projecting = text.str();
+  const std::string section = "\ngains:\n";
+  projecting.insert(projecting.find(section) + section.size(),
+                    "  projection: {1: [[1, 0, 0], [0, 1, 0], [0, 0, 1]]}\n");
+  const std::string rest =
+      " " + write("projecting.yaml", projecting) + " --plant " + example + "scenario.yaml";
+  for (const char* command : {"verify", "verify --rigorous", "analyze"}) {
+    const ToolRun refused = run(command + rest);
+    EXPECT_EQ(refused.status, 1) << refused.output;
+    EXPECT_TRUE(
+        refused.says("projecting.yaml:8: gains/projection: expected only gains that "
+                     "bernard2022_section7_3_2 is about"))
+        << refused.output;
+  }
+}
+
 TEST_F(DesignTool, WarnsOfGainsThatHardlyCorrect) {
   const ToolRun slow = synthesize(
       write("plant.yaml", oscillator("lambda_t: 0.05", "lambda_t: 1e-4, gain_bound: 0.1")));

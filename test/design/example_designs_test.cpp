@@ -8,6 +8,7 @@
 
 #include "config/certificate_config.h"
 #include "config/design_config.h"
+#include "config/law_config.h"
 #include "design/gain_file.h"
 #include "design/synthesis.h"
 #include "sampled_data_observers/config/observer_config.h"
@@ -47,7 +48,8 @@ TEST_P(ExampleDesigns, GiveGainFilesWhoseClaimsHoldWhenRead) {
 
   const ConfigNode gains = read_yaml_text(text.str(), "gains.yaml");
   ConfigSection root(gains, "");
-  const auto claim = read_certificate(root, *config.plant);
+  const auto claim =
+      read_certificate(root, *config.plant, read_law(root, {config.plant, config.names})->gains());
   ASSERT_TRUE(claim) << text.str();
   const auto checks = check(claim->certificate);
   EXPECT_TRUE(all_hold(checks)) << describe_violations(checks);

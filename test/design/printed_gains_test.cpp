@@ -6,8 +6,9 @@
 #include <string>
 
 #include "config/certificate_config.h"
+#include "config/claimed_gains.h"
 #include "config/design_config.h"
-#include "config/named_values.h"
+#include "config/law_config.h"
 #include "design/analysis.h"
 #include "design/workers.h"
 #include "sampled_data_observers/config/observer_config.h"
@@ -28,11 +29,15 @@ class PrintedGainsTest : public ::testing::TestWithParam<ShippedExample> {
   PrintedGainsTest() : config_(read_design_config({file(GetParam().plant)}, no_plant_plugins)) {
     const ConfigNode tree = read_yaml_file(file("gains.yaml"));
     ConfigSection root(tree, "");
-    shipped_ = read_certificate(root, *config_.plant)->certificate;
+    shipped_ = read_certificate(root, *config_.plant, gains_of(root))->certificate;
   }
 
   static std::string file(const std::string& name) {
     return std::string(SDO_SOURCE_DIR) + "/config/examples/" + GetParam().folder + "/" + name;
+  }
+
+  LawGains gains_of(ConfigSection& root) const {
+    return read_law(root, {config_.plant, config_.names})->gains();
   }
 
   /// The best certificate of the gains that the paper prints, for the shipped certificate's rate
@@ -40,12 +45,11 @@ class PrintedGainsTest : public ::testing::TestWithParam<ShippedExample> {
   Certificate printed() const {
     const ConfigNode tree = read_yaml_file(file("gains_printed.yaml"));
     ConfigSection root(tree, "");
-    ConfigSection gains = root.section("gains");
     AnalysisProblem problem;
     problem.theorem = shipped_.theorem;
     problem.subject = shipped_.subject;
-    problem.gains =
-        read_gain_values(gains, shipped_.theorem->gains(shipped_.subject), shipped_.subject);
+    problem.gains = gains_of_theorem(root.section("gains"), *shipped_.theorem, shipped_.subject,
+                                     gains_of(root));
     problem.objective = GetParam().objective;
     const std::string decay = shipped_.theorem->decay_parameter();
     if (problem.objective == Objective::kMinGamma) {

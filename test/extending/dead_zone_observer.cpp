@@ -18,6 +18,10 @@ DeadZoneObserver::DeadZoneObserver(ObserverContext context, std::vector<Eigen::M
   build_flow();
 }
 
+LawGains DeadZoneObserver::gains() const {
+  return LawGains().add("L", L_, plant(), SensorTiming::kSampled).add("width", width_);
+}
+
 void DeadZoneObserver::sample(std::size_t sensor, const double* y, const Held& held, double* state,
                               double* workspace) const {
   double* innovation = workspace;

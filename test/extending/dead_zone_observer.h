@@ -14,6 +14,8 @@ class DeadZoneObserver : public sampled_data_observers::PlantObserver {
   DeadZoneObserver(sampled_data_observers::ObserverContext context, std::vector<Eigen::MatrixXd> L,
                    double width);
 
+  sampled_data_observers::LawGains gains() const override;
+
  protected:
   void sample(std::size_t sensor, const double* y, const Held& held, double* state,
               double* workspace) const override;

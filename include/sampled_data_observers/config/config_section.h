@@ -51,6 +51,8 @@ class ConfigSection {
 
   /// A matrix as nested lists, row by row. A negative size is free.
   Eigen::MatrixXd matrix(const std::string& key, Eigen::Index rows, Eigen::Index cols);
+  /// Whether the key has a matrix of finite numbers.
+  bool is_matrix(const std::string& key);
   /// Names and texts in order, as a list of maps of one key each.
   std::vector<std::pair<std::string, std::string>> named_texts(const std::string& key);
   /// A matrix of texts, as nested lists, row by row.

@@ -7,6 +7,7 @@
 
 #include "sampled_data_observers/hybrid/hybrid_system.h"
 #include "sampled_data_observers/observer/bound_loss.h"
+#include "sampled_data_observers/observer/law_gains.h"
 
 namespace sampled_data_observers {
 
@@ -20,6 +21,10 @@ class ObserverLaw : public HybridSystem {
  public:
   /// Names of the estimated states, in the order of the state vector.
   virtual const std::vector<std::string>& estimate_names() const = 0;
+
+  /// What it computes with beside its plant. By default nothing, so that no certificate can be
+  /// about it.
+  virtual LawGains gains() const { return {}; }
 
   /// Number of estimated states: the first entries of the state vector.
   Eigen::Index estimate_size() const { return static_cast<Eigen::Index>(estimate_names().size()); }

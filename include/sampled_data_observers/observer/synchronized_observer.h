@@ -1,20 +1,11 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
 #include <vector>
 
 #include "sampled_data_observers/observer/plant_observer.h"
 
 namespace sampled_data_observers {
-
-/// A state that the flow map takes from a continuous output instead of from the estimate.
-struct OutputInjection {
-  /// Position among the states of the plant.
-  Eigen::Index state = 0;
-  /// A sensor that measures continuously and has one output.
-  std::size_t sensor = 0;
-};
 
 /// The gains of a synchronized observer. Either may be zero: L_c alone makes it flow-based, L_d
 /// alone jump-based.
@@ -39,6 +30,8 @@ class SynchronizedObserver : public PlantObserver {
  public:
   /// @throws std::invalid_argument when a size does not fit the plant.
   SynchronizedObserver(const ObserverContext& context, SynchronizedGains gains);
+
+  LawGains gains() const override;
 
  protected:
   bool flow_is_affine() const override;

@@ -5,8 +5,9 @@
 #include <vector>
 
 #include "config/certificate_config.h"
+#include "config/claimed_gains.h"
 #include "config/design_config.h"
-#include "config/named_values.h"
+#include "config/law_config.h"
 #include "console/option_checks.h"
 #include "design/analysis.h"
 #include "design/assumed_disturbance.h"
@@ -56,7 +57,7 @@ std::vector<const Theorem*> in_order_of_use(const CertificateSubject& subject) {
 }
 
 const Theorem& theorem_for(ConfigSection& root, const std::string& name,
-                           const CertificateSubject& subject) {
+                           const CertificateSubject& subject, const LawGains& law) {
   if (!name.empty()) return *find_theorem(name);
   const std::string type = root.text("observer");
   std::string reasons;
@@ -65,7 +66,9 @@ const Theorem& theorem_for(ConfigSection& root, const std::string& name,
     if (std::find(types.begin(), types.end(), type) == types.end()) continue;
     try {
       theorem->require_applicable(subject);
-      return *theorem;
+      const std::vector<std::string> beside = gains_beside(*theorem, subject, law);
+      if (beside.empty()) return *theorem;
+      throw std::invalid_argument("it is not about gains/" + beside.front());
     } catch (const std::invalid_argument& fault) {
       reasons += (reasons.empty() ? "" : "; ") + theorem->name() + ": " + fault.what();
     }
@@ -101,7 +104,8 @@ AnalysisProblem read_problem(const AnalyzeArguments& arguments, const DesignConf
   ConfigSection root(tree, "");
   AnalysisProblem problem;
   problem.subject = config.subject;
-  const auto claim = read_certificate(root, *config.plant);
+  const LawGains law = read_law(root, {config.plant, config.names})->gains();
+  const auto claim = read_certificate(root, *config.plant, law);
   if (claim) {
     problem.subject = claim->certificate.subject;
   } else if (root.has("sampling")) {
@@ -116,12 +120,15 @@ AnalysisProblem read_problem(const AnalyzeArguments& arguments, const DesignConf
   }
   problem.theorem = claim && arguments.theorem.empty()
                         ? claim->certificate.theorem
-                        : &theorem_for(root, arguments.theorem, problem.subject);
+                        : &theorem_for(root, arguments.theorem, problem.subject, law);
   take(config.parameters, *problem.theorem, problem);
   if (claim) take(claimed(claim->certificate), *problem.theorem, problem);
   for (const std::string& assignment : arguments.assignments) assign(assignment, problem.given);
-  ConfigSection gains = root.section("gains");
-  problem.gains = read_gain_values(gains, problem.theorem->gains(problem.subject), problem.subject);
+  const ConfigSection gains = root.section("gains");
+  problem.gains = gains_of_theorem(gains, *problem.theorem, problem.subject, law);
+  if (const auto error = objection_to_gains(gains, *problem.theorem, problem.subject, law)) {
+    throw ConfigError(*error);
+  }
   return problem;
 }
 

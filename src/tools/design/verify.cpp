@@ -9,6 +9,8 @@
 
 #include "config/certificate_config.h"
 #include "config/claim_contradiction.h"
+#include "config/claimed_gains.h"
+#include "config/law_config.h"
 #include "config/plant_fingerprint.h"
 #include "console/option_checks.h"
 #include "console/progress_bar.h"
@@ -47,10 +49,15 @@ std::vector<CertificateConfig> read_claims(const VerifyArguments& arguments) {
   }
   ConfigSection plant_section = plant_root.section("plant");
   const std::string hash = plant_fingerprint(plant_tree);
+  const LawGains law = read_law(root, plant)->gains();
   std::vector<CertificateConfig> claims;
   for (const char* key : {kCertificate, kRunTimeCertificate}) {
-    const auto claim = read_certificate(root, *plant.plant, key);
+    const auto claim = read_certificate(root, *plant.plant, law, key);
     if (!claim) continue;
+    if (const auto error = objection_to_gains(root.section("gains"), *claim->certificate.theorem,
+                                              claim->certificate.subject, law)) {
+      throw ConfigError(*error);
+    }
     ConfigSection section = root.section(key);
     require_no_contradiction(*plant.plant, claim->certificate.subject.plant.stated, plant_section,
                              section);
