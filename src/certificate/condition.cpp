@@ -13,8 +13,6 @@
 namespace sampled_data_observers {
 namespace {
 
-using Kind = Condition::Kind;
-
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 constexpr int kRefinementBits = 20;
@@ -165,26 +163,26 @@ ConditionCheck check_over_tau(const Condition& condition, const NamedMatrices& v
 }
 
 Condition domain(const std::string& name, const char* relation, const MatrixExpression& value,
-                 Kind kind) {
+                 Condition::Kind kind) {
   return {name + relation, value, std::nullopt, kind};
 }
 
 }  // namespace
 
 Condition positive(const std::string& name) {
-  return domain(name, " > 0", symbol(name), Kind::kPositive);
+  return domain(name, " > 0", symbol(name), Condition::Kind::kPositive);
 }
 
 Condition not_negative(const std::string& name) {
-  return domain(name, " >= 0", symbol(name), Kind::kNonNegative);
+  return domain(name, " >= 0", symbol(name), Condition::Kind::kNonNegative);
 }
 
 std::vector<Condition> domain_of_times(double T1, double T2) {
-  std::vector<Condition> all = {domain("T1", " >= 0", T1, Kind::kNonNegative)};
+  std::vector<Condition> all = {domain("T1", " >= 0", T1, Condition::Kind::kNonNegative)};
   if (T2 == kUnbounded) return all;
-  all.push_back(domain("T2", " > 0", T2, Kind::kPositive));
+  all.push_back(domain("T2", " > 0", T2, Condition::Kind::kPositive));
   // The sign of a difference is never rounded.
-  all.push_back(domain("T1", " <= T2", T2 - T1, Kind::kNonNegative));
+  all.push_back(domain("T1", " <= T2", T2 - T1, Condition::Kind::kNonNegative));
   return all;
 }
 
@@ -234,7 +232,7 @@ std::string describe_violations(const std::vector<ConditionCheck>& checks) {
 double least_margin(const std::vector<ConditionCheck>& checks) {
   double least = kUnbounded;
   for (const ConditionCheck& check : checks) {
-    if (check.kind != Kind::kDefinite && check.holds()) continue;
+    if (check.kind != Condition::Kind::kDefinite && check.holds()) continue;
     least = std::min(least, check.margin());
   }
   return least;

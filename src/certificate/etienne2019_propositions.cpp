@@ -129,7 +129,7 @@ class WithoutInputs : public Proposition {
 };
 
 /// Theorem 1 with (13) as it is.
-class Theorem1 : public WithoutInputs {
+class Etienne2019Theorem1 : public WithoutInputs {
  public:
   std::string name() const override { return "etienne2019_theorem1"; }
 
@@ -309,7 +309,7 @@ class Proposition2Channels : public Proposition {
 }  // namespace
 
 const Theorem& etienne2019_theorem1() {
-  static const Theorem1 theorem;
+  static const Etienne2019Theorem1 theorem;
   return theorem;
 }
 

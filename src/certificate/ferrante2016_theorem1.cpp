@@ -61,7 +61,7 @@ class Theorem1Bound : public SampledErrorBound {
   ExponentialNorm noise_weight_;
 };
 
-class Theorem1 : public Theorem {
+class Ferrante2016Theorem1 : public Theorem {
  public:
   std::string name() const override { return "ferrante2016_theorem1"; }
 
@@ -134,7 +134,7 @@ class Theorem1 : public Theorem {
 }  // namespace
 
 const Theorem& ferrante2016_theorem1() {
-  static const Theorem1 theorem;
+  static const Ferrante2016Theorem1 theorem;
   return theorem;
 }
 

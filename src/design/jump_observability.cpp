@@ -14,9 +14,9 @@ namespace {
 constexpr double kMostSequences = 1e6;
 
 /// Goes through all sequences, with what their common beginnings share.
-class Trial {
+class SequenceSearch {
  public:
-  Trial(const CertificateSubject& subject, std::size_t points) {
+  SequenceSearch(const CertificateSubject& subject, std::size_t points) {
     const ModeMatrices& plant = subject.plant.mode();
     for (std::size_t i = 0; i < points; ++i) {
       const double part =
@@ -69,9 +69,9 @@ JumpObservability jump_observability(const CertificateSubject& subject, std::siz
                                 " intervals are more than a million sequences");
   }
   const Eigen::Index n = plant.states();
-  Trial trial(subject, points);
-  trial.run(jumps, Eigen::MatrixXd::Identity(n, n), Eigen::MatrixXd::Zero(n, n));
-  return trial.result();
+  SequenceSearch search(subject, points);
+  search.run(jumps, Eigen::MatrixXd::Identity(n, n), Eigen::MatrixXd::Zero(n, n));
+  return search.result();
 }
 
 }  // namespace sampled_data_observers
