@@ -71,13 +71,6 @@ class Theorem2Bound : public SampledErrorBound {
     double noise = 0.0;  ///< ‖R K(τ)‖
   };
 
-  void exponential(const LinearFlow& flow, Duration duration, double* E, double* scratch) const {
-    for (Eigen::Index j = 0; j < n_; ++j) {
-      for (Eigen::Index i = 0; i < n_; ++i) E[j * n_ + i] = i == j ? 1.0 : 0.0;
-      flow.apply(duration, E + j * n_, nullptr, scratch);
-    }
-  }
-
   Factors factors_at(double tau, double* workspace) const {
     double* flown = workspace;  // e^{Aτ}, then e^{Aτ} R⁻¹
     double* kept = flown + n_ * n_;
@@ -87,12 +80,12 @@ class Theorem2Bound : public SampledErrorBound {
     double* measured = K + n_ * m_;
     double* scratch = measured + m_ * n_;
     const Duration duration = from_seconds(tau);
-    exponential(backward_, duration, kept, scratch);
+    backward_.transition(duration, kept, scratch);
     gain_->evaluate(kept, K, scratch);
     multiply(R_.data(), n_, n_, K, m_, product);
     Factors factors;
     factors.noise = spectral_norm_bound(product, n_, m_, scratch) + rounding_of_noise(K);
-    exponential(forward_, duration, flown, scratch);
+    forward_.transition(duration, flown, scratch);
     factors.kept = rounding_of_kept(K, flown, magnitude, product, measured);
     multiply(flown, n_, n_, inverse_R_.data(), n_, kept);
     multiply(C_.data(), m_, n_, kept, n_, measured);

@@ -5,12 +5,6 @@
 
 namespace sampled_data_observers {
 
-// Durations are whole nanoseconds, written in base 64: flows are tabulated for each digit at each
-// place.
-constexpr int kDigitBits = 6;
-constexpr int kDigits = 1 << kDigitBits;
-constexpr int kPlaces = (63 + kDigitBits - 1) / kDigitBits;
-
 using ExtendedMatrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
 
 /// A transition matrix, kept in both forms: the difference from the identity holds the digits of
@@ -20,6 +14,8 @@ struct Transition {
       : minus_identity(std::move(difference)),
         full(ExtendedMatrix::Identity(minus_identity.rows(), minus_identity.cols()) +
              minus_identity) {}
+
+  bool is_finite() const { return full.allFinite(); }
 
   ExtendedMatrix minus_identity;
   ExtendedMatrix full;

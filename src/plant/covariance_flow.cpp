@@ -1,9 +1,9 @@
 #include "plant/covariance_flow.h"
 
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
+#include "linear_algebra/digit_tables.h"
 #include "linear_algebra/ordered_linear_algebra.h"
 #include "linear_algebra/transition_matrix.h"
 
@@ -15,7 +15,12 @@ struct Step {
   Transition transition;
   ExtendedMatrix noise;
 
-  bool is_finite() const { return transition.full.allFinite() && noise.allFinite(); }
+  bool is_finite() const { return transition.is_finite() && noise.allFinite(); }
+  void write(double* table) const {
+    const Eigen::Index n = noise.rows();
+    Eigen::Map<Eigen::MatrixXd>(table, n, n) = transition.full.cast<double>();
+    Eigen::Map<Eigen::MatrixXd>(table + n * n, n, n) = noise.cast<double>();
+  }
 };
 
 Step compose(const Step& first, const Step& second) {
@@ -55,40 +60,22 @@ CovarianceFlow::CovarianceFlow(const Eigen::MatrixXd& A, const Eigen::MatrixXd& 
   if (!A.allFinite() || !Q.allFinite()) {
     throw std::invalid_argument("CovarianceFlow: A and Q must be finite");
   }
-  const auto entries = static_cast<std::size_t>(states_ * states_);
-  // An unstable plant's later transitions overflow.
-  tables_.assign(2 * entries * kDigits * kPlaces, std::numeric_limits<double>::infinity());
   const ExtendedMatrix zero = ExtendedMatrix::Zero(states_, states_);
-  double* table = tables_.data();
-  for (int place = 0; place < kPlaces; ++place) {
-    const long double unit = std::ldexp(1e-9L, kDigitBits * place);
-    std::vector<Step> digits = {
-        {Transition(zero), zero},
-        unit_step(A.cast<long double>() * unit, Q.cast<long double>() * unit)};
-    for (std::size_t d = 2; d < kDigits && digits.back().is_finite(); ++d) {
-      digits.push_back(compose(digits[d / 2], digits[d - d / 2]));
-    }
-    for (const Step& digit : digits) {
-      if (!digit.is_finite()) return;
-      Eigen::Map<Eigen::MatrixXd>(table, states_, states_) = digit.transition.full.cast<double>();
-      table += entries;
-      Eigen::Map<Eigen::MatrixXd>(table, states_, states_) = digit.noise.cast<double>();
-      table += entries;
-    }
-  }
+  const auto unit = [&](long double scale) {
+    const long double seconds = 1e-9L * scale;
+    return unit_step(A.cast<long double>() * seconds, Q.cast<long double>() * seconds);
+  };
+  tables_ = digit_tables(block(), Step{Transition(zero), zero}, unit);
 }
 
 void CovarianceFlow::apply(Duration duration, double* P, double* scratch) const {
   const Eigen::Index entries = states_ * states_;
-  for (Eigen::Index place = 0; duration > 0; ++place, duration >>= kDigitBits) {
-    const auto digit = static_cast<Eigen::Index>(duration & (kDigits - 1));
-    if (digit == 0) continue;
-    const double* Phi = tables_.data() + 2 * entries * (place * kDigits + digit);
+  for_each_digit(duration, tables_, block(), [&](const double* Phi) {
     const double* noise = Phi + entries;
     multiply(Phi, states_, states_, P, states_, scratch);
     for (Eigen::Index i = 0; i < entries; ++i) P[i] = noise[i];
     add_symmetric_product(scratch, Phi, states_, states_, P);
-  }
+  });
 }
 
 }  // namespace sampled_data_observers

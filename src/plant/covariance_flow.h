@@ -24,8 +24,10 @@ class CovarianceFlow {
   void apply(Duration duration, double* P, double* scratch) const;
 
  private:
+  std::size_t block() const { return static_cast<std::size_t>(2 * states_ * states_); }
+
   Eigen::Index states_;
-  /// [Φ Q_Δ] of digit d at place k, column-major, at (64 k + d) 2 n².
+  /// [Φ Q_Δ] of each digit, column-major: see digit_tables().
   std::vector<double> tables_;
 };
 

@@ -35,25 +35,21 @@ class SimulatedPlant::Flow {
 
 class SimulatedPlant::ExactFlow : public Flow {
  public:
-  explicit ExactFlow(const Plant& plant)
-      : held_(Eigen::VectorXd::Ones(plant.inputs() + 1)), scratch_(plant.states()) {
+  explicit ExactFlow(const Plant& plant) : scratch_(plant.states()) {
     for (const PlantMode& mode : plant.modes()) {
       const AffineMap& map = *mode.flow->affine();
-      Eigen::MatrixXd B = Eigen::MatrixXd::Zero(plant.states(), plant.inputs() + 1);
+      Eigen::MatrixXd B = Eigen::MatrixXd::Zero(plant.states(), plant.inputs());
       B.leftCols(map.N().cols()) = map.N();
-      B.rightCols(1) = map.c();
-      flows_.emplace_back(map.M(), B);
+      flows_.emplace_back(map.M(), B, map.c());
     }
   }
 
   void apply(std::size_t mode, Duration, Duration duration, const double* u, double* x) override {
-    std::copy_n(u, held_.size() - 1, held_.data());
-    flows_[mode].apply(duration, x, held_.data(), scratch_.data());
+    flows_[mode].apply(duration, x, u, scratch_.data());
   }
 
  private:
   std::vector<LinearFlow> flows_;
-  Eigen::VectorXd held_;  ///< (u, 1)
   Eigen::VectorXd scratch_;
 };
 

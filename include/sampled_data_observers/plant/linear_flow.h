@@ -7,32 +7,37 @@
 
 namespace sampled_data_observers {
 
-/// The exact flow of ẋ = A x + B u with constant u, over any whole number of nanoseconds.
+/// The exact flow of ẋ = A x + B u + c with constant u, over any whole number of nanoseconds.
 ///
 /// Time is an integer, so every duration is a sum of few tabulated ones: it is written in base 64,
 /// and the transition matrix of every digit at every place is computed once, in extended precision
-/// from (A, B) itself. A flow then costs one matrix-vector product a non-zero digit, at most five
-/// up to 1 s and eleven at all, whatever the norm of A: stiff, nilpotent, oscillating and unstable
-/// plants take the same time and are exact to rounding.
+/// from (A, B, c) itself. A flow then costs one matrix-vector product a non-zero digit, at most
+/// five up to 1 s and eleven at all, whatever the norm of A: stiff, nilpotent, oscillating and
+/// unstable plants take the same time and are exact to rounding.
 ///
-/// The tables hold 704 n (n + p) doubles: 90 kB for n = 4, 1.3 MB for n = 15, without inputs.
+/// The tables hold 704 n (n + p) doubles, and 704 n for c: 90 kB for n = 4, 1.3 MB for n = 15,
+/// without inputs.
 class LinearFlow {
  public:
   /// @param A  n x n
   /// @param B  n x p; p may be 0
+  /// @param c  n, or empty: there is none
   /// @throws std::invalid_argument for dimensions that do not fit or entries that are not finite.
-  LinearFlow(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
+  LinearFlow(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B, const Eigen::VectorXd& c = {});
 
   /// Carries x (n entries) over `duration` >= 0 under the constant input u (p entries).
   /// `scratch`: n entries that overlap neither.
   void apply(Duration duration, double* x, const double* u, double* scratch) const;
 
- private:
-  const double* transition(int place, int digit) const;
+  /// E (n x n) ← e^{A duration}, with `scratch` as for apply().
+  /// @pre no c
+  void transition(Duration duration, double* E, double* scratch) const;
 
+ private:
   Eigen::Index states_;
   Eigen::Index inputs_;
-  /// [Φ Γ] of digit d at place k, column-major, at (64 k + d) n (n + p).
+  bool has_constant_;
+  /// [Φ Γ γ] of each digit, column-major: see digit_tables().
   std::vector<double> tables_;
 };
 
