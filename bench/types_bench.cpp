@@ -35,7 +35,7 @@ class PreparedLaw {
   Event event(EventKind kind, int channel) {
     values_.setConstant(law_->max_event_size(), 0.2);
     Event result{1, kind, channel, values_.data(), law_->event_size(kind, channel), 0};
-    if (kind == EventKind::kJump && !law_->knows_mode(result)) values_(0) = 2.0;
+    if (kind == EventKind::kJump && !law_->observer().knows_mode(result)) values_(0) = 2.0;
     return result;
   }
 

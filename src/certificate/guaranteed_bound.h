@@ -27,7 +27,7 @@ namespace sampled_data_observers {
 /// of another law, what was known of that one's error (keep_bound()).
 ///
 /// A share of 64 n ε of |x̂| is added for the rounding of the estimate, n the number of its states.
-class GuaranteedBound : public LawDecorator {
+class GuaranteedBound : public LawDecorator, public StateBound {
  public:
   /// @param law    of that plant
   /// @param plant  without formulas in its angular outputs
@@ -36,29 +36,31 @@ class GuaranteedBound : public LawDecorator {
                   std::unique_ptr<const ErrorBound> bound, std::shared_ptr<const Plant> plant,
                   double noise);
 
-  Eigen::Index workspace_size() const override;
   Eigen::Index event_size(EventKind kind, int channel) const override;
   void initialize(double* state) const override;
   void flow(Duration duration, double* state, double* workspace) const override;
   Effect reset(const Event& event, double* state, double* workspace) const override;
-  void hold(double* state) const override;
   double error_bound(const double* state) const override;
   BoundLoss bound_loss(const double* state) const override;
   void keep_bound(const PublishedBound& bound, double* state) const override;
+  void give_up(double* state) const override;
 
  private:
-  double* before(double* state) const;
-  double* then(double* state) const;
-  double* now(double* state) const;
-  const double* now(const double* state) const;
-  double bound_of(const double* part) const;
-  void settle(double* part) const;
-  void lose(double* part, BoundLoss reason) const;
+  /// What is known at one time: why the bound is lost, if it is, and the state of the ErrorBound.
+  struct Part {
+    ChoiceSlot<BoundLoss> loss;
+    VectorSlot bound;
+  };
+
+  double bound_of(const Part& part, const double* state) const;
+  void settle(const Part& part, double* state) const;
+  static void lose(const Part& part, BoundLoss reason, double* state);
+  static void copy(const Part& from, const Part& to, double* state);
   void give_up(double* state, BoundLoss reason) const;
-  void take_over(const double* from, double* to) const;
+  void go_on_from_then(double* state) const;
   void flow_part(double* state) const;
   void begin_interval(double* state) const;
-  double moved_since_before(double* state) const;
+  double moved_since_before(const double* state) const;
   bool may_be_wrapped(double error, std::size_t sensor, const double* innovation) const;
   bool may_be_wrapped(const Event& event, double* state, double* workspace) const;
   void sample(double* state, double* workspace, bool is_wrapped) const;
@@ -73,6 +75,18 @@ class GuaranteedBound : public LawDecorator {
   /// |C_i| of each angular output of each sensor, the largest of all modes; 0 of one that is none.
   std::vector<Eigen::VectorXd> angles_;
   bool jumps_are_measured_;
+
+  TimerSlot since_ = state_layout().timer();    ///< the last sample, jump or start
+  FlagSlot awaiting_ = state_layout().flag();   ///< the outputs of the last jump are still to come
+  NumberSlot moved_ = state_layout().number();  ///< by how much x̂ did at that jump
+  VectorSlot before_ = state_layout().vector(estimate_size());  ///< x̂ before the last of them
+  /// The bound at the last of them (before a jump whose outputs are still to come), and the bound
+  /// now, which is always computed from that one, however often the flow is interrupted.
+  Part then_ = {state_layout().choice<BoundLoss>(), state_layout().vector(bound_->state_size())};
+  Part now_ = {state_layout().choice<BoundLoss>(), state_layout().vector(bound_->state_size())};
+
+  VectorSlot bound_workspace_ = scratch(bound_->workspace_size());
+  VectorSlot innovation_ = scratch(max_event_size());
 };
 
 }  // namespace sampled_data_observers

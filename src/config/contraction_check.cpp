@@ -46,7 +46,7 @@ class ErrorMap {
   Matrix over(const Cycle& cycle) {
     const Eigen::Index size = law_.flow_size();
     law_.initialize(state_.data());
-    law_.keep_mode(static_cast<double>(cycle.back().next_mode), state_.data());
+    law_.keep_mode(cycle.back().next_mode, state_.data());
     for (int count = 0; count < kSettling; ++count) {
       for (const Interval& interval : cycle) step(interval, nullptr);
     }
@@ -101,7 +101,7 @@ class ErrorMap {
   }
 
   void take_jump(const Vector& reference, std::size_t next_mode) {
-    const auto mode = static_cast<std::size_t>(law_.mode_of(reference.data()));
+    const std::size_t mode = law_.mode_of(reference.data());
     Eigen::Index size = 0;
     if (plant_.switches()) y_(size++) = plant_.modes()[next_mode].label;
     for (std::size_t i = 0; i < plant_.sensors().size(); ++i) {

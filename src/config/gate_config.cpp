@@ -1,5 +1,6 @@
 #include "config/gate_config.h"
 
+#include "sampled_data_observers/observer/plant_observer.h"
 #include "sampled_data_observers/runtime/estimator.h"
 
 namespace sampled_data_observers {
@@ -62,7 +63,7 @@ std::vector<std::optional<Gate>> read_gates(ConfigSection& root, const Plant& pl
                                             const ObserverLaw& law) {
   Eigen::VectorXd state(law.state_size());
   law.initialize(state.data());
-  const bool has_covariance = law.covariance(state.data()) != nullptr;
+  const bool has_covariance = law.observer().covariance(state.data()) != nullptr;
   std::vector<std::optional<Gate>> gates;
   ConfigSection sensors = root.section("sensors");
   for (const Sensor& sensor : plant.sensors()) {

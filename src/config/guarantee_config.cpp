@@ -12,6 +12,7 @@
 #include "config/integration_check.h"
 #include "config/number_text.h"
 #include "config/plant_fingerprint.h"
+#include "sampled_data_observers/observer/plant_observer.h"
 
 namespace sampled_data_observers {
 namespace {
@@ -42,7 +43,7 @@ std::optional<ConfigError> objection_to_statements(ConfigSection& root,
     }
   }
   if (stated.is_empty()) return std::nullopt;
-  const std::vector<OutputInjection> injections = config.law->gains().output_injections;
+  const std::vector<OutputInjection> injections = config.law->observer().gains().output_injections;
   const auto found = refute_error_maps(plant, stated, injections, centre);
   if (!found) return std::nullopt;
   if (const auto others = injections_that_explain(plant, stated, centre)) {
@@ -61,7 +62,7 @@ std::optional<ConfigError> objection(ConfigSection& root, const ConfigNode& tree
   const ConfigSection section = root.section(claim.section);
   const Certificate& certificate = claim.certificate;
   if (auto error = objection_to_gains(root.section("gains"), *certificate.theorem,
-                                      certificate.subject, config.law->gains())) {
+                                      certificate.subject, config.law->observer().gains())) {
     return error;
   }
   const std::string hash = plant_fingerprint(tree);
@@ -194,8 +195,9 @@ Guarantee read_guarantee(ConfigSection& root, const ConfigNode& tree, const Obse
   Guarantee guarantee;
   const bool allow_uncertified = root.flag("allow_uncertified", false);
   const ObserverLaw& law = *config.law;
-  const auto claim = read_certificate(root, *config.plant, law.gains());
-  const auto for_bound = read_certificate(root, *config.plant, law.gains(), kRunTimeCertificate);
+  const auto claim = read_certificate(root, *config.plant, law.observer().gains());
+  const auto for_bound =
+      read_certificate(root, *config.plant, law.observer().gains(), kRunTimeCertificate);
   if (!claim) {
     if (for_bound) {
       throw root.error(kRunTimeCertificate,
@@ -234,7 +236,8 @@ Guarantee read_guarantee(ConfigSection& root, const ConfigNode& tree, const Obse
   if (!root.has("error_assumptions")) return guarantee;
   require_bounded(root, config, delays_jumps);
   const CertificateConfig& basis = for_bound ? *for_bound : *claim;
-  const ErrorAssumptions assumptions = read_assumptions(root, basis, law.gains(), guarantee);
+  const ErrorAssumptions assumptions =
+      read_assumptions(root, basis, law.observer().gains(), guarantee);
   if (error) return guarantee;
   guarantee.bound = bound_of(root, basis.certificate, assumptions);
   guarantee.noise = assumptions.noise;

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "messages/time_conversion.h"
+#include "sampled_data_observers/observer/plant_observer.h"
 
 namespace sampled_data_observers {
 namespace {
@@ -58,7 +59,7 @@ void write(const ObserverRuntime& runtime, const Estimate& estimate, StateEstima
   message.header.frame_id = runtime.setup().frame_id;
   message.names = law.estimate_names();
   message.state.assign(estimate.state.data(), estimate.state.data() + size);
-  const double* covariance = law.covariance(estimate.state.data());
+  const double* covariance = law.observer().covariance(estimate.state.data());
   if (covariance != nullptr) message.covariance.assign(covariance, covariance + size * size);
   message.error_bound = runtime.bound(estimate).value;
   message.time_since_sample = estimate.counts.last_sample

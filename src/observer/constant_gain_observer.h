@@ -31,6 +31,7 @@ class ConstantGainObserver : public PlantObserver {
 
  private:
   std::vector<Eigen::MatrixXd> L_;
+  VectorSlot innovation_ = scratch(plant().max_outputs());
 };
 
 }  // namespace sampled_data_observers

@@ -19,14 +19,16 @@ class DelayedJumps : public LawDecorator {
   explicit DelayedJumps(const std::shared_ptr<const ObserverLaw>& law);
 
   Eigen::Index event_size(EventKind kind, int channel) const override;
-  Eigen::Index max_event_size() const override;
   void initialize(double* state) const override;
   void flow(Duration duration, double* state, double* workspace) const override;
   Effect reset(const Event& event, double* state, double* workspace) const override;
-  bool delays_jumps() const override { return true; }
 
  private:
   void release(double* state) const;
+
+  FlagSlot pending_ = state_layout().flag();
+  TimerSlot since_jump_ = state_layout().timer();
+  VectorSlot mu_ = state_layout().vector(law().state_size());
 };
 
 }  // namespace sampled_data_observers

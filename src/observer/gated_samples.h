@@ -44,18 +44,34 @@ class GatedSamples : public LawDecorator {
   /// @throws std::invalid_argument for limits out of range, a gate of a sensor that is not sampled,
   /// and a Mahalanobis distance where the law has no covariance.
   GatedSamples(const std::shared_ptr<const ObserverLaw>& law,
-               std::vector<std::optional<Gate>> gates);
+               const std::vector<std::optional<Gate>>& gates);
 
-  Eigen::Index workspace_size() const override;
   void initialize(double* state) const override;
   void flow(Duration duration, double* state, double* workspace) const override;
   Effect reset(const Event& event, double* state, double* workspace) const override;
 
  private:
-  bool is_outside(const Event& sample, const double* state, double* workspace) const;
+  enum class Standing : std::uint8_t {
+    kOpen,      ///< nothing was inside since the start
+    kClosed,    ///< the last sample was inside
+    kRejecting  ///< it was not, and was not used
+  };
+  /// A gate and what the state holds of it.
+  struct GateInUse {
+    Gate gate;
+    ChoiceSlot<Standing> standing;
+    TimerSlot since_rejected;  ///< the first of the samples rejected one after another
+  };
+
+  Effect reset(const GateInUse& of_sensor, const Event& sample, double* state,
+               double* workspace) const;
+  bool is_outside(const Gate& gate, const Event& sample, const double* state,
+                  double* workspace) const;
   void begin_anew(double* state, double* workspace) const;
 
-  std::vector<std::optional<Gate>> gates_;
+  std::vector<std::optional<GateInUse>> gates_;
+  VectorSlot innovation_ = scratch(law().max_event_size());
+  VectorSlot before_ = scratch(law().state_size());
 };
 
 }  // namespace sampled_data_observers

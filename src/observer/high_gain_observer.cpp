@@ -16,23 +16,11 @@ const AffineMap& affine(const VectorMap& map, const char* name) {
   return *map.affine();
 }
 
-/// H: the continuous outputs of all sensors, one below the other.
-Eigen::MatrixXd stacked_outputs(const Plant& plant) {
-  Eigen::MatrixXd H(plant.outputs(SensorTiming::kContinuous), plant.states());
-  Eigen::Index row = 0;
-  for (std::size_t i = 0; i < plant.sensors().size(); ++i) {
-    const Eigen::Index m = plant.sensors()[i].outputs();
-    H.middleRows(row, m) = affine(*plant.modes().front().outputs[i], "outputs").M();
-    row += m;
-  }
-  return H;
-}
-
 }  // namespace
 
-HighGainObserver::HighGainObserver(const ObserverContext& context, const Extras& extras,
-                                   Saturation saturation)
-    : PlantObserver(context, extras, {SensorTiming::kContinuous}),
+HighGainObserver::HighGainObserver(const ObserverContext& context, Saturation saturation,
+                                   Eigen::Index flowing)
+    : PlantObserver(context, {SensorTiming::kContinuous}, flowing),
       saturation_(std::move(saturation)) {
   if (saturation_.size() != n()) {
     throw std::invalid_argument("saturations: one entry per state of the plant");
@@ -49,10 +37,16 @@ HighGainObserver::HighGainObserver(const ObserverContext& context, const Extras&
   }
 }
 
+void HighGainObserver::require_one_output() const {
+  if (plant().sensors().size() != 1 || plant().max_outputs() != 1) {
+    throw std::invalid_argument("this form takes one continuous sensor with one output");
+  }
+}
+
 void HighGainObserver::check_start() const {
   Eigen::VectorXd state(state_size());
   Eigen::VectorXd workspace(workspace_size());
-  Eigen::VectorXd slope(flowing_size());
+  Eigen::VectorXd slope(flow_size());
   initialize(state.data());
   Held now = held(state.data());
   const Eigen::VectorXd y_c = Eigen::VectorXd::Zero(plant().outputs(SensorTiming::kContinuous));
@@ -74,10 +68,11 @@ void HighGainObserver::jump(const Held& held, std::size_t next, const JumpOutput
 LinearHighGainObserver::LinearHighGainObserver(const ObserverContext& context,
                                                Saturation saturation, double ell,
                                                const std::vector<Eigen::VectorXd>& K)
-    : HighGainObserver(context, {0, 0, 0, context.plant->outputs(SensorTiming::kContinuous)},
-                       std::move(saturation)) {
-  const Eigen::MatrixXd& A = affine(*plant().modes().front().flow, "a flow").M();
-  const Eigen::MatrixXd H = stacked_outputs(plant());
+    : HighGainObserver(context, std::move(saturation)) {
+  const PlantMode& mode = plant().modes().front();
+  const Eigen::MatrixXd& A = affine(*mode.flow, "a flow").M();
+  for (const auto& output : mode.outputs) affine(*output, "outputs");
+  const Eigen::MatrixXd H = plant().stacked_outputs(0, SensorTiming::kContinuous);
   L_c_ = high_gain(A, H, observable_form(A, H), ell, K);
   listed().add("ell", ell);
   for (std::size_t i = 0; i < K.size(); ++i) {
@@ -87,23 +82,19 @@ LinearHighGainObserver::LinearHighGainObserver(const ObserverContext& context,
 }
 
 bool LinearHighGainObserver::flow_is_affine() const {
-  for (const Sensor& sensor : plant().sensors()) {
-    for (const bool angular : sensor.angular) {
-      if (angular) return false;
-    }
-  }
-  return true;
+  return !plant().has_angles(SensorTiming::kContinuous);
 }
 
 void LinearHighGainObserver::derivative(const Held& held, const double* s, double* ds,
                                         double* workspace) const {
   PlantObserver::derivative(held, s, ds, workspace);
   if (held.y_c == nullptr) return;
+  double* innovations = innovations_.of(workspace);
   for (std::size_t i = 0; i < sensors(); ++i) {
-    const Eigen::Index first = continuous_offset(i);
-    compute_innovation(plant(), held.mode, i, held.y_c + first, s, held.u, workspace + first);
+    const Eigen::Index first = output_offset(i);
+    compute_innovation(plant(), held.mode, i, held.y_c + first, s, held.u, innovations + first);
   }
-  add_product(L_c_, workspace, ds);
+  add_product(L_c_, innovations, ds);
 }
 
 }  // namespace sampled_data_observers

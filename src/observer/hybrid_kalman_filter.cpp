@@ -3,73 +3,45 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
-#include "linear_algebra/definite_matrix.h"
 #include "linear_algebra/ordered_linear_algebra.h"
 
 namespace sampled_data_observers {
 
-PlantObserver::Extras HybridKalmanFilter::extras(const Plant& plant) {
-  const Eigen::Index n = plant.states();
-  Extras result;
-  result.constants = n * n;
-  const Eigen::Index m = plant.max_outputs();
-  // An update takes an innovation and four vectors of n; a flow or a jump n² and, of x̂, n; a
-  // distance an innovation, its covariance, and P Cᵀ.
-  result.workspace = std::max({m + 4 * n, n * n + n, m + m * m + n * m});
-  return result;
-}
-
 HybridKalmanFilter::HybridKalmanFilter(const ObserverContext& context,
                                        const KalmanCovariances& covariances)
-    : PlantObserver(context, extras(*context.plant),
-                    {SensorTiming::kSampled, SensorTiming::kAtJumps}),
-      P0_(checked_positive_definite("P0", covariances.P0, n())),
-      Q_d_(checked_positive_semidefinite("Q_d", covariances.Q_d, n())) {
-  if (!plant().is_affine()) {
-    throw std::invalid_argument(
-        "this observer takes plants whose flow, jump map and outputs are linear, up to constants");
-  }
-  const std::vector<Sensor>& all = plant().sensors();
-  if (covariances.R.size() != all.size()) throw std::invalid_argument("R: one matrix per sensor");
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    Eigen::MatrixXd root = checked_positive_definite("R of sensor '" + all[i].name + "'",
-                                                     covariances.R[i], all[i].outputs());
-    listed_.add("R/" + all[i].name, root);
-    factor_cholesky(root.data(), root.rows());
-    noise_roots_.push_back(root);
-  }
-  const Eigen::MatrixXd Q = checked_positive_semidefinite("Q", covariances.Q, n());
+    : PlantObserver(context, {SensorTiming::kSampled, SensorTiming::kAtJumps}),
+      matrices_(kalman_matrices(covariances, plant())) {
   for (const PlantMode& mode : plant().modes()) {
-    covariance_flows_.emplace_back(mode.flow->affine()->M(), Q);
-    outputs_.emplace_back();
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      Eigen::MatrixXd C = mode.outputs[i]->affine()->M();
-      solve_lower(noise_roots_[i].data(), C.rows(), C.rows(), C.data(), n());
-      outputs_.back().emplace_back(C.transpose());
-    }
+    covariance_flows_.emplace_back(mode.flow->affine()->M(), matrices_.Q);
   }
-  listed_.add("P0", P0_).add("Q", Q).add("Q_d", Q_d_);
   build_flow();
+}
+
+LawGains HybridKalmanFilter::gains() const {
+  LawGains all;
+  for (std::size_t i = 0; i < sensors(); ++i) {
+    all.add("R/" + plant().sensors()[i].name, matrices_.R[i]);
+  }
+  return all.add("P0", matrices_.P0).add("Q", matrices_.Q).add("Q_d", matrices_.Q_d);
 }
 
 void HybridKalmanFilter::start_from(const double* estimate, double* state) const {
   PlantObserver::start_from(estimate, state);
-  std::copy_n(P0_.data(), n() * n(), constants(state));
+  P_.set(matrices_.P0.data(), state);
 }
 
 double HybridKalmanFilter::mahalanobis_distance(const Event& sample, const double* state,
                                                 double* workspace) const {
   const auto sensor = static_cast<std::size_t>(sample.channel);
   const Eigen::Index m = sample.size;
-  double* nu = workspace;
-  double* S = nu + m;
-  double* PC = S + m * m;
+  double* nu = innovation_.of(workspace);
+  double* S = S_.of(workspace);
+  double* PC = PC_.of(workspace);
   innovation(sample, state, nu);
   // Where the noise has variance 1, S = I + C P Cᵀ.
-  solve_lower(noise_roots_[sensor].data(), m, m, nu, 1);
-  const double* C = outputs_[held(state).mode][sensor].data();
+  solve_lower(matrices_.noise_roots[sensor].data(), m, m, nu, 1);
+  const double* C = matrices_.outputs[held(state).mode][sensor].data();
   multiply(covariance(state), n(), n(), C, m, PC);
   for (Eigen::Index j = 0; j < m; ++j) {
     for (Eigen::Index i = 0; i < m; ++i) {
@@ -83,7 +55,7 @@ double HybridKalmanFilter::mahalanobis_distance(const Event& sample, const doubl
 
 void HybridKalmanFilter::flow_constants(Duration duration, const Held& held, double* state,
                                         double* workspace) const {
-  covariance_flows_[held.mode].apply(duration, constants(state), workspace);
+  covariance_flows_[held.mode].apply(duration, P_.of(state), flown_.of(workspace));
 }
 
 void HybridKalmanFilter::sample(std::size_t sensor, const double* y, const Held& held,
@@ -91,43 +63,41 @@ void HybridKalmanFilter::sample(std::size_t sensor, const double* y, const Held&
   correct(sensor, y, held, state, workspace);
 }
 
-void HybridKalmanFilter::jump(const Held& held, std::size_t next, const JumpOutputs& outputs,
+void HybridKalmanFilter::jump(const Held& held, std::size_t, const JumpOutputs& outputs,
                               double* state, double* workspace) const {
-  static_cast<void>(next);
-  for (std::size_t i = 0; i < sensors(); ++i) {
-    if (plant().sensors()[i].timing != SensorTiming::kAtJumps || outputs.known[i] == 0.0) continue;
-    correct(i, outputs.y_d + jump_output_offset(i), held, state, workspace);
+  for (const std::size_t i : sensors_of(SensorTiming::kAtJumps)) {
+    if (const double* y_d = outputs.of(i)) correct(i, y_d, held, state, workspace);
   }
   apply_plant_jump(held, state, workspace);
-  double* P = constants(state);
-  const Eigen::Index entries = n() * n();
+  double* P = P_.of(state);
   const PlantMode& mode = plant().modes()[held.mode];
   if (!mode.jump) {
-    for (Eigen::Index i = 0; i < entries; ++i) P[i] += Q_d_.data()[i];
+    for (Eigen::Index i = 0; i < P_.size(); ++i) P[i] += matrices_.Q_d.data()[i];
     return;
   }
   const double* A_d = mode.jump->affine()->M().data();
-  multiply(A_d, n(), n(), P, n(), workspace);
-  std::copy_n(Q_d_.data(), entries, P);
-  add_symmetric_product(workspace, A_d, n(), n(), P);
+  double* A_d_P = flown_.of(workspace);
+  multiply(A_d, n(), n(), P, n(), A_d_P);
+  P_.set(matrices_.Q_d.data(), state);
+  add_symmetric_product(A_d_P, A_d, n(), n(), P);
 }
 
 /// The update of x̂ and P by the outputs y of a sensor, in Joseph's form.
 void HybridKalmanFilter::correct(std::size_t sensor, const double* y, const Held& held,
                                  double* state, double* workspace) const {
   const Eigen::Index m = plant().sensors()[sensor].outputs();
-  double* innovation = workspace;
-  double* correction = innovation + m;
-  double* gain = correction + n();
-  double* column = gain + n();  // P c
-  double* rest = column + n();  // (I − K c) P c
-  double* P = constants(state);
+  double* innovation = innovation_.of(workspace);
+  double* correction = correction_.of(workspace);
+  double* gain = gain_.of(workspace);
+  double* column = column_.of(workspace);
+  double* rest = rest_.of(workspace);
+  double* P = P_.of(state);
 
   compute_innovation(plant(), held.mode, sensor, y, state, held.u, innovation);
-  solve_lower(noise_roots_[sensor].data(), m, m, innovation, 1);
+  solve_lower(matrices_.noise_roots[sensor].data(), m, m, innovation, 1);
   for (Eigen::Index i = 0; i < n(); ++i) correction[i] = 0.0;
   for (Eigen::Index output = 0; output < m; ++output) {
-    const double* c = outputs_[held.mode][sensor].data() + output * n();
+    const double* c = matrices_.outputs[held.mode][sensor].data() + output * n();
     multiply(P, n(), n(), c, 1, column);
     // Rounding may leave c P cᵀ a little below zero.
     const double variance = 1.0 + std::max(0.0, dot(c, column, n()));

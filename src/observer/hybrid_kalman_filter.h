@@ -1,20 +1,12 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <vector>
 
+#include "observer/kalman_matrices.h"
 #include "plant/covariance_flow.h"
 #include "sampled_data_observers/observer/plant_observer.h"
 
 namespace sampled_data_observers {
-
-/// The covariances that a HybridKalmanFilter is tuned by.
-struct KalmanCovariances {
-  Eigen::MatrixXd P0;              ///< of the initial estimate: n x n, symmetric positive definite
-  std::vector<Eigen::MatrixXd> R;  ///< of each sensor: m_i x m_i, symmetric positive definite
-  Eigen::MatrixXd Q;               ///< in flow, per second: n x n, symmetric positive semidefinite
-  Eigen::MatrixXd Q_d;             ///< at jumps: n x n, symmetric positive semidefinite
-};
 
 /// The Kalman filter of an affine plant with jumps, sporadic samples and outputs at jumps
 /// (bernard2022, (40), in the standard form, where a jump's gain is computed from the time that
@@ -32,14 +24,13 @@ struct KalmanCovariances {
 /// independent and of variance 1. That gives the same, and needs no inverse that might fail.
 class HybridKalmanFilter : public PlantObserver {
  public:
-  /// @throws std::invalid_argument for a plant that is not affine and for covariances that do not
-  /// fit it or are not definite as they must be.
+  /// @throws std::invalid_argument as kalman_matrices().
   HybridKalmanFilter(const ObserverContext& context, const KalmanCovariances& covariances);
 
   /// The covariances that it is tuned by.
-  LawGains gains() const override { return listed_; }
+  LawGains gains() const override;
   /// P, n x n.
-  const double* covariance(const double* state) const override { return constants(state); }
+  const double* covariance(const double* state) const override { return P_.of(state); }
   void start_from(const double* estimate, double* state) const override;
   double mahalanobis_distance(const Event& sample, const double* state,
                               double* workspace) const override;
@@ -53,18 +44,21 @@ class HybridKalmanFilter : public PlantObserver {
                       double* workspace) const override;
 
  private:
-  static Extras extras(const Plant& plant);
   void correct(std::size_t sensor, const double* y, const Held& held, double* state,
                double* workspace) const;
 
-  Eigen::MatrixXd P0_;
-  Eigen::MatrixXd Q_d_;
-  /// Of each sensor: L with R = L Lᵀ.
-  std::vector<Eigen::MatrixXd> noise_roots_;
-  /// Of each mode and sensor: (L⁻¹ C)ᵀ, n x m.
-  std::vector<std::vector<Eigen::MatrixXd>> outputs_;
+  KalmanMatrices matrices_;
   std::vector<CovarianceFlow> covariance_flows_;  ///< one per mode
-  LawGains listed_;
+
+  VectorSlot P_ = constants(n() * n());
+  VectorSlot innovation_ = scratch(plant().max_outputs());
+  VectorSlot correction_ = scratch(n());
+  VectorSlot gain_ = scratch(n());
+  VectorSlot column_ = scratch(n());  ///< P c
+  VectorSlot rest_ = scratch(n());    ///< (I − K c) P c
+  VectorSlot flown_ = scratch(n() * n());
+  VectorSlot S_ = scratch(plant().max_outputs() * plant().max_outputs());
+  VectorSlot PC_ = scratch(n() * plant().max_outputs());
 };
 
 }  // namespace sampled_data_observers

@@ -1,6 +1,5 @@
 #include "observer/intersample_injection_observer.h"
 
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -9,11 +8,6 @@
 #include "sampled_data_observers/observer/gain_check.h"
 
 namespace sampled_data_observers {
-namespace {
-
-Eigen::Index all_outputs(const Plant& plant) { return plant.outputs(SensorTiming::kSampled); }
-
-}  // namespace
 
 Eigen::MatrixXd predictor_H(const Plant& plant, std::size_t sensor, const Eigen::MatrixXd& L) {
   return -plant.modes().front().outputs[sensor]->affine()->M() * L;
@@ -21,12 +15,12 @@ Eigen::MatrixXd predictor_H(const Plant& plant, std::size_t sensor, const Eigen:
 
 IntersampleInjectionObserver::IntersampleInjectionObserver(const ObserverContext& context,
                                                            std::vector<IntersampleGains> gains)
-    : PlantObserver(context, {all_outputs(*context.plant), 0, 0, 0}, {SensorTiming::kSampled}),
+    : PlantObserver(context, {SensorTiming::kSampled},
+                    context.plant->outputs(SensorTiming::kSampled)),
       gains_(std::move(gains)) {
   std::vector<Eigen::MatrixXd> L;
   for (const IntersampleGains& gain : gains_) L.push_back(gain.L);
   check_gains("L", L, plant(), SensorTiming::kSampled);
-  Eigen::Index begin = n();
   for (std::size_t i = 0; i < gains_.size(); ++i) {
     const Sensor& sensor = plant().sensors()[i];
     if (gains_[i].H.rows() != sensor.outputs() || gains_[i].H.cols() != sensor.outputs()) {
@@ -36,8 +30,7 @@ IntersampleInjectionObserver::IntersampleInjectionObserver(const ObserverContext
     if (gains_[i].initial_theta.size() != sensor.outputs()) {
       throw std::invalid_argument("theta0 of sensor '" + sensor.name + "': one entry per output");
     }
-    theta_.push_back(begin);
-    begin += sensor.outputs();
+    theta_.push_back(flowing(sensor.outputs()));
   }
   build_flow();
 }
@@ -55,8 +48,7 @@ LawGains IntersampleInjectionObserver::gains() const {
 void IntersampleInjectionObserver::initialize(double* state) const {
   PlantObserver::initialize(state);
   for (std::size_t i = 0; i < gains_.size(); ++i) {
-    const Eigen::VectorXd& theta = gains_[i].initial_theta;
-    std::copy_n(theta.data(), theta.size(), state + theta_[i]);
+    theta_[i].set(gains_[i].initial_theta.data(), state);
   }
 }
 
@@ -64,15 +56,15 @@ void IntersampleInjectionObserver::derivative(const Held& held, const double* s,
                                               double* workspace) const {
   PlantObserver::derivative(held, s, ds, workspace);
   for (std::size_t i = 0; i < gains_.size(); ++i) {
-    add_product(gains_[i].L, s + theta_[i], ds);
-    add_product(gains_[i].H, s + theta_[i], ds + theta_[i]);
+    const double* theta = theta_[i].of(s);
+    add_product(gains_[i].L, theta, ds);
+    add_product(gains_[i].H, theta, theta_[i].of(ds));
   }
 }
 
 void IntersampleInjectionObserver::sample(std::size_t sensor, const double* y, const Held& held,
-                                          double* state, double* workspace) const {
-  static_cast<void>(workspace);
-  compute_innovation(plant(), held.mode, sensor, y, state, held.u, state + theta_[sensor]);
+                                          double* state, double*) const {
+  compute_innovation(plant(), held.mode, sensor, y, state, held.u, theta_[sensor].of(state));
 }
 
 }  // namespace sampled_data_observers

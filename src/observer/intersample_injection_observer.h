@@ -42,8 +42,7 @@ class IntersampleInjectionObserver : public PlantObserver {
 
  private:
   std::vector<IntersampleGains> gains_;
-  /// Where θ of each sensor begins in the state.
-  std::vector<Eigen::Index> theta_;
+  std::vector<VectorSlot> theta_;  ///< of each sensor
 };
 
 }  // namespace sampled_data_observers

@@ -5,20 +5,9 @@
 #include <utility>
 
 namespace sampled_data_observers {
-namespace {
-
-// The decorator's own numbers: the time since the last jump that took effect [ns], and how many may
-// come at once now (a token bucket).
-constexpr Eigen::Index kSince = 0;
-constexpr Eigen::Index kTokens = 1;
-constexpr Eigen::Index kOwnSize = 2;
-
-constexpr double kLongAgo = 1e18;
-
-}  // namespace
 
 LimitedJumps::LimitedJumps(std::shared_ptr<const ObserverLaw> law, const JumpLimits& limits)
-    : LawDecorator(std::move(law), kOwnSize), limits_(limits) {
+    : LawDecorator(std::move(law)), limits_(limits) {
   if (limits_.min_separation < 0) {
     throw std::invalid_argument("LimitedJumps: min_separation must not be negative");
   }
@@ -29,28 +18,27 @@ LimitedJumps::LimitedJumps(std::shared_ptr<const ObserverLaw> law, const JumpLim
 
 void LimitedJumps::initialize(double* state) const {
   law().initialize(state);
-  own(state)[kSince] = kLongAgo;
-  own(state)[kTokens] = limits_.max_per_second;
+  since_.expire(state);
+  tokens_.set(limits_.max_per_second, state);
 }
 
 void LimitedJumps::flow(Duration duration, double* state, double* workspace) const {
   law().flow(duration, state, workspace);
-  double* numbers = own(state);
-  numbers[kSince] = std::min(kLongAgo, numbers[kSince] + static_cast<double>(duration));
+  since_.advance(duration, state);
 }
 
 Effect LimitedJumps::reset(const Event& event, double* state, double* workspace) const {
   if (event.kind != EventKind::kJump) return law().reset(event, state, workspace);
-  double* numbers = own(state);
-  if (numbers[kSince] < static_cast<double>(limits_.min_separation)) return Effect::kRefused;
+  const double since = since_.of(state);
+  if (since < static_cast<double>(limits_.min_separation)) return Effect::kRefused;
   // Filled up at jumps only, so that the number depends on the jumps alone.
-  const double tokens = std::min(
-      limits_.max_per_second, numbers[kTokens] + numbers[kSince] * 1e-9 * limits_.max_per_second);
+  const double tokens =
+      std::min(limits_.max_per_second, tokens_.of(state) + since * 1e-9 * limits_.max_per_second);
   if (tokens < 1.0) return Effect::kRefused;
   const Effect effect = law().reset(event, state, workspace);
   if (!took_effect(effect)) return effect;
-  numbers[kTokens] = tokens - 1.0;
-  numbers[kSince] = 0.0;
+  tokens_.set(tokens - 1.0, state);
+  since_.restart(state);
   return effect;
 }
 

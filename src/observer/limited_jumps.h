@@ -29,6 +29,10 @@ class LimitedJumps : public LawDecorator {
 
  private:
   JumpLimits limits_;
+  /// Since the last jump that took effect: for ever where there was none.
+  TimerSlot since_ = state_layout().timer(1e18);
+  /// How many may come at once now (a token bucket).
+  NumberSlot tokens_ = state_layout().number();
 };
 
 }  // namespace sampled_data_observers

@@ -163,6 +163,18 @@ Eigen::MatrixXd high_gain(const Eigen::MatrixXd& A, const Eigen::MatrixXd& H,
   return L_c;
 }
 
+Eigen::VectorXd scaled_gain(double ell, const Eigen::VectorXd& K) {
+  if (!(ell > 0.0 && std::isfinite(ell))) throw std::invalid_argument("ell must be positive");
+  if (K.size() == 0 || !is_hurwitz(K)) {
+    throw std::invalid_argument("K: A - K H is not Hurwitz");
+  }
+  Eigen::VectorXd result = K;
+  for (Eigen::Index i = 0; i < K.size(); ++i) {
+    result(i) *= std::pow(ell, static_cast<double>(i + 1));
+  }
+  return result;
+}
+
 bool is_hurwitz(const Eigen::VectorXd& c) {
   if (!c.allFinite()) return false;
   const Eigen::Index d = c.size();

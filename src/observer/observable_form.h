@@ -37,6 +37,10 @@ Eigen::MatrixXd high_gain(const Eigen::MatrixXd& A, const Eigen::MatrixXd& H,
                           const ObservableForm& form, double ell,
                           const std::vector<Eigen::VectorXd>& K);
 
+/// ℓ 𝓛(ℓ) K with 𝓛(ℓ) = diag(1, ℓ, …, ℓ^(d−1)), for one output in the form of example 4.3.
+/// @throws std::invalid_argument unless ℓ > 0 and K is Hurwitz as is_hurwitz() has it.
+Eigen::VectorXd scaled_gain(double ell, const Eigen::VectorXd& K);
+
 /// Whether all zeros of s^d + c_1 s^(d−1) + … + c_d lie in the open left half plane.
 /// @pre d >= 1
 bool is_hurwitz(const Eigen::VectorXd& c);

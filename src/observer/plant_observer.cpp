@@ -2,155 +2,111 @@
 
 #include <Eigen/QR>
 #include <algorithm>
-#include <cmath>
+#include <cassert>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
+#include "sampled_data_observers/linear_algebra/ordered_product.h"
+
 namespace sampled_data_observers {
+namespace {
 
-/// The derivative of a law's flowing state during one flow.
-class PlantObserver::Field : public VectorField {
- public:
-  Field(const PlantObserver& law, const Held& held, double* workspace)
-      : law_(law), held_(held), workspace_(workspace) {}
+/// What makes of the innovation of an affine output the least change of x̂ that removes it.
+Eigen::MatrixXd least_correction(const VectorMap& output) {
+  if (output.affine() == nullptr) return {};
+  return output.affine()->M().completeOrthogonalDecomposition().pseudoInverse();
+}
 
-  void evaluate(const double* x, double* dx) const override {
-    law_.derivative(held_, x, dx, workspace_);
-  }
+}  // namespace
 
- private:
-  const PlantObserver& law_;
-  const Held& held_;
-  double* workspace_;
-};
-
-PlantObserver::PlantObserver(ObserverContext context, const Extras& extras,
-                             const std::vector<SensorTiming>& timings)
-    : plant_(std::move(context.plant)),
+PlantObserver::PlantObserver(ObserverContext context, const std::vector<SensorTiming>& timings,
+                             Eigen::Index flowing)
+    : ObserverLaw(this),
+      plant_(std::move(context.plant)),
       initial_estimate_(std::move(context.initial_estimate)),
-      initial_input_(std::move(context.initial_input)),
-      timer_count_(extras.timers),
-      law_workspace_(extras.workspace) {
+      initial_input_(std::move(context.initial_input)) {
+  const std::vector<Sensor>& all = plant_->sensors();
   if (initial_estimate_.size() != plant_->states()) {
     throw std::invalid_argument("initial estimate: one entry per state of the plant");
   }
   if (initial_input_.size() != plant_->inputs()) {
     throw std::invalid_argument("initial input: one entry per input of the plant");
   }
-  Eigen::Index continuous = 0;
-  Eigen::Index at_jumps = 0;
-  for (const Sensor& sensor : plant_->sensors()) {
-    if (std::find(timings.begin(), timings.end(), sensor.timing) == timings.end()) {
+  std::array<Eigen::Index, 3> outputs = {};
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (std::find(timings.begin(), timings.end(), all[i].timing) == timings.end()) {
       throw std::invalid_argument(
-          "sensor '" + sensor.name +
-          "': this observer takes no sensor with measured: " + to_string(sensor.timing));
+          "sensor '" + all[i].name +
+          "': this observer takes no sensor with measured: " + to_string(all[i].timing));
     }
-    Eigen::Index& offset = sensor.timing == SensorTiming::kContinuous ? continuous : at_jumps;
-    offsets_.push_back(offset);
-    if (sensor.timing != SensorTiming::kSampled) offset += sensor.outputs();
+    const auto timing = static_cast<std::size_t>(all[i].timing);
+    sensors_of_[timing].push_back(i);
+    offsets_.push_back(outputs[timing]);
+    outputs[timing] += all[i].outputs();
   }
-  if (at_jumps > 0 && !plant_->jumps()) {
+  if (plant_->outputs(SensorTiming::kAtJumps) > 0 && !plant_->jumps()) {
     throw std::invalid_argument("a plant with sensors that measure at jumps needs a jump map");
   }
-  const auto count = static_cast<Eigen::Index>(plant_->sensors().size());
-  layout_.constants = n() + extras.flowing;
-  layout_.timers = layout_.constants + extras.constants;
-  layout_.mode = layout_.timers + 1 + extras.timers;
-  layout_.input = layout_.mode + 1;
-  layout_.outputs = layout_.input + plant_->inputs();
-  layout_.one = layout_.outputs + continuous;
-  layout_.outputs_known = layout_.one + 1;
-  layout_.snapshot = layout_.outputs_known + (continuous > 0 ? count : 0);
-  layout_.snapshot_next = layout_.snapshot + (at_jumps > 0 ? layout_.input : 0);
-  layout_.jump_outputs = layout_.snapshot_next + (at_jumps > 0 ? 1 : 0);
-  layout_.jump_outputs_known = layout_.jump_outputs + at_jumps;
-  layout_.size = layout_.jump_outputs_known + (at_jumps > 0 ? count : 0);
-  for (std::size_t mode = 0; mode < plant_->modes().size(); ++mode) {
+  for (const PlantMode& mode : plant_->modes()) {
     std::vector<Eigen::MatrixXd>& corrections = least_corrections_.emplace_back();
-    for (std::size_t i = 0; i < plant_->sensors().size(); ++i) {
-      corrections.push_back(least_correction(mode, i));
-    }
+    for (const auto& output : mode.outputs) corrections.push_back(least_correction(*output));
   }
+  facts().sensors = all.size();
+  facts().max_event_size = std::max({plant_->inputs(), plant_->max_outputs(),
+                                     mode_values() + plant_->outputs(SensorTiming::kAtJumps)});
+  StateLayout& layout = state_layout();
+  s_ = layout.vector(n() + flowing);
+  flowing_ = n();
+  const Eigen::Index continuous = plant_->outputs(SensorTiming::kContinuous);
+  inputs_ = layout.vector(plant_->inputs() + continuous);
+  u_ = inputs_.part(0, plant_->inputs());
+  y_c_ = inputs_.part(plant_->inputs(), continuous);
+  y_c_known_ = layout.flags(y_c_.size() > 0 ? all.size() : 0);
+  held_part_ = layout.since(s_.size());
+  mode_ = layout.mode();
+  since_jump_ = timer();
+  flowed_ = scratch(s_.size());
+  jumped_ = scratch(n());
+  innovation_ = scratch(plant_->max_outputs());
 }
 
-void PlantObserver::build_flow() {
-  if (!flow_is_affine()) {
-    numeric_flow_ = std::make_unique<RungeKuttaFlow>(flowing_size(), plant_->integration().step);
-    return;
-  }
-  Eigen::VectorXd u = Eigen::VectorXd::Zero(plant_->inputs());
-  Eigen::VectorXd y_c = Eigen::VectorXd::Zero(layout_.one - layout_.outputs);
-  for (std::size_t mode = 0; mode < plant_->modes().size(); ++mode) {
-    exact_flows_.push_back(exact_flow({mode, u.data(), nullptr}));
-    if (y_c.size() > 0) exact_flows_.push_back(exact_flow({mode, u.data(), y_c.data()}));
-  }
+VectorSlot PlantObserver::flowing(Eigen::Index entries) {
+  const VectorSlot next = s_.part(flowing_, entries);
+  flowing_ += entries;
+  return next;
 }
 
-std::size_t PlantObserver::regime(const Held& held) const {
-  if (layout_.one == layout_.outputs) return held.mode;
-  return 2 * held.mode + (held.y_c != nullptr ? 1 : 0);
+VectorSlot PlantObserver::constants(Eigen::Index entries) {
+  assert(!is_built());
+  return state_layout().vector(entries);
 }
 
-/// The flow with the matrices of derivative(), read off column by column.
-LinearFlow PlantObserver::exact_flow(const Held& held) const {
-  // So far above the constant part that this costs no digit; a power of two costs none anyway.
-  const double scale = std::ldexp(1.0, 200);
-  const Eigen::Index inputs = layout_.one - layout_.input;
-  Eigen::VectorXd s = Eigen::VectorXd::Zero(flowing_size());
-  Eigen::VectorXd held_values = Eigen::VectorXd::Zero(inputs);
-  Eigen::VectorXd workspace(workspace_size());
-  Held at = held;
-  at.u = held_values.data();
-  if (held.y_c != nullptr) at.y_c = held_values.data() + plant_->inputs();
-
-  Eigen::VectorXd constant(s.size());
-  derivative(at, s.data(), constant.data(), workspace.data());
-  const auto column = [&](double& variable) -> Eigen::VectorXd {
-    Eigen::VectorXd result(s.size());
-    variable = scale;
-    derivative(at, s.data(), result.data(), workspace.data());
-    variable = 0.0;
-    return (result - constant) / scale;
-  };
-  Eigen::MatrixXd A(s.size(), s.size());
-  Eigen::MatrixXd B(s.size(), inputs);
-  for (Eigen::Index i = 0; i < s.size(); ++i) A.col(i) = column(s(i));
-  for (Eigen::Index i = 0; i < inputs; ++i) B.col(i) = column(held_values(i));
-  if (!constant.isZero(0.0)) {
-    B.conservativeResize(Eigen::NoChange, inputs + 1);
-    B.col(inputs) = constant;
-  }
-  return LinearFlow(A, B);
-}
-
-Eigen::Index PlantObserver::workspace_size() const {
-  return law_workspace_ + std::max(flowing_size(), plant_->max_outputs());
+TimerSlot PlantObserver::timer() {
+  assert(!is_built());
+  return timers_.emplace_back(state_layout().timer());
 }
 
 Eigen::Index PlantObserver::event_size(EventKind kind, int channel) const {
   const auto sensor = static_cast<std::size_t>(channel);
-  const bool exists = channel >= 0 && sensor < sensors();
+  const auto outputs = [&](SensorTiming timing) -> Eigen::Index {
+    const bool exists = channel >= 0 && sensor < sensors();
+    if (!exists || plant_->sensors()[sensor].timing != timing) return -1;
+    return plant_->sensors()[sensor].outputs();
+  };
   switch (kind) {
     case EventKind::kInput:
       return plant_->inputs() > 0 && channel == 0 ? plant_->inputs() : -1;
     case EventKind::kOutput:
-      return exists && plant_->sensors()[sensor].timing == SensorTiming::kContinuous
-                 ? plant_->sensors()[sensor].outputs()
-                 : -1;
+      return outputs(SensorTiming::kContinuous);
     case EventKind::kJumpOutput:
-      return exists && plant_->sensors()[sensor].timing == SensorTiming::kAtJumps
-                 ? plant_->sensors()[sensor].outputs()
-                 : -1;
+      return outputs(SensorTiming::kAtJumps);
     case EventKind::kSample:
-      return exists && plant_->sensors()[sensor].timing == SensorTiming::kSampled
-                 ? plant_->sensors()[sensor].outputs()
-                 : -1;
+      return outputs(SensorTiming::kSampled);
     case EventKind::kJump:
       if (!plant_->jumps()) return -1;
       if (channel == kPlainJump) return mode_values();
-      return channel == kMeasuredJump && has_jump_outputs()
-                 ? mode_values() + plant_->outputs(SensorTiming::kAtJumps)
-                 : -1;
+      return channel == kMeasuredJump && takes_jump_outputs() ? mode_values() + y_d_.size() : -1;
     case EventKind::kRelease:
     case EventKind::kRejected:
       break;
@@ -158,15 +114,9 @@ Eigen::Index PlantObserver::event_size(EventKind kind, int channel) const {
   return -1;
 }
 
-Eigen::Index PlantObserver::max_event_size() const {
-  return std::max({plant_->inputs(), plant_->max_outputs(),
-                   mode_values() + plant_->outputs(SensorTiming::kAtJumps)});
-}
-
 void PlantObserver::initialize(double* state) const {
-  std::fill_n(state, layout_.size, 0.0);
-  std::copy_n(initial_input_.data(), plant_->inputs(), state + layout_.input);
-  state[layout_.one] = 1.0;
+  std::fill_n(state, state_size(), 0.0);
+  u_.set(initial_input_.data(), state);
   start_from(initial_estimate_.data(), state);
 }
 
@@ -174,55 +124,25 @@ void PlantObserver::start_from(const double* estimate, double* state) const {
   if (estimate != state) std::copy_n(estimate, n(), state);
 }
 
-void PlantObserver::innovation(const Event& sample, const double* state, double* innovation) const {
-  const Held now = held(state);
-  compute_innovation(*plant_, now.mode, static_cast<std::size_t>(sample.channel), sample.values,
-                     state, now.u, innovation);
-}
-
 PlantObserver::Held PlantObserver::held(const double* state) const {
-  Held result;
-  result.mode = static_cast<std::size_t>(state[layout_.mode]);
-  result.u = state + layout_.input;
-  if (layout_.outputs_known == layout_.snapshot) return result;
-  for (std::size_t i = 0; i < sensors(); ++i) {
-    if (plant_->sensors()[i].timing != SensorTiming::kContinuous) continue;
-    if (state[layout_.outputs_known + static_cast<Eigen::Index>(i)] == 0.0) return result;
+  Held result{mode_.of(state), u_.of(state), nullptr};
+  if (y_c_.size() == 0) return result;
+  for (const std::size_t i : sensors_of(SensorTiming::kContinuous)) {
+    if (!y_c_known_[i].of(state)) return result;
   }
-  result.y_c = state + layout_.outputs;
+  result.y_c = y_c_.of(state);
   return result;
-}
-
-Duration PlantObserver::flow_step() const { return numeric_flow_ ? plant_->integration().step : 0; }
-
-Duration PlantObserver::flow_horizon() const {
-  return numeric_flow_ ? plant_->integration().horizon : ObserverLaw::flow_horizon();
-}
-
-void PlantObserver::flow(Duration duration, double* state, double* workspace) const {
-  if (duration == 0) return;
-  const Held now = held(state);
-  flow_constants(duration, now, state, workspace);
-  if (numeric_flow_) {
-    numeric_flow_->apply(Field(*this, now, workspace), duration, state);
-  } else {
-    exact_flows_[regime(now)].apply(duration, state, state + layout_.input, workspace);
-  }
-  for (Eigen::Index i = 0; i <= timer_count_; ++i) {
-    state[layout_.timers + i] += static_cast<double>(duration);
-  }
-  complete(now, state, workspace);
 }
 
 Effect PlantObserver::reset(const Event& event, double* state, double* workspace) const {
   const auto sensor = static_cast<std::size_t>(event.channel);
   switch (event.kind) {
     case EventKind::kInput:
-      std::copy_n(event.values, event.size, state + layout_.input);
+      u_.set(event.values, state);
       break;
     case EventKind::kOutput:
-      std::copy_n(event.values, event.size, state + layout_.outputs + offsets_[sensor]);
-      state[layout_.outputs_known + event.channel] = 1.0;
+      y_c_.part(output_offset(sensor), event.size).set(event.values, state);
+      y_c_known_[sensor].set(true, state);
       break;
     case EventKind::kJump:
       begin_jump(event, state, workspace);
@@ -247,38 +167,36 @@ Effect PlantObserver::reset(const Event& event, double* state, double* workspace
 void PlantObserver::begin_jump(const Event& event, double* state, double* workspace) const {
   std::size_t next = 0;
   if (plant_->switches()) next = *plant_->find_mode(event.values[0]);
-  if (has_jump_outputs()) {
-    std::copy_n(state, layout_.input, state + layout_.snapshot);
-    state[layout_.snapshot_next] = static_cast<double>(next) + 1.0;
+  if (takes_jump_outputs()) {
+    s_before_jump_.set(s_.of(state), state);
+    kept_before_jump_.set(kept_.of(state), state);
+    has_jumped_.set(true, state);
+    mode_after_jump_.set(next, state);
     const bool measured = event.channel == kMeasuredJump;
-    if (measured) {
-      std::copy_n(event.values + mode_values(), event.size - mode_values(),
-                  state + layout_.jump_outputs);
-    }
-    std::fill_n(state + layout_.jump_outputs_known, sensors(), measured ? 1.0 : 0.0);
+    if (measured) y_d_.set(event.values + mode_values(), state);
+    y_d_known_.fill(measured, state);
   }
   apply_jump(next, state, workspace);
   // What was measured before the jump says nothing of the state after it.
-  std::fill(state + layout_.outputs_known, state + layout_.snapshot, 0.0);
+  y_c_known_.fill(false, state);
 }
 
 void PlantObserver::apply_jump(std::size_t next, double* state, double* workspace) const {
-  jump(held(state), next, {state + layout_.jump_outputs, state + layout_.jump_outputs_known}, state,
-       workspace);
-  state[layout_.timers] = 0.0;
-  state[layout_.mode] = static_cast<double>(next);
+  jump(held(state), next, JumpOutputs(*this, state), state, workspace);
+  since_jump_.restart(state);
+  mode_.set(next, state);
 }
 
 /// Applies the jump of equal stamp again, now with these of its outputs. Outputs without such a
 /// jump say nothing.
 void PlantObserver::pair_with_jump(const Event& output, double* state, double* workspace) const {
-  const double next = state[layout_.snapshot_next] - 1.0;
-  if (next < 0.0 || since_jump(state) != 0.0) return;
-  const Eigen::Index offset = offsets_[static_cast<std::size_t>(output.channel)];
-  std::copy_n(output.values, output.size, state + layout_.jump_outputs + offset);
-  state[layout_.jump_outputs_known + output.channel] = 1.0;
-  std::copy_n(state + layout_.snapshot, layout_.input, state);
-  apply_jump(static_cast<std::size_t>(next), state, workspace);
+  if (!has_jumped_.of(state) || since_jump(state) != 0.0) return;
+  const auto sensor = static_cast<std::size_t>(output.channel);
+  y_d_.part(output_offset(sensor), output.size).set(output.values, state);
+  y_d_known_[sensor].set(true, state);
+  s_.set(s_before_jump_.of(state), state);
+  kept_.set(kept_before_jump_.of(state), state);
+  apply_jump(mode_after_jump_.of(state), state, workspace);
 }
 
 bool PlantObserver::knows_mode(const Event& event) const {
@@ -286,76 +204,76 @@ bool PlantObserver::knows_mode(const Event& event) const {
          plant_->find_mode(event.values[0]).has_value();
 }
 
-const double* PlantObserver::held_part(const double* state) const { return state + layout_.input; }
-
-void PlantObserver::keep_held(const double* part, double* state) const {
-  std::copy_n(part, layout_.snapshot - layout_.input, state + layout_.input);
-}
-
-double PlantObserver::mode_of(const double* state) const { return state[layout_.mode]; }
-
-void PlantObserver::keep_mode(double mode, double* state) const { state[layout_.mode] = mode; }
-
-Eigen::MatrixXd PlantObserver::least_correction(std::size_t mode, std::size_t sensor) const {
-  const AffineMap* output = plant_->modes()[mode].outputs[sensor]->affine();
-  if (output == nullptr) return {};
-  return output->M().completeOrthogonalDecomposition().pseudoInverse();
+void PlantObserver::innovation(const Event& sample, const double* state, double* innovation) const {
+  const Held now = held(state);
+  compute_innovation(*plant_, now.mode, static_cast<std::size_t>(sample.channel), sample.values,
+                     state, now.u, innovation);
 }
 
 void PlantObserver::fit_to(const Event& sample, double* state, double* workspace) const {
-  const Held now = held(state);
   const auto sensor = static_cast<std::size_t>(sample.channel);
-  const Eigen::MatrixXd& correction = least_corrections_[now.mode][sensor];
+  const Eigen::MatrixXd& correction = least_corrections_[mode_.of(state)][sensor];
   if (correction.size() == 0) return;
-  innovation(sample, state, workspace);
+  double* innovation = innovation_.of(workspace);
+  this->innovation(sample, state, innovation);
   for (Eigen::Index i = 0; i < n(); ++i) {
-    for (Eigen::Index j = 0; j < sample.size; ++j) state[i] += correction(i, j) * workspace[j];
+    for (Eigen::Index j = 0; j < sample.size; ++j) state[i] += correction(i, j) * innovation[j];
   }
   start_from(state, state);
 }
 
-void PlantObserver::derivative(const Held& held, const double* s, double* ds,
-                               double* workspace) const {
-  static_cast<void>(workspace);
+const double* PlantObserver::covariance(const double*) const { return nullptr; }
+
+double PlantObserver::mahalanobis_distance(const Event&, const double*, double*) const {
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+bool PlantObserver::is_saturated(const double*) const { return false; }
+
+void PlantObserver::derivative(const Held& held, const double* s, double* ds, double*) const {
   plant_->modes()[held.mode].flow->evaluate(s, held.u, ds);
-  std::fill(ds + n(), ds + flowing_size(), 0.0);
+  std::fill(ds + n(), ds + flow_size(), 0.0);
 }
 
-void PlantObserver::sample(std::size_t sensor, const double* y, const Held& held, double* state,
-                           double* workspace) const {
-  static_cast<void>(sensor);
-  static_cast<void>(y);
-  static_cast<void>(held);
-  static_cast<void>(state);
-  static_cast<void>(workspace);
-}
+void PlantObserver::sample(std::size_t, const double*, const Held&, double*, double*) const {}
 
-void PlantObserver::jump(const Held& held, std::size_t next, const JumpOutputs& outputs,
-                         double* state, double* workspace) const {
-  static_cast<void>(next);
-  static_cast<void>(outputs);
+void PlantObserver::jump(const Held& held, std::size_t, const JumpOutputs&, double* state,
+                         double* workspace) const {
   apply_plant_jump(held, state, workspace);
 }
+
+void PlantObserver::flow_constants(Duration, const Held&, double*, double*) const {}
+
+void PlantObserver::complete(const Held&, double*, double*) const {}
 
 void PlantObserver::apply_plant_jump(const Held& held, double* state, double* workspace) const {
   const PlantMode& mode = plant_->modes()[held.mode];
   if (!mode.jump) return;
-  mode.jump->evaluate(state, held.u, workspace);
-  std::copy_n(workspace, n(), state);
+  double* jumped = jumped_.of(workspace);
+  mode.jump->evaluate(state, held.u, jumped);
+  std::copy_n(jumped, n(), state);
 }
 
-void PlantObserver::flow_constants(Duration duration, const Held& held, double* state,
-                                   double* workspace) const {
-  static_cast<void>(duration);
-  static_cast<void>(held);
-  static_cast<void>(state);
-  static_cast<void>(workspace);
+void PlantObserver::add_innovations(const std::vector<Eigen::MatrixXd>& L, const Held& held,
+                                    const double* x, double* dx, double* workspace) const {
+  if (held.y_c == nullptr) return;
+  double* innovation = innovation_.of(workspace);
+  for (const std::size_t i : sensors_of(SensorTiming::kContinuous)) {
+    compute_innovation(*plant_, held.mode, i, held.y_c + output_offset(i), x, held.u, innovation);
+    add_product(L[i], innovation, dx);
+  }
 }
 
-void PlantObserver::complete(const Held& held, double* state, double* workspace) const {
-  static_cast<void>(held);
-  static_cast<void>(state);
-  static_cast<void>(workspace);
+void PlantObserver::add_innovations(const std::vector<Eigen::MatrixXd>& L, const Held& held,
+                                    const JumpOutputs& outputs, const double* x, double* dx,
+                                    double* workspace) const {
+  double* innovation = innovation_.of(workspace);
+  for (const std::size_t i : sensors_of(SensorTiming::kAtJumps)) {
+    const double* y_d = outputs.of(i);
+    if (y_d == nullptr) continue;
+    compute_innovation(*plant_, held.mode, i, y_d, x, held.u, innovation);
+    add_product(L[i], innovation, dx);
+  }
 }
 
 }  // namespace sampled_data_observers

@@ -1,25 +1,12 @@
 #pragma once
 
-#include <Eigen/Core>
-#include <memory>
-#include <optional>
+#include <algorithm>
 #include <vector>
 
+#include "observer/switched_gains.h"
 #include "sampled_data_observers/observer/plant_observer.h"
 
 namespace sampled_data_observers {
-
-/// The gains of a SwitchedObserver, one entry per mode of the plant in its order; each kind may be
-/// left out (empty), but not all.
-struct SwitchedGains {
-  /// Flow-based: per mode one n x m_i gain per sensor; of sensors that are not continuous, empty.
-  std::vector<std::vector<Eigen::MatrixXd>> L_c;
-  /// Jump-based: per mode one map of τ [s] per sensor to the n x m_i entries of L_d(τ), row by row;
-  /// of sensors that do not measure at jumps, null.
-  std::vector<std::vector<std::shared_ptr<const VectorMap>>> L_d;
-  /// Projection: the metric P_q (n x n) of the modes that have one.
-  std::vector<std::optional<Eigen::MatrixXd>> P;
-};
 
 /// Observers of a switched plant with affine modes and known mode q (bernard2022, section 7.3):
 ///
@@ -36,9 +23,7 @@ struct SwitchedGains {
 /// continuous sensors are held between their stamps. The innovation of angular outputs is wrapped.
 class SwitchedObserver final : public PlantObserver {
  public:
-  /// @throws std::invalid_argument for a plant without modes or with one that is not affine, gains
-  /// that do not fit, a metric that is not symmetric positive definite or belongs to a mode with a
-  /// jump map, dependent outputs of a mode to project on, and sensors that no gain uses.
+  /// @throws std::invalid_argument as check_switched_gains() and make_projections().
   SwitchedObserver(const ObserverContext& context, SwitchedGains gains);
 
   /// Of each mode q: L_c/q/sensor, L_d/q/sensor and projection/q.
@@ -51,23 +36,21 @@ class SwitchedObserver final : public PlantObserver {
             double* workspace) const override;
 
  private:
-  /// P⁻¹ Hᵀ (H P⁻¹ Hᵀ)⁻¹ for the outputs of one timing; empty where there are none or no metric.
-  struct Projection {
-    Eigen::MatrixXd at_jumps;
-    Eigen::MatrixXd continuous;
-  };
-
-  void check() const;
-  Projection make_projection(std::size_t mode) const;
   /// x̂ projected onto the outputs known
-  void project(const Held& held, const JumpOutputs& outputs, double* state, double* scratch) const;
+  void project(const Held& held, const JumpOutputs& outputs, double* state,
+               double* workspace) const;
   /// correction ← L_d(τ) (y_d − H x̂)
   void compute_correction(const Held& held, const JumpOutputs& outputs, const double* state,
-                          double* correction, double* scratch) const;
+                          double* correction, double* workspace) const;
   bool all_known(const JumpOutputs& outputs) const;
 
   SwitchedGains gains_;
   std::vector<Projection> projections_;
+  VectorSlot correction_ = scratch(n());
+  VectorSlot innovation_ = scratch(plant().max_outputs());
+  VectorSlot innovations_ = scratch(std::max(plant().outputs(SensorTiming::kAtJumps),
+                                             plant().outputs(SensorTiming::kContinuous)));
+  VectorSlot L_d_ = scratch(n() * plant().max_outputs());  ///< row by row
 };
 
 }  // namespace sampled_data_observers

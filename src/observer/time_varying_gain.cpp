@@ -23,6 +23,13 @@ bool is_moderate(const double* backward, Eigen::Index size) {
   return true;
 }
 
+Eigen::Index number_of_independent_rows(const Eigen::MatrixXd& C) {
+  if (Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(C.transpose()).rank() < C.rows()) {
+    throw std::invalid_argument("the rows of C must be linearly independent");
+  }
+  return C.rows();
+}
+
 }  // namespace
 
 InverseOutputGain::InverseOutputGain(const Eigen::MatrixXd& C, double lambda) : lambda_(lambda) {
@@ -47,16 +54,13 @@ void InverseOutputGain::evaluate(const double* backward, double* K, double* work
 
 CertificateGain::CertificateGain(const Eigen::MatrixXd& C, const Eigen::MatrixXd& P, double lambda)
     : n_(C.cols()),
-      m_(C.rows()),
+      m_(number_of_independent_rows(C)),
       q_(n_ - m_),
       lambda_(lambda),
       P_(P),
       L_(P),
       basis_(n_, n_),
       K_at_zero_(n_, m_) {
-  if (Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(C.transpose()).rank() < m_) {
-    throw std::invalid_argument("the rows of C must be linearly independent");
-  }
   factor_cholesky(L_.data(), n_);
   L_transposed_ = L_.transpose();
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(C.transpose());
@@ -73,44 +77,37 @@ CertificateGain::CertificateGain(const Eigen::MatrixXd& C, const Eigen::MatrixXd
   K_at_zero_ = K;
 }
 
-Eigen::Index CertificateGain::workspace_size() const {
-  return 3 * n_ * n_ + n_ * m_ + n_ * n_ + q_ * n_ + m_ * m_ + n_ * m_;
-}
-
 void CertificateGain::evaluate(const double* backward, double* K, double* workspace) const {
-  double* root = workspace;          // Lᵀ e^{−Aτ}, a root of Ψ
-  double* rotated = root + n_ * n_;  // root [C⊥ Cᵀ]
-  double* factor = rotated + n_ * n_;
-  double* transposed = factor + n_ * n_;  // (C Cᵀ) K
+  double* root = root_.of(workspace);
+  double* rotated = rotated_.of(workspace);
+  double* factor = factor_.of(workspace);
   multiply(L_transposed_.data(), n_, n_, backward, n_, root);
   multiply(root, n_, n_, basis_.data(), n_, rotated);
-  // factor = [L_W 0; Z L11] with C⊥ᵀ Ψ C⊥ = L_W L_Wᵀ, C Ψ C⊥ = Z L_Wᵀ, M11 = L11 L11ᵀ.
   if (!factor_gram(rotated, n_, n_, factor)) {
     std::copy_n(K_at_zero_.data(), n_ * m_, K);
     return;
   }
-  double* solved = rotated;  // W C⊥ᵀ Ψ Cᵀ, q x m
+  double* solved = solved_.of(workspace);
   for (Eigen::Index j = 0; j < m_; ++j) {
     for (Eigen::Index i = 0; i < q_; ++i) solved[j * q_ + i] = -factor[i * n_ + q_ + j];
   }
   solve_lower_transposed(factor, n_, q_, solved, m_);
-  std::copy_n(basis_.data() + n_ * q_, n_ * m_, transposed);
+  double* K_CCt = K_CCt_.of(workspace);
+  std::copy_n(basis_.data() + n_ * q_, n_ * m_, K_CCt);
   for (Eigen::Index j = 0; j < m_; ++j) {
-    add_product(basis_.data(), n_, q_, solved + j * q_, transposed + j * n_);
+    add_product(basis_.data(), n_, q_, solved + j * q_, K_CCt + j * n_);
   }
-  if (lambda_ > 0.0 && is_moderate(backward, n_ * n_)) {
-    subtract_kept_part(factor, transposed, transposed + n_ * m_);
-  }
-  multiply(transposed, n_, m_, gram_inverse_.data(), m_, K);
+  if (lambda_ > 0.0 && is_moderate(backward, n_ * n_)) subtract_kept_part(workspace);
+  multiply(K_CCt, n_, m_, gram_inverse_.data(), m_, K);
 }
 
-/// Subtracts P⁻¹ M21, where M22 is positive definite.
-void CertificateGain::subtract_kept_part(const double* factor, double* difference,
-                                         double* workspace) const {
-  double* M22 = workspace;
-  double* Y = M22 + n_ * n_;  // L_W⁻¹ C⊥ᵀ P
-  double* L11 = Y + q_ * n_;
-  double* M21 = L11 + m_ * m_;
+void CertificateGain::subtract_kept_part(double* workspace) const {
+  const double* factor = factor_.of(workspace);
+  double* M22 = M22_.of(workspace);
+  double* Y = Y_.of(workspace);
+  double* L11 = L11_.of(workspace);
+  double* M21 = M21_.of(workspace);
+  double* K_CCt = K_CCt_.of(workspace);
   std::copy_n(P_complement_.data(), q_ * n_, Y);
   solve_lower(factor, n_, q_, Y, n_);
   for (Eigen::Index j = 0; j < n_; ++j) {
@@ -130,7 +127,7 @@ void CertificateGain::subtract_kept_part(const double* factor, double* differenc
   multiply_by_transposed(M22, n_, m_, L11, m_, M21);
   solve_lower(L_.data(), n_, n_, M21, m_);
   solve_lower_transposed(L_.data(), n_, n_, M21, m_);
-  for (Eigen::Index i = 0; i < n_ * m_; ++i) difference[i] -= M21[i];
+  for (Eigen::Index i = 0; i < n_ * m_; ++i) K_CCt[i] -= M21[i];
 }
 
 }  // namespace sampled_data_observers

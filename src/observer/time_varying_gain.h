@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 
+#include "sampled_data_observers/hybrid/state_layout.h"
+
 namespace sampled_data_observers {
 
 /// A gain K(τ), n x m, of a sensor y = C x that depends on the time τ since the last sample.
@@ -56,11 +58,12 @@ class CertificateGain : public TimeVaryingGain {
   /// @throws std::invalid_argument where C has not full row rank.
   CertificateGain(const Eigen::MatrixXd& C, const Eigen::MatrixXd& P, double lambda);
 
-  Eigen::Index workspace_size() const override;
+  Eigen::Index workspace_size() const override { return workspace_.size(); }
   void evaluate(const double* backward, double* K, double* workspace) const override;
 
  private:
-  void subtract_kept_part(const double* factor, double* difference, double* workspace) const;
+  /// K (C Cᵀ) −= P⁻¹ M21, where M22 is positive definite.
+  void subtract_kept_part(double* workspace) const;
 
   Eigen::Index n_;
   Eigen::Index m_;
@@ -73,6 +76,18 @@ class CertificateGain : public TimeVaryingGain {
   Eigen::MatrixXd P_complement_;  ///< (P C⊥)ᵀ, q x n
   Eigen::MatrixXd gram_inverse_;  ///< (C Cᵀ)⁻¹, m x m
   Eigen::MatrixXd K_at_zero_;     ///< n x m
+
+  StateLayout workspace_;
+  VectorSlot root_ = workspace_.vector(n_ * n_);     ///< Lᵀ e^{−Aτ}, a root of Ψ
+  VectorSlot rotated_ = workspace_.vector(n_ * n_);  ///< root [C⊥ Cᵀ]
+  /// [L_W 0; Z L11] with C⊥ᵀ Ψ C⊥ = L_W L_Wᵀ, C Ψ C⊥ = Z L_Wᵀ, M11 = L11 L11ᵀ
+  VectorSlot factor_ = workspace_.vector(n_ * n_);
+  VectorSlot solved_ = workspace_.vector(q_ * m_);  ///< W C⊥ᵀ Ψ Cᵀ
+  VectorSlot K_CCt_ = workspace_.vector(n_ * m_);   ///< K (C Cᵀ)
+  VectorSlot M22_ = workspace_.vector(n_ * n_);
+  VectorSlot Y_ = workspace_.vector(q_ * n_);  ///< L_W⁻¹ C⊥ᵀ P
+  VectorSlot L11_ = workspace_.vector(m_ * m_);
+  VectorSlot M21_ = workspace_.vector(n_ * m_);
 };
 
 }  // namespace sampled_data_observers

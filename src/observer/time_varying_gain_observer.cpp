@@ -53,16 +53,10 @@ TimeVaryingGainObserver::Gains TimeVaryingGainObserver::make_gains(
   return gains;
 }
 
-/// Room for e^{−Aτ}, a gain and an innovation, and then for what computes them.
-PlantObserver::Extras TimeVaryingGainObserver::extras(const Plant& plant, const Gains& gains) {
-  const Eigen::Index n = plant.states();
-  const Eigen::Index m = plant.max_outputs();
-  Eigen::Index scratch = n;
-  for (const auto& gain : gains) scratch = std::max(scratch, gain->workspace_size());
-  Extras result;
-  result.timers = 1;
-  result.workspace = n * n + n * m + m + scratch;
-  return result;
+Eigen::Index TimeVaryingGainObserver::largest_workspace(const Gains& gains) {
+  Eigen::Index largest = 0;
+  for (const auto& gain : gains) largest = std::max(largest, gain->workspace_size());
+  return largest;
 }
 
 TimeVaryingGainObserver::TimeVaryingGainObserver(const ObserverContext& context,
@@ -74,7 +68,7 @@ TimeVaryingGainObserver::TimeVaryingGainObserver(const ObserverContext& context,
 }
 
 TimeVaryingGainObserver::TimeVaryingGainObserver(const ObserverContext& context, Gains gains)
-    : PlantObserver(context, extras(*context.plant, gains), {SensorTiming::kSampled}),
+    : PlantObserver(context, {SensorTiming::kSampled}),
       gains_(std::move(gains)),
       backward_flow_(-plant().modes().front().flow->affine()->M(), Eigen::MatrixXd::Zero(n(), 0)) {
   build_flow();
@@ -82,21 +76,15 @@ TimeVaryingGainObserver::TimeVaryingGainObserver(const ObserverContext& context,
 
 void TimeVaryingGainObserver::sample(std::size_t sensor, const double* y, const Held& held,
                                      double* state, double* workspace) const {
-  const Eigen::Index m = plant().sensors()[sensor].outputs();
-  double* backward = workspace;
-  double* K = backward + n() * n();
-  double* innovation = K + n() * m;
-  double* scratch = innovation + m;
-  const auto tau = static_cast<Duration>(timers(state)[0]);
-  for (Eigen::Index j = 0; j < n(); ++j) {
-    double* column = backward + j * n();
-    for (Eigen::Index i = 0; i < n(); ++i) column[i] = i == j ? 1.0 : 0.0;
-    backward_flow_.apply(tau, column, nullptr, scratch);
-  }
-  gains_[sensor]->evaluate(backward, K, scratch);
+  double* backward = backward_.of(workspace);
+  double* K = K_.of(workspace);
+  double* innovation = innovation_.of(workspace);
+  const auto tau = static_cast<Duration>(tau_.of(state));
+  backward_flow_.transition(tau, backward, column_.of(workspace));
+  gains_[sensor]->evaluate(backward, K, of_gain_.of(workspace));
   compute_innovation(plant(), held.mode, sensor, y, state, held.u, innovation);
-  add_product(K, n(), m, innovation, state);
-  timers(state)[0] = 0.0;
+  add_product(K, n(), plant().sensors()[sensor].outputs(), innovation, state);
+  tau_.restart(state);
 }
 
 }  // namespace sampled_data_observers

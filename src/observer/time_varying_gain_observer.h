@@ -43,12 +43,18 @@ class TimeVaryingGainObserver : public PlantObserver {
 
   static Gains make_gains(const Plant& plant, const std::optional<Eigen::MatrixXd>& P,
                           double lambda);
-  static Extras extras(const Plant& plant, const Gains& gains);
+  static Eigen::Index largest_workspace(const Gains& gains);
   TimeVaryingGainObserver(const ObserverContext& context, Gains gains);
 
   Gains gains_;               ///< one per sensor
   LinearFlow backward_flow_;  ///< of ẋ = −A x
   LawGains listed_;
+  TimerSlot tau_ = timer();
+  VectorSlot backward_ = scratch(n() * n());  ///< e^{−Aτ}
+  VectorSlot K_ = scratch(n() * plant().max_outputs());
+  VectorSlot innovation_ = scratch(plant().max_outputs());
+  VectorSlot column_ = scratch(n());
+  VectorSlot of_gain_ = scratch(largest_workspace(gains_));
 };
 
 }  // namespace sampled_data_observers

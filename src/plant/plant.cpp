@@ -103,4 +103,22 @@ Eigen::Index Plant::outputs(SensorTiming timing) const {
   return sum;
 }
 
+bool Plant::has_angles(SensorTiming timing) const {
+  return std::any_of(sensors().begin(), sensors().end(), [&](const Sensor& sensor) {
+    return sensor.timing == timing &&
+           std::find(sensor.angular.begin(), sensor.angular.end(), true) != sensor.angular.end();
+  });
+}
+
+Eigen::MatrixXd Plant::stacked_outputs(std::size_t mode, SensorTiming timing) const {
+  Eigen::MatrixXd H(outputs(timing), states());
+  Eigen::Index row = 0;
+  for (std::size_t i = 0; i < sensors().size(); ++i) {
+    if (sensors()[i].timing != timing) continue;
+    H.middleRows(row, sensors()[i].outputs()) = modes()[mode].outputs[i]->affine()->M();
+    row += sensors()[i].outputs();
+  }
+  return H;
+}
+
 }  // namespace sampled_data_observers

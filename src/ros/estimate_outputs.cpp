@@ -1,6 +1,7 @@
 #include "sampled_data_observers/ros/estimate_outputs.h"
 
 #include "messages/time_conversion.h"
+#include "sampled_data_observers/observer/plant_observer.h"
 
 namespace sampled_data_observers {
 
@@ -34,7 +35,9 @@ EstimateOutputs::EstimateOutputs(ros::NodeHandle handle, const OutputsConfig& co
 void EstimateOutputs::take(const ObserverLaw& law, const Estimate& estimate) {
   const double* state = estimate.state.data();
   stamp_ = estimate.stamp;
-  reader_.read(state, law.held_part(state), law.covariance(state), law.estimate_size(), body_);
+  const PlantObserver& observer = law.observer();
+  reader_.read(state, observer.held_part(state), observer.covariance(state), law.estimate_size(),
+               body_);
 }
 
 void EstimateOutputs::publish() {

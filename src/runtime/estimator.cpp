@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "sampled_data_observers/observer/plant_observer.h"
+
 namespace sampled_data_observers {
 namespace {
 
@@ -80,7 +82,7 @@ std::optional<EventOutcome> Estimator::objection(const Event& event, Stamp now) 
   if (event.stamp <= 0) return EventOutcome::kNoStamp;
   if (event.size != law_->event_size(event.kind, event.channel)) return EventOutcome::kWrongSize;
   if (!is_admissible(event.vector())) return EventOutcome::kNotFinite;
-  if (!law_->knows_mode(event)) return EventOutcome::kUnknownMode;
+  if (!law_->observer().knows_mode(event)) return EventOutcome::kUnknownMode;
   if (std::max(event.stamp, event.release) - now > options_.future_tolerance) {
     return EventOutcome::kInFuture;
   }
@@ -131,7 +133,7 @@ double Estimator::innovation_of(const Event& measured) {
   if (query != Timeline::Query::kOk && query != Timeline::Query::kHeld) {
     return std::numeric_limits<double>::quiet_NaN();
   }
-  law_->innovation(measured, before_restart_.state.data(), innovation_.data());
+  law_->observer().innovation(measured, before_restart_.state.data(), innovation_.data());
   return innovation_.head(measured.size).norm();
 }
 
@@ -192,8 +194,10 @@ bool Estimator::prepare_restart(Estimator& from, Stamp stamp) {
   Estimate& before = from.before_restart_;
   const Timeline::Query query = from.timeline_.state_at(stamp, before.state, before.counts);
   if (query != Timeline::Query::kOk && query != Timeline::Query::kHeld) return false;
-  law_->keep_held(from.law_->held_part(before.state.data()), restart_state_.data());
-  law_->keep_mode(from.law_->mode_of(before.state.data()), restart_state_.data());
+  const PlantObserver& observer = law_->observer();
+  const PlantObserver& previous = from.law_->observer();
+  observer.keep_held(previous.held_part(before.state.data()), restart_state_.data());
+  observer.keep_mode(previous.mode_of(before.state.data()), restart_state_.data());
   return true;
 }
 
@@ -204,7 +208,7 @@ void Estimator::restart(Stamp stamp) {
 
 void Estimator::restart(Stamp stamp, Timeline::ConstStateRef estimate) {
   prepare_restart(*this, stamp);
-  law_->start_from(estimate.data(), restart_state_.data());
+  law_->observer().start_from(estimate.data(), restart_state_.data());
   begin(stamp);
 }
 
@@ -225,7 +229,7 @@ void Estimator::restart_at_next_sample(Stamp stamp) {
 void Estimator::begin_at(const Event& sample) {
   const Stamp start = sample.stamp - 1;
   prepare_restart(*this, start);
-  law_->fit_to(sample, restart_state_.data(), workspace_.data());
+  law_->observer().fit_to(sample, restart_state_.data(), workspace_.data());
   began_at_ = start;
   timeline_.rebase(start, restart_state_);
   if (input_unknown_since_) insert_rejected(EventKind::kInput, sample.stamp);
@@ -243,7 +247,7 @@ void Estimator::take_over(Estimator& other, Stamp stamp) {
   input_unknown_since_ = other.input_unknown_since_;
   began_at_ = other.began_at_;
   if (!prepare_restart(other, stamp)) return;
-  law_->start_from(other.before_restart_.state.data(), restart_state_.data());
+  law_->observer().start_from(other.before_restart_.state.data(), restart_state_.data());
   const double* before = other.before_restart_.state.data();
   law_->keep_bound({other.law_->error_bound(before), other.law_->bound_loss(before)},
                    restart_state_.data());

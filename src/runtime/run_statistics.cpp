@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "sampled_data_observers/observer/plant_observer.h"
+
 namespace sampled_data_observers {
 namespace {
 
@@ -82,7 +84,7 @@ void StatisticsRecorder::record_estimate(const ObserverLaw& law, const Estimate&
                                          const PublishedBound& bound, Duration lateness) noexcept {
   lateness_.record(lateness);
   if (estimate.held) increment(held_);
-  if (law.is_saturated(estimate.state.data())) increment(saturated_);
+  if (law.observer().is_saturated(estimate.state.data())) increment(saturated_);
   newest_estimate_.store(estimate.stamp, kRelaxed);
   error_bound_.store(bound.value, kRelaxed);
   bound_loss_.store(bound.loss, kRelaxed);

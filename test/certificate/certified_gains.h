@@ -11,6 +11,7 @@
 #include "sampled_data_observers/config/observer_config.h"
 #include "sampled_data_observers/config/plant_config.h"
 #include "sampled_data_observers/config/yaml_file.h"
+#include "sampled_data_observers/observer/plant_observer.h"
 
 namespace sampled_data_observers::test {
 
@@ -54,7 +55,7 @@ class CertifiedGains {
   std::optional<CertificateConfig> claim(const std::string& section = kCertificate) const {
     ConfigSection root(tree_, "");
     const PlantConfig plant = read_plant(root, no_plant_plugins);
-    return read_certificate(root, *plant.plant, read_law(root, plant)->gains(), section);
+    return read_certificate(root, *plant.plant, read_law(root, plant)->observer().gains(), section);
   }
   Certificate certificate(const std::string& section = kCertificate) const {
     return claim(section)->certificate;

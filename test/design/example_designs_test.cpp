@@ -13,6 +13,7 @@
 #include "design/synthesis.h"
 #include "sampled_data_observers/config/observer_config.h"
 #include "sampled_data_observers/config/yaml_file.h"
+#include "sampled_data_observers/observer/plant_observer.h"
 
 namespace sampled_data_observers {
 namespace {
@@ -48,8 +49,8 @@ TEST_P(ExampleDesigns, GiveGainFilesWhoseClaimsHoldWhenRead) {
 
   const ConfigNode gains = read_yaml_text(text.str(), "gains.yaml");
   ConfigSection root(gains, "");
-  const auto claim =
-      read_certificate(root, *config.plant, read_law(root, {config.plant, config.names})->gains());
+  const auto claim = read_certificate(
+      root, *config.plant, read_law(root, {config.plant, config.names})->observer().gains());
   ASSERT_TRUE(claim) << text.str();
   const auto checks = check(claim->certificate);
   EXPECT_TRUE(all_hold(checks)) << describe_violations(checks);

@@ -13,6 +13,7 @@
 #include "design/workers.h"
 #include "sampled_data_observers/config/observer_config.h"
 #include "sampled_data_observers/config/yaml_file.h"
+#include "sampled_data_observers/observer/plant_observer.h"
 
 namespace sampled_data_observers::test {
 namespace {
@@ -37,7 +38,7 @@ class PrintedGainsTest : public ::testing::TestWithParam<ShippedExample> {
   }
 
   LawGains gains_of(ConfigSection& root) const {
-    return read_law(root, {config_.plant, config_.names})->gains();
+    return read_law(root, {config_.plant, config_.names})->observer().gains();
   }
 
   /// The best certificate of the gains that the paper prints, for the shipped certificate's rate

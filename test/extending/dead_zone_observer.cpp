@@ -11,9 +11,7 @@ using namespace sampled_data_observers;
 
 DeadZoneObserver::DeadZoneObserver(ObserverContext context, std::vector<Eigen::MatrixXd> L,
                                    double width)
-    : PlantObserver(std::move(context), {}, {SensorTiming::kSampled}),
-      L_(std::move(L)),
-      width_(width) {
+    : PlantObserver(std::move(context), {SensorTiming::kSampled}), L_(std::move(L)), width_(width) {
   check_gains("L", L_, plant(), SensorTiming::kSampled);
   build_flow();
 }
@@ -24,7 +22,7 @@ LawGains DeadZoneObserver::gains() const {
 
 void DeadZoneObserver::sample(std::size_t sensor, const double* y, const Held& held, double* state,
                               double* workspace) const {
-  double* innovation = workspace;
+  double* innovation = innovation_.of(workspace);
   compute_innovation(plant(), held.mode, sensor, y, state, held.u, innovation);
   for (Eigen::Index i = 0; i < plant().sensors()[sensor].outputs(); ++i) {
     if (innovation[i] > width_) {

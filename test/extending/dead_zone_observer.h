@@ -23,6 +23,7 @@ class DeadZoneObserver : public sampled_data_observers::PlantObserver {
  private:
   std::vector<Eigen::MatrixXd> L_;
   double width_;
+  sampled_data_observers::VectorSlot innovation_ = scratch(plant().max_outputs());
 };
 
 }  // namespace my_observers

@@ -30,7 +30,7 @@ TEST(DeadZoneObserverTest, IsAnObserverTypeLikeTheOthers) {
   EXPECT_NE(types.end(), std::find(types.begin(), types.end(), "DeadZoneObserver"));
   EXPECT_THROW(register_observer_type("DeadZoneObserver", nullptr), std::logic_error);
   EXPECT_THROW(parse("-1"), ConfigError);
-  EXPECT_EQ(0.25, parse("0.25").law->gains().find("width")->value(0, 0));
+  EXPECT_EQ(0.25, parse("0.25").law->observer().gains().find("width")->value(0, 0));
 }
 
 TEST(DeadZoneObserverTest, LeavesSmallInnovationsAloneAndShrinksLargeOnes) {

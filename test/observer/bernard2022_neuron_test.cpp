@@ -7,6 +7,7 @@
 
 #include "sampled_data_observers/config/observer_config.h"
 #include "sampled_data_observers/config/yaml_file.h"
+#include "sampled_data_observers/observer/plant_observer.h"
 
 namespace sampled_data_observers {
 namespace {
@@ -132,7 +133,7 @@ TEST(Bernard2022Neuron, ItsCoordinatesFollowThePlant) {
   Eigen::VectorXd workspace(config.law->workspace_size());
   config.law->initialize(state.data());
   const Eigen::Vector4d x0(-55.0, -6.0, 0.02, 0.2);
-  config.law->start_from(x0.data(), state.data());
+  config.law->observer().start_from(x0.data(), state.data());
   config.law->flow(from_seconds(2.0), state.data(), workspace.data());
   Neuron neuron;
   neuron.flow(2.0);

@@ -22,7 +22,7 @@ constexpr Duration kSecond = kNanosecondsPerSecond;
 std::shared_ptr<const ObserverLaw> with_gates(const ObserverConfig& config) {
   Eigen::VectorXd state(config.law->state_size());
   config.law->initialize(state.data());
-  const bool has_covariance = config.law->covariance(state.data()) != nullptr;
+  const bool has_covariance = config.law->observer().covariance(state.data()) != nullptr;
   std::vector<std::optional<Gate>> gates;
   bool reset = false;
   for (const Sensor& sensor : config.plant->sensors()) {

@@ -48,15 +48,16 @@ class Runner {
   Effect sample_off(int sensor, std::vector<double> innovation) {
     Eigen::VectorXd zero(static_cast<Eigen::Index>(innovation.size()));
     const std::vector<double> nothing(innovation.size(), 0.0);
-    law_->innovation(event(EventKind::kSample, sensor, nothing), state_.data(), zero.data());
+    law_->observer().innovation(event(EventKind::kSample, sensor, nothing), state_.data(),
+                                zero.data());
     for (std::size_t i = 0; i < innovation.size(); ++i) {
       innovation[i] -= zero(static_cast<Eigen::Index>(i));
     }
     return sample(sensor, innovation);
   }
   double distance(int sensor, const std::vector<double>& y) {
-    return law_->mahalanobis_distance(event(EventKind::kSample, sensor, y), state_.data(),
-                                      workspace_.data());
+    return law_->observer().mahalanobis_distance(event(EventKind::kSample, sensor, y),
+                                                 state_.data(), workspace_.data());
   }
   Eigen::VectorXd estimate() const { return state_.head(law_->estimate_size()); }
   Eigen::VectorXd& state() { return state_; }
@@ -246,7 +247,7 @@ TEST_F(KalmanGateTest, TheDistanceIsTheTextbooks) {
   Runner runner(law_);
   for (int i = 0; i < 20; ++i) {
     runner.flow(kSecond / 3);
-    const Eigen::Map<const Eigen::Matrix2d> P(law_->covariance(runner.state().data()));
+    const Eigen::Map<const Eigen::Matrix2d> P(law_->observer().covariance(runner.state().data()));
     const Eigen::Vector2d y(std::sin(i), 2.0 * std::cos(3 * i));
     const Eigen::Vector2d nu = y - C_ * runner.estimate();
     const Eigen::Matrix2d S = C_ * P * C_.transpose() + R_;

@@ -9,6 +9,8 @@
 #include <string>
 
 #include "linear_algebra/ordered_solve.h"
+#include "observer/original_high_gain_observer.h"
+#include "observer/transformed_high_gain_observer.h"
 #include "sampled_data_observers/plant/expression_map.h"
 #include "sampled_data_observers/runtime/estimator.h"
 #include "support/allocation_counter.h"
@@ -105,7 +107,7 @@ TEST(LinearHighGainTest, AJumpIsThePlantsWithinTheBounds) {
   body.take(EventKind::kJump, {});
   EXPECT_EQ(1.0, body.state(0));
   EXPECT_EQ(3.0, body.state(1));
-  EXPECT_TRUE(body.law->is_saturated(body.state.data()));
+  EXPECT_TRUE(body.law->observer().is_saturated(body.state.data()));
   body.flow(1.0);  // the flow knows no bounds
   EXPECT_NEAR(4.0, body.state(0), 1e-15);
 }
@@ -221,7 +223,7 @@ TEST(TransformedHighGainTest, JumpsAndStartsInItsCoordinates) {
   body.take(EventKind::kJump, {});  // x2⁺ = 1.08
   expect_state(0.7, 1.0);
   const Eigen::Vector2d other(-0.2, 0.4);
-  body.law->start_from(other.data(), body.state.data());
+  body.law->observer().start_from(other.data(), body.state.data());
   expect_state(-0.2, 0.4);
 }
 

@@ -75,7 +75,7 @@ std::shared_ptr<const HybridKalmanFilter> example_filter() {
 }
 
 Eigen::Matrix3d covariance(const ObserverLaw& law, const LawRunner& runner) {
-  return Eigen::Map<const Eigen::Matrix3d>(law.covariance(runner.state().data()));
+  return Eigen::Map<const Eigen::Matrix3d>(law.observer().covariance(runner.state().data()));
 }
 
 /// The textbook filter, with Eigen.

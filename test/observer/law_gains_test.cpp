@@ -7,6 +7,7 @@
 
 #include "sampled_data_observers/config/config_section.h"
 #include "sampled_data_observers/config/yaml_file.h"
+#include "sampled_data_observers/observer/plant_observer.h"
 #include "support/type_examples.h"
 
 namespace sampled_data_observers::test {
@@ -35,7 +36,7 @@ class GainsOfTypeTest : public ::testing::TestWithParam<std::string> {};
 
 /// A certificate that does not name one of them must object to it.
 TEST_P(GainsOfTypeTest, EveryKeyOfTheFileIsAmongThem) {
-  const LawGains gains = read_example(GetParam()).law->gains();
+  const LawGains gains = read_example(GetParam()).law->observer().gains();
   const ConfigNode tree =
       read_yaml_file(std::string(SDO_SOURCE_DIR) + "/test/types/" + GetParam() + ".yaml");
   for (const std::string& key : ConfigSection(tree, "").section("gains").keys()) {
@@ -56,12 +57,12 @@ TEST_P(GainsOfTypeTest, EveryKeyOfTheFileIsAmongThem) {
 INSTANTIATE_TEST_SUITE_P(All, GainsOfTypeTest, ::testing::ValuesIn(type_examples()));
 
 TEST(LawGainsTest, TheyHaveTheSignsAndNumbersOfTheFile) {
-  const LawGains held = read_example("sample_and_hold").law->gains();
+  const LawGains held = read_example("sample_and_hold").law->observer().gains();
   ASSERT_EQ(1u, held.all.size());
   EXPECT_EQ("L/s", held.all.front().name);
   EXPECT_EQ(Eigen::MatrixXd(Eigen::Vector2d(-1.5, -0.4)), held.all.front().value);
 
-  const LawGains injected = read_example("intersample_injection").law->gains();
+  const LawGains injected = read_example("intersample_injection").law->observer().gains();
   EXPECT_EQ((Eigen::MatrixXd(2, 2) << -0.5, 0.1, 0, -0.3).finished(), value_of(injected, "H/b"));
   EXPECT_EQ(0.3, injected.initial_injection);
   EXPECT_EQ(nullptr, injected.find("L"));

@@ -5,6 +5,8 @@
 #include <limits>
 #include <thread>
 
+#include "plant/linear_plant.h"
+#include "sampled_data_observers/observer/plant_observer.h"
 #include "support/allocation_counter.h"
 
 namespace sampled_data_observers {
@@ -30,30 +32,26 @@ EventReport used_after(Duration interval, IntervalCheck check) {
 }
 
 /// One state, which is its own error bound, and has a bound of 10.
-class BoundLaw final : public ObserverLaw {
+class BoundLaw final : public PlantObserver, public StateBound {
  public:
-  const std::vector<std::string>& estimate_names() const override { return names_; }
-  Eigen::Index state_size() const override { return 1; }
-  Eigen::Index workspace_size() const override { return 0; }
-  Eigen::Index event_size(EventKind, int) const override { return 0; }
-  Eigen::Index max_event_size() const override { return 0; }
-  std::size_t sensors() const override { return 0; }
-  void initialize(double*) const override {}
-  void flow(Duration, double*, double*) const override {}
-  Effect reset(const Event&, double*, double*) const override { return Effect::kApplied; }
-  void innovation(const Event&, const double*, double*) const override {}
-  bool knows_mode(const Event&) const override { return true; }
-  const double* held_part(const double* state) const override { return state; }
-  void keep_held(const double*, double*) const override {}
-  double mode_of(const double*) const override { return 0.0; }
-  void keep_mode(double, double*) const override {}
-  void fit_to(const Event&, double*, double*) const override {}
-  void start_from(const double*, double*) const override {}
+  BoundLaw() : PlantObserver({plant_of_one_state(), Eigen::VectorXd::Zero(1), {}}, {}) {
+    build_flow();
+    set_bound(this);
+  }
   double error_bound(const double* state) const override { return *state; }
+  BoundLoss bound_loss(const double*) const override { return BoundLoss::kNone; }
+  void keep_bound(const PublishedBound&, double*) const override {}
+  void give_up(double*) const override {}
   bool is_saturated(const double* state) const override { return *state >= 10.0; }
 
  private:
-  std::vector<std::string> names_ = {"x"};
+  static std::shared_ptr<const Plant> plant_of_one_state() {
+    LinearPlantDescription plant;
+    plant.state_names = {"x"};
+    plant.A = Eigen::MatrixXd::Zero(1, 1);
+    plant.B = Eigen::MatrixXd::Zero(1, 0);
+    return make_linear_plant(plant);
+  }
 };
 
 Estimate estimate(Stamp stamp, double value) {

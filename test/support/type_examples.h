@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sampled_data_observers/config/observer_config.h"
+#include "sampled_data_observers/observer/plant_observer.h"
 #include "support/random_events.h"
 
 namespace sampled_data_observers::test {
@@ -67,7 +68,7 @@ inline std::vector<OwnedEvent> random_events_for(const ObserverLaw& law, std::mt
     event.kind = channel.kind;
     event.channel = channel.channel;
     for (Eigen::Index i = 0; i < channel.size; ++i) event.values.push_back(value(generator));
-    if (event.kind == EventKind::kJump && !law.knows_mode(event.view())) {
+    if (event.kind == EventKind::kJump && !law.observer().knows_mode(event.view())) {
       event.values[0] = tenth(generator) < 5 ? 1.0 : 2.0;
     }
     const bool known = std::any_of(events.begin(), events.end(), [&](const OwnedEvent& other) {

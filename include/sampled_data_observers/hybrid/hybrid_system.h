@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "sampled_data_observers/hybrid/event.h"
+#include "sampled_data_observers/hybrid/state_layout.h"
 #include "sampled_data_observers/hybrid/time.h"
 
 namespace sampled_data_observers {
@@ -33,36 +34,37 @@ constexpr bool took_effect(Effect effect) {
 class HybridSystem {
  public:
   virtual ~HybridSystem() = default;
+  HybridSystem& operator=(const HybridSystem&) = delete;
 
   /// Number of entries of the state.
-  virtual Eigen::Index state_size() const = 0;
+  Eigen::Index state_size() const { return state_layout_.size(); }
 
   /// Number of entries that the maps need in `workspace`.
-  virtual Eigen::Index workspace_size() const = 0;
+  Eigen::Index workspace_size() const { return workspace_layout_.size(); }
+
+  /// Largest event_size() of all channels.
+  Eigen::Index max_event_size() const { return facts_.max_event_size; }
+
+  /// Number of sensors.
+  std::size_t sensors() const { return facts_.sensors; }
+
+  /// Where not 0: a flow may be split at whole multiples of this without changing a bit of its
+  /// result [ns]. It lets a query go on from where an earlier one came to.
+  Duration flow_step() const { return facts_.flow_step; }
+
+  /// The longest flow from an event that can be computed in bearable time [ns]; longer ones count
+  /// as not finite.
+  Duration flow_horizon() const { return facts_.flow_horizon; }
 
   /// Number of values that an event of this kind and channel carries; -1 where there is no such
   /// channel. Channels of samples are numbers of sensors; there are sensors().
   virtual Eigen::Index event_size(EventKind kind, int channel) const = 0;
-
-  /// Largest event_size() of all channels.
-  virtual Eigen::Index max_event_size() const = 0;
-
-  /// Number of sensors.
-  virtual std::size_t sensors() const = 0;
 
   /// The state before the first event.
   virtual void initialize(double* state) const = 0;
 
   /// Flow map: carries the state over `duration` >= 0.
   virtual void flow(Duration duration, double* state, double* workspace) const = 0;
-
-  /// Where not 0: a flow may be split at whole multiples of this without changing a bit of its
-  /// result [ns]. It lets a query go on from where an earlier one came to.
-  virtual Duration flow_step() const { return 0; }
-
-  /// The longest flow from an event that can be computed in bearable time [ns]; longer ones count
-  /// as not finite.
-  virtual Duration flow_horizon() const { return std::numeric_limits<Duration>::max(); }
 
   /// Told where the state is held instead of flowed, since the flow is not finite, and where a jump
   /// of the plant had no effect, since its result is not: for systems that keep what must not
@@ -72,6 +74,32 @@ class HybridSystem {
   /// Reset map of an event that event_size() accepts. Where the event must not take effect, nothing
   /// changes but what the system remembers of such events. Never returns kNotFinite.
   virtual Effect reset(const Event& event, double* state, double* workspace) const = 0;
+
+ protected:
+  struct Facts {
+    Eigen::Index max_event_size = 0;
+    std::size_t sensors = 0;
+    Duration flow_step = 0;
+    Duration flow_horizon = std::numeric_limits<Duration>::max();
+  };
+
+  HybridSystem() = default;
+
+  /// For a system around another one: it begins with the facts of that one, its state with that
+  /// one's state and its workspace with that one's workspace.
+  HybridSystem(const HybridSystem&) = default;
+
+  /// What a system keeps in its state, and what its maps need beside it, is handed out here while
+  /// it is built. Workspace is not shared: what one map takes, no other one changes.
+  StateLayout& state_layout() { return state_layout_; }
+  VectorSlot scratch(Eigen::Index entries) { return workspace_layout_.vector(entries); }
+
+  Facts& facts() { return facts_; }
+
+ private:
+  StateLayout state_layout_;
+  StateLayout workspace_layout_;
+  Facts facts_;
 };
 
 }  // namespace sampled_data_observers

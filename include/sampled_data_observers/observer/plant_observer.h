@@ -1,10 +1,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "sampled_data_observers/observer/law_gains.h"
 #include "sampled_data_observers/observer/observer_law.h"
 #include "sampled_data_observers/plant/linear_flow.h"
 #include "sampled_data_observers/plant/plant.h"
@@ -26,56 +28,75 @@ struct ObserverContext {
 /// - sample(): what a sample does.
 /// - jump(): what a jump of the plant does. By default x̂ jumps as the plant.
 ///
+/// What it keeps beside x̂ it declares where its members are: flowing(), constants(), timer(), and
+/// scratch() for what its maps need while they run.
+///
 /// The flow is integrated exactly (LinearFlow) where flow_is_affine() says that derivative() is
 /// affine in state, input and outputs held: the matrices are then read off derivative() itself.
 /// Otherwise it is integrated by Runge–Kutta steps.
 ///
 /// Outputs measured at jumps (y_d) come with the jump event, or as events of equal stamp: a
 /// snapshot of the state before the jump lets the jump be applied again with them.
-///
-/// State: s | constants | time since jump, timers | mode | u | y_c | 1 | y_c known | snapshot of
-/// all before u | mode after the jump | y_d | y_d known, where s = (x̂, extra) flows.
 class PlantObserver : public ObserverLaw {
  public:
   /// The plant that is observed.
   const Plant& plant() const { return *plant_; }
 
-  const std::vector<std::string>& estimate_names() const override { return plant_->state_names(); }
-  Eigen::Index state_size() const override { return layout_.size; }
-  Eigen::Index workspace_size() const override;
+  /// What it computes with beside its plant. By default nothing, so that no certificate can be
+  /// about it.
+  virtual LawGains gains() const { return {}; }
+
   Eigen::Index event_size(EventKind kind, int channel) const override;
-  Eigen::Index max_event_size() const override;
-  std::size_t sensors() const override { return plant_->sensors().size(); }
   void initialize(double* state) const override;
   void flow(Duration duration, double* state, double* workspace) const override;
-  Duration flow_step() const override;
-  Duration flow_horizon() const override;
   Effect reset(const Event& event, double* state, double* workspace) const override;
-  bool knows_mode(const Event& event) const override;
-  const double* held_part(const double* state) const override;
-  void keep_held(const double* part, double* state) const override;
-  double mode_of(const double* state) const override;
-  void keep_mode(double mode, double* state) const override;
-  void fit_to(const Event& sample, double* state, double* workspace) const override;
-  void start_from(const double* estimate, double* state) const override;
-  void innovation(const Event& sample, const double* state, double* innovation) const override;
+
+  /// Whether the plant has the mode that a jump event names. @pre event_size() accepts the event
+  bool knows_mode(const Event& event) const;
+
+  /// What is held in a state: the input, and behind it the continuous outputs. For observers of one
+  /// plant it has one form.
+  const double* held_part(const double* state) const { return held_part_.of(state); }
+
+  /// Takes over what is held, as held_part() of an observer of the same plant gives it.
+  void keep_held(const double* part, double* state) const { held_part_.set(part, state); }
+
+  /// The mode that holds in a state, as its position among the plant's.
+  std::size_t mode_of(const double* state) const { return mode_.of(state); }
+  void keep_mode(std::size_t mode, double* state) const { mode_.set(mode, state); }
+
+  /// Moves the estimate of an initialized state the least (in the norm |·|) so that it fits a
+  /// sample of a sensor whose output is affine in the state; leaves it where it is for other
+  /// outputs.
+  void fit_to(const Event& sample, double* state, double* workspace) const;
+
+  /// Sets the estimate (estimate_size() entries, which may be the state's own) of an initialized
+  /// state.
+  virtual void start_from(const double* estimate, double* state) const;
+
+  /// The covariance of the estimate in a state, a symmetric matrix of estimate_size() rows; null
+  /// where the observer has none.
+  virtual const double* covariance(const double* state) const;
+
+  /// The innovation y − h(x̂, u) of a sample, angles wrapped: event.size entries.
+  void innovation(const Event& sample, const double* state, double* innovation) const;
+
+  /// The Mahalanobis distance √(νᵀ S⁻¹ ν) of a sample's innovation ν, whose covariance is S; NaN
+  /// where the observer has no covariance.
+  virtual double mahalanobis_distance(const Event& sample, const double* state,
+                                      double* workspace) const;
+
+  /// Whether a state of the estimate stands at a bound that the observer keeps it within.
+  virtual bool is_saturated(const double* state) const;
 
   /// Number of entries of s, the part of a state that flows: its beginning.
-  Eigen::Index flow_size() const { return layout_.constants; }
+  Eigen::Index flow_size() const { return s_.size(); }
   /// ds ← ṡ at a state, flow_size() entries.
   void flow_derivative(const double* state, double* ds, double* workspace) const {
     derivative(held(state), state, ds, workspace);
   }
 
  protected:
-  /// What a law keeps beside x̂.
-  struct Extras {
-    Eigen::Index flowing = 0;    ///< more states that flow
-    Eigen::Index constants = 0;  ///< numbers that the flow leaves alone
-    Eigen::Index timers = 0;     ///< each the time since the law set it to zero [ns]
-    Eigen::Index workspace = 0;  ///< scratch for the law's maps
-  };
-
   /// What holds during a flow or at an event.
   struct Held {
     std::size_t mode = 0;  ///< position in plant().modes()
@@ -86,19 +107,37 @@ class PlantObserver : public ObserverLaw {
     const double* y_c = nullptr;
   };
 
-  /// The outputs at a jump: those of sensor i begin at y_d + jump_output_offset(i), where known[i].
-  struct JumpOutputs {
-    /// Of all sensors that measure at jumps.
-    const double* y_d = nullptr;
-    const double* known = nullptr;  ///< one entry per sensor: 1 or 0
+  /// The outputs at a jump.
+  class JumpOutputs {
+   public:
+    JumpOutputs(const PlantObserver& law, const double* state) : law_(law), state_(state) {}
+
+    /// y_d of a sensor that measures at jumps; null where it is not known.
+    const double* of(std::size_t sensor) const {
+      if (!law_.y_d_known_[sensor].of(state_)) return nullptr;
+      return law_.y_d_.of(state_) + law_.output_offset(sensor);
+    }
+
+   private:
+    const PlantObserver& law_;
+    const double* state_;
   };
 
+  /// @param flowing  number of states that flow beside x̂
   /// @throws std::invalid_argument for sizes that do not fit the plant, and where a sensor has a
   /// timing that is not in `timings`.
-  PlantObserver(ObserverContext context, const Extras& extras,
-                const std::vector<SensorTiming>& timings);
+  PlantObserver(ObserverContext context, const std::vector<SensorTiming>& timings,
+                Eigen::Index flowing = 0);
 
-  /// To be called at the end of every constructor that makes an observer: builds its flow.
+  /// What an observer keeps in its state beside x̂: the next of its flowing states, numbers that the
+  /// flow leaves alone, and the time [ns] since it restarted the timer last. All are zero at first.
+  /// @pre build_flow() was not called yet
+  VectorSlot flowing(Eigen::Index entries);
+  VectorSlot constants(Eigen::Index entries);
+  TimerSlot timer();
+
+  /// To be called at the end of every constructor that makes an observer: builds its flow. The
+  /// state has its form then.
   void build_flow();
 
   /// Whether derivative() is affine in s, u and y_c.
@@ -107,8 +146,8 @@ class PlantObserver : public ObserverLaw {
   /// ds ← ṡ
   virtual void derivative(const Held& held, const double* s, double* ds, double* workspace) const;
 
-  /// Reset map of a sample y of a sensor that is sampled. By default nothing, for laws that take no
-  /// such sensor.
+  /// Reset map of a sample y of a sensor that is sampled. By default nothing, for observers that
+  /// take no such sensor.
   virtual void sample(std::size_t sensor, const double* y, const Held& held, double* state,
                       double* workspace) const;
 
@@ -117,7 +156,7 @@ class PlantObserver : public ObserverLaw {
   virtual void jump(const Held& held, std::size_t next, const JumpOutputs& outputs, double* state,
                     double* workspace) const;
 
-  /// Moves the law's constants over a flow; s was not moved yet.
+  /// Moves the observer's constants over a flow; s was not moved yet.
   virtual void flow_constants(Duration duration, const Held& held, double* state,
                               double* workspace) const;
 
@@ -127,64 +166,78 @@ class PlantObserver : public ObserverLaw {
   /// x̂ ← g(x̂) of the mode that held before; x̂ stays where that has no jump map.
   void apply_plant_jump(const Held& held, double* state, double* workspace) const;
 
+  /// dx ← dx + Σ L_i (y_c,i − h_i(x)) over the continuous sensors; nothing where y_c is not known.
+  void add_innovations(const std::vector<Eigen::MatrixXd>& L, const Held& held, const double* x,
+                       double* dx, double* workspace) const;
+
+  /// dx ← dx + Σ L_i (y_d,i − h_i(x)) over the sensors whose output at the jump is known.
+  void add_innovations(const std::vector<Eigen::MatrixXd>& L, const Held& held,
+                       const JumpOutputs& outputs, const double* x, double* dx,
+                       double* workspace) const;
+
   /// Number of states of the plant, and of x̂.
   Eigen::Index n() const { return plant_->states(); }
-  /// As flow_size(): n() and Extras::flowing.
-  Eigen::Index flowing_size() const { return layout_.constants; }
-  /// The law's constants, Extras::constants entries.
-  double* constants(double* state) const { return state + layout_.constants; }
-  /// The law's constants, Extras::constants entries.
-  const double* constants(const double* state) const { return state + layout_.constants; }
-  /// The law's timers [ns].
-  double* timers(double* state) const { return state + layout_.timers + 1; }
   /// Time since the last jump, or the start [ns].
-  double since_jump(const double* state) const { return state[layout_.timers]; }
+  double since_jump(const double* state) const { return since_jump_.of(state); }
   /// What a state holds; its pointers point into the state.
   Held held(const double* state) const;
 
-  /// Where the outputs of a sensor begin in Held::y_c.
-  Eigen::Index continuous_offset(std::size_t sensor) const { return offsets_[sensor]; }
-  /// Where the outputs of a sensor begin in JumpOutputs::y_d.
-  Eigen::Index jump_output_offset(std::size_t sensor) const { return offsets_[sensor]; }
+  /// The sensors of a timing, by their numbers, and where the outputs of one begin among those of
+  /// its timing.
+  const std::vector<std::size_t>& sensors_of(SensorTiming timing) const {
+    return sensors_of_[static_cast<std::size_t>(timing)];
+  }
+  /// Where the outputs of a sensor begin among those of its timing.
+  Eigen::Index output_offset(std::size_t sensor) const { return offsets_[sensor]; }
 
  private:
-  struct Layout {
-    Eigen::Index constants = 0;
-    Eigen::Index timers = 0;
-    Eigen::Index mode = 0;
-    Eigen::Index input = 0;
-    Eigen::Index outputs = 0;
-    Eigen::Index one = 0;
-    Eigen::Index outputs_known = 0;
-    Eigen::Index snapshot = 0;
-    Eigen::Index snapshot_next = 0;
-    Eigen::Index jump_outputs = 0;
-    Eigen::Index jump_outputs_known = 0;
-    Eigen::Index size = 0;
-  };
-
   class Field;
 
-  bool has_jump_outputs() const { return layout_.jump_outputs < layout_.jump_outputs_known; }
-  Eigen::Index mode_values() const { return plant_->switches() ? 1 : 0; }
   void begin_jump(const Event& event, double* state, double* workspace) const;
   void apply_jump(std::size_t next, double* state, double* workspace) const;
   void pair_with_jump(const Event& output, double* state, double* workspace) const;
+  bool is_built() const { return numeric_flow_ != nullptr || !exact_flows_.empty(); }
+  bool takes_jump_outputs() const { return y_d_.size() > 0; }
+  Eigen::Index mode_values() const { return plant_->switches() ? 1 : 0; }
   std::size_t regime(const Held& held) const;
   LinearFlow exact_flow(const Held& held) const;
-  Eigen::MatrixXd least_correction(std::size_t mode, std::size_t sensor) const;
 
   std::shared_ptr<const Plant> plant_;
   Eigen::VectorXd initial_estimate_;
   Eigen::VectorXd initial_input_;
-  Eigen::Index timer_count_;
-  Eigen::Index law_workspace_;
-  Layout layout_;
-  /// Of each sensor's outputs among those of its timing.
+  std::array<std::vector<std::size_t>, 3> sensors_of_;
   std::vector<Eigen::Index> offsets_;
   /// For each mode and each sensor, what makes of an innovation the least change of x̂ that removes
   /// it; empty where the output is not affine.
   std::vector<std::vector<Eigen::MatrixXd>> least_corrections_;
+
+  // The state: what flows, what is held, and what a jump takes with it otherwise: the mode, and
+  // what the observer keeps beside.
+  VectorSlot s_;
+  Eigen::Index flowing_ = 0;  ///< handed out by flowing(), x̂ first
+  VectorSlot inputs_;         ///< of the flow: (u, y_c)
+  VectorSlot u_;
+  VectorSlot y_c_;
+  FlagsSlot y_c_known_;
+  VectorSlot held_part_;  ///< inputs_ and y_c_known_
+  ModeSlot mode_;
+  TimerSlot since_jump_;
+  std::vector<TimerSlot> timers_;  ///< all
+
+  // Where outputs are measured at jumps: those of the last jump, the mode after it, and a snapshot
+  // of the state before it.
+  VectorSlot y_d_;
+  FlagsSlot y_d_known_;
+  FlagSlot has_jumped_;
+  ModeSlot mode_after_jump_;
+  VectorSlot kept_;  ///< of the state: all that the snapshot has beside s
+  VectorSlot s_before_jump_;
+  VectorSlot kept_before_jump_;
+
+  VectorSlot flowed_;
+  VectorSlot jumped_;
+  VectorSlot innovation_;
+
   /// One flow for each regime(), or one numeric flow for all.
   std::vector<LinearFlow> exact_flows_;
   std::unique_ptr<RungeKuttaFlow> numeric_flow_;

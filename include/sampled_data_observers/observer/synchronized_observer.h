@@ -41,6 +41,8 @@ class SynchronizedObserver : public PlantObserver {
 
  private:
   SynchronizedGains gains_;
+  VectorSlot x_ = scratch(n());           ///< x̂ with injected outputs
+  VectorSlot correction_ = scratch(n());  ///< of x̂ at a jump
 };
 
 }  // namespace sampled_data_observers

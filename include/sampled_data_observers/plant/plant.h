@@ -104,6 +104,12 @@ class Plant {
   /// Number of outputs of all sensors of one timing together.
   Eigen::Index outputs(SensorTiming timing) const;
 
+  /// Whether a sensor of the timing measures an angle.
+  bool has_angles(SensorTiming timing) const;
+
+  /// H (m x n): the affine outputs of all sensors of a timing in a mode, one below the other.
+  Eigen::MatrixXd stacked_outputs(std::size_t mode, SensorTiming timing) const;
+
  private:
   PlantDescription description_;
   std::vector<Output> outputs_;

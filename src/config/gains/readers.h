@@ -5,10 +5,10 @@
 #include <optional>
 #include <vector>
 
-#include "observer/high_gain_observer.h"
 #include "observer/hybrid_kalman_filter.h"
 #include "observer/intersample_injection_observer.h"
 #include "observer/switched_observer.h"
+#include "observer/transformed_high_gain_observer.h"
 #include "sampled_data_observers/config/law_registry.h"
 #include "sampled_data_observers/observer/synchronized_observer.h"
 

@@ -15,6 +15,7 @@
 #include "design/workers.h"
 #include "messages/plant_plugins.h"
 #include "sampled_data_observers/config/yaml_file.h"
+#include "sampled_data_observers/observer/plant_observer.h"
 #include "tools/design/commands.h"
 #include "tools/design/gain_files.h"
 #include "tools/design/run_time_report.h"
@@ -104,7 +105,7 @@ AnalysisProblem read_problem(const AnalyzeArguments& arguments, const DesignConf
   ConfigSection root(tree, "");
   AnalysisProblem problem;
   problem.subject = config.subject;
-  const LawGains law = read_law(root, {config.plant, config.names})->gains();
+  const LawGains law = read_law(root, {config.plant, config.names})->observer().gains();
   const auto claim = read_certificate(root, *config.plant, law);
   if (claim) {
     problem.subject = claim->certificate.subject;

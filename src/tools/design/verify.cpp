@@ -20,6 +20,7 @@
 #include "messages/plant_plugins.h"
 #include "sampled_data_observers/config/plant_config.h"
 #include "sampled_data_observers/config/yaml_file.h"
+#include "sampled_data_observers/observer/plant_observer.h"
 #include "tools/design/commands.h"
 #include "tools/design/gain_files.h"
 
@@ -49,7 +50,7 @@ std::vector<CertificateConfig> read_claims(const VerifyArguments& arguments) {
   }
   ConfigSection plant_section = plant_root.section("plant");
   const std::string hash = plant_fingerprint(plant_tree);
-  const LawGains law = read_law(root, plant)->gains();
+  const LawGains law = read_law(root, plant)->observer().gains();
   std::vector<CertificateConfig> claims;
   for (const char* key : {kCertificate, kRunTimeCertificate}) {
     const auto claim = read_certificate(root, *plant.plant, law, key);

@@ -8,6 +8,7 @@
 
 #include "certificate/disturbed_flow.h"
 #include "sampled_data_observers/config/observer_config.h"
+#include "sampled_data_observers/observer/plant_observer.h"
 
 namespace sampled_data_observers::test {
 
@@ -43,7 +44,7 @@ class AttackedObserver {
     Attacked result{Eigen::VectorXd::Zero(plant_.states()), Eigen::VectorXd(law_.state_size())};
     law_.initialize(result.law_state.data());
     const Eigen::VectorXd estimate = result.x - error;
-    law_.start_from(estimate.data(), result.law_state.data());
+    law_.observer().start_from(estimate.data(), result.law_state.data());
     return result;
   }
 

@@ -1,0 +1,42 @@
+#include "observer/kalman_matrices.h"
+
+#include <stdexcept>
+
+#include "linear_algebra/definite_matrix.h"
+#include "linear_algebra/ordered_linear_algebra.h"
+
+namespace sampled_data_observers {
+
+KalmanMatrices kalman_matrices(const KalmanCovariances& covariances, const Plant& plant) {
+  const Eigen::Index n = plant.states();
+  KalmanMatrices result;
+  result.P0 = checked_positive_definite("P0", covariances.P0, n);
+  result.Q_d = checked_positive_semidefinite("Q_d", covariances.Q_d, n);
+  if (!plant.is_affine()) {
+    throw std::invalid_argument(
+        "this observer takes plants whose flow, jump map and outputs are linear, up to constants");
+  }
+  const std::vector<Sensor>& sensors = plant.sensors();
+  if (covariances.R.size() != sensors.size()) {
+    throw std::invalid_argument("R: one matrix per sensor");
+  }
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    Eigen::MatrixXd root = checked_positive_definite("R of sensor '" + sensors[i].name + "'",
+                                                     covariances.R[i], sensors[i].outputs());
+    result.R.push_back(root);
+    factor_cholesky(root.data(), root.rows());
+    result.noise_roots.push_back(root);
+  }
+  result.Q = checked_positive_semidefinite("Q", covariances.Q, n);
+  for (const PlantMode& mode : plant.modes()) {
+    std::vector<Eigen::MatrixXd>& outputs = result.outputs.emplace_back();
+    for (std::size_t i = 0; i < sensors.size(); ++i) {
+      Eigen::MatrixXd C = mode.outputs[i]->affine()->M();
+      solve_lower(result.noise_roots[i].data(), C.rows(), C.rows(), C.data(), n);
+      outputs.emplace_back(C.transpose());
+    }
+  }
+  return result;
+}
+
+}  // namespace sampled_data_observers

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "sampled_data_observers/plant/plant.h"
+
+namespace sampled_data_observers {
+
+/// The covariances that a HybridKalmanFilter is tuned by.
+struct KalmanCovariances {
+  Eigen::MatrixXd P0;              ///< of the initial estimate: n x n, symmetric positive definite
+  std::vector<Eigen::MatrixXd> R;  ///< of each sensor: m_i x m_i, symmetric positive definite
+  Eigen::MatrixXd Q;               ///< in flow, per second: n x n, symmetric positive semidefinite
+  Eigen::MatrixXd Q_d;             ///< at jumps: n x n, symmetric positive semidefinite
+};
+
+/// What a HybridKalmanFilter computes with: outputs are transformed so that their noises are
+/// independent and of variance 1.
+struct KalmanMatrices {
+  Eigen::MatrixXd P0;  ///< symmetric to the bit, as the others
+  Eigen::MatrixXd Q;
+  Eigen::MatrixXd Q_d;
+  std::vector<Eigen::MatrixXd> R;            ///< of each sensor
+  std::vector<Eigen::MatrixXd> noise_roots;  ///< of each sensor: L with R = L Lᵀ
+  /// Of each mode and sensor: (L⁻¹ C)ᵀ, n x m.
+  std::vector<std::vector<Eigen::MatrixXd>> outputs;
+};
+
+/// @throws std::invalid_argument for a plant that is not affine and for covariances that do not fit
+/// it or are not definite as they must be.
+KalmanMatrices kalman_matrices(const KalmanCovariances& covariances, const Plant& plant);
+
+}  // namespace sampled_data_observers

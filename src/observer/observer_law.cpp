@@ -1,0 +1,11 @@
+#include "sampled_data_observers/observer/observer_law.h"
+
+#include "sampled_data_observers/observer/plant_observer.h"
+
+namespace sampled_data_observers {
+
+const std::vector<std::string>& ObserverLaw::estimate_names() const {
+  return observer().plant().state_names();
+}
+
+}  // namespace sampled_data_observers

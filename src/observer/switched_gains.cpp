@@ -1,0 +1,88 @@
+#include "observer/switched_gains.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <stdexcept>
+#include <string>
+
+#include "sampled_data_observers/observer/gain_check.h"
+
+namespace sampled_data_observers {
+namespace {
+
+void require(bool holds, const std::string& what) {
+  if (!holds) throw std::invalid_argument(what);
+}
+
+bool is_identity(const VectorMap& map) {
+  const AffineMap& affine = *map.affine();
+  return affine.M().isIdentity(0.0) && affine.N().isZero(0.0) && affine.c().isZero(0.0);
+}
+
+/// P⁻¹ Hᵀ (H P⁻¹ Hᵀ)⁻¹; empty where H has no rows.
+Eigen::MatrixXd projection_gain(const Eigen::MatrixXd& P, const Eigen::MatrixXd& H,
+                                const std::string& where) {
+  if (H.rows() == 0) return {};
+  const Eigen::MatrixXd lifted = P.llt().solve(H.transpose());
+  const Eigen::FullPivLU<Eigen::MatrixXd> gram(H * lifted);
+  require(gram.isInvertible(), "projection" + where + ": the outputs of the mode are dependent");
+  return lifted * gram.inverse();
+}
+
+Projection make_projection(const SwitchedGains& gains, const Plant& plant, std::size_t mode) {
+  if (!gains.P[mode]) return {};
+  const Eigen::MatrixXd& P = *gains.P[mode];
+  const PlantMode& of_plant = plant.modes()[mode];
+  const std::string where = " of mode " + std::to_string(of_plant.label);
+  require(P.rows() == plant.states() && P.cols() == plant.states() && P.allFinite(),
+          "projection" + where + ": one row and one column per state");
+  require((P - P.transpose()).norm() <= 1e-9 * P.norm() && P.llt().info() == Eigen::Success,
+          "projection" + where + ": the metric must be symmetric and positive definite");
+  require(!of_plant.jump || is_identity(*of_plant.jump),
+          "projection" + where + ": its jump map must be the identity");
+  return {projection_gain(P, plant.stacked_outputs(mode, SensorTiming::kAtJumps), where),
+          projection_gain(P, plant.stacked_outputs(mode, SensorTiming::kContinuous), where)};
+}
+
+}  // namespace
+
+void check_switched_gains(const SwitchedGains& gains, const Plant& plant) {
+  require(plant.switches(), "the plant must have several modes (plant/modes)");
+  require(plant.is_affine(), "all modes of the plant must be affine");
+  const std::size_t modes = plant.modes().size();
+  const auto fits = [modes](std::size_t size) { return size == 0 || size == modes; };
+  require(fits(gains.L_c.size()) && fits(gains.L_d.size()) && fits(gains.P.size()),
+          "one gain per mode of the plant");
+  require(!gains.L_c.empty() || !gains.L_d.empty() || !gains.P.empty(),
+          "at least one of L_c, L_d and projection");
+  const bool continuous = plant.outputs(SensorTiming::kContinuous) > 0;
+  const bool at_jumps = plant.outputs(SensorTiming::kAtJumps) > 0;
+  require(gains.L_c.empty() || continuous, "L_c needs a sensor that is measured continuously");
+  require(gains.L_d.empty() || at_jumps, "L_d needs a sensor that is measured at jumps");
+  require(!continuous || !gains.L_c.empty() || !gains.P.empty(),
+          "sensors that are measured continuously need L_c or projection");
+  require(!at_jumps || !gains.L_d.empty() || !gains.P.empty(),
+          "sensors that are measured at jumps need L_d or projection");
+  for (const std::vector<Eigen::MatrixXd>& L_c : gains.L_c) {
+    check_gains("L_c", L_c, plant, SensorTiming::kContinuous);
+  }
+  for (const std::vector<std::shared_ptr<const VectorMap>>& L_d : gains.L_d) {
+    require(L_d.size() == plant.sensors().size(), "L_d: one gain per sensor");
+    for (std::size_t i = 0; i < plant.sensors().size(); ++i) {
+      const Sensor& sensor = plant.sensors()[i];
+      if (sensor.timing != SensorTiming::kAtJumps) continue;
+      require(L_d[i] && L_d[i]->size() == plant.states() * sensor.outputs(),
+              "L_d of sensor '" + sensor.name + "': one row per state, one column per output");
+    }
+  }
+}
+
+std::vector<Projection> make_projections(const SwitchedGains& gains, const Plant& plant) {
+  std::vector<Projection> projections;
+  for (std::size_t mode = 0; mode < gains.P.size(); ++mode) {
+    projections.push_back(make_projection(gains, plant, mode));
+  }
+  return projections;
+}
+
+}  // namespace sampled_data_observers
