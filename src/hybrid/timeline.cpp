@@ -22,32 +22,35 @@ bool is_usable(const Timeline::ConstStateRef& state) {
   return state.allFinite() && state.cwiseAbs().maxCoeff() <= kLargest;
 }
 
+constexpr Stamp kNever = std::numeric_limits<Stamp>::min();
+
 }  // namespace
 
 Timeline::Timeline(std::shared_ptr<const HybridSystem> system, Limits limits)
     : system_(std::move(system)),
       limits_(checked(limits)),
-      // One slot more than events kept: a new event is put in order before the oldest goes.
-      slots_(limits.max_events + 1),
+      // Two slots more than events kept: the base, and a new event, which is put in order before
+      // the oldest goes.
+      slots_(limits.max_events + 2),
       values_(system_->max_event_size(), static_cast<Eigen::Index>(slots_.size())),
       states_(system_->state_size(), static_cast<Eigen::Index>(slots_.size())),
+      newest_(static_cast<Eigen::Index>(system_->sensors()) + 1,
+              static_cast<Eigen::Index>(slots_.size())),
       order_(slots_.size()),
-      base_state_(system_->state_size()),
-      base_samples_(system_->sensors()),
       workspace_(system_->workspace_size()) {
   cursor_.state.resize(system_->state_size());
   std::iota(order_.begin(), order_.end(), std::size_t{0});
   for (std::size_t i = 0; i < slots_.size(); ++i) {
     slots_[i].event.values = values_.col(static_cast<Eigen::Index>(i)).data();
   }
-  system_->initialize(base_state_.data());
+  clear();
 }
 
 Timeline::InsertReport Timeline::insert(const Event& event) {
   InsertReport report;
   const std::size_t position = position_after(event);
   report.previous = previous(position, event);
-  if (position > 0 && compare(slot(position - 1).event, event) == 0) {
+  if (position > 1 && compare(slot(position - 1).event, event) == 0) {
     report.insertion = Insertion::kDuplicate;
     return report;
   }
@@ -55,117 +58,107 @@ Timeline::InsertReport Timeline::insert(const Event& event) {
     report.insertion = Insertion::kBeforeWindow;
     return report;
   }
+  open_position(position, event);
   report.rewound = size_ - position;
   report.insertion = report.rewound == 0 ? Insertion::kAppended : Insertion::kRewound;
-  open_position(position, event);
   apply(position);
   report.effect = slot(position).effect;
-  for (std::size_t later = position + 1; later < size_; ++later) apply(later);
+  for (std::size_t later = position + 1; later <= size_; ++later) apply(later);
 
-  const Stamp horizon = slot(size_ - 1).event.stamp - limits_.history;
-  while (size_ > limits_.max_events || slot(0).event.stamp < horizon) forget_oldest();
+  const Stamp horizon = stamp(size_) - limits_.history;
+  while (size_ > limits_.max_events || stamp(1) < horizon) forget_oldest();
   return report;
 }
 
-Timeline::Query Timeline::state_at(Stamp stamp, StateRef state, EventCounts& counts) const {
+Timeline::Query Timeline::state_at(Stamp at, StateRef state, EventCounts& counts) const {
   std::size_t position = size_;
-  while (position > 0 && slot(position - 1).event.stamp > stamp) --position;
-
-  if (position > 0) {
-    state = state_after(position - 1);
-    counts = slot(position - 1).counts;
-    flow_from(order(position - 1), stamp - slot(position - 1).event.stamp, state);
-  } else if (!base_stamp_) {
-    return size_ == 0 ? Query::kNoEvent : Query::kBeforeStart;
-  } else if (*base_stamp_ > stamp) {
-    return base_is_restart_ ? Query::kBeforeStart : Query::kBeforeWindow;
-  } else {
-    state = base_state_;
-    counts = base_counts_;
-    flow_from(base_origin(), stamp - *base_stamp_, state);
+  while (position > 0 && stamp(position) > at) --position;
+  if (position == 0) {
+    if (base_ == Base::kInitial) return size_ == 0 ? Query::kNoEvent : Query::kBeforeStart;
+    if (stamp(0) > at) {
+      return base_ == Base::kRestart ? Query::kBeforeStart : Query::kBeforeWindow;
+    }
   }
+  state = state_after(position);
+  counts = slot(position).counts;
+  flow_from(position, at - stamp(position), state);
   if (is_usable(state)) return Query::kOk;
-  if (position > 0) {
-    state = state_after(position - 1);
-  } else {
-    state = base_state_;
-  }
+  state = state_after(position);
   system_->hold(state.data());
   return Query::kHeld;
 }
 
 void Timeline::restart(Stamp stamp, ConstStateRef state) {
-  first_ = 0;
   size_ = 0;
-  cursor_.origin.reset();
-  base_stamp_ = stamp;
-  base_is_restart_ = true;
-  base_counts_ = EventCounts{};
-  base_state_ = state;
-  std::fill(base_samples_.begin(), base_samples_.end(), std::nullopt);
-  base_jump_.reset();
+  set_base(Base::kRestart, stamp);
+  state_after(0) = state;
 }
 
-void Timeline::rebase(Stamp stamp, ConstStateRef state) {
+void Timeline::rebase(Stamp at, ConstStateRef state) {
   std::size_t forgotten = 0;
-  while (forgotten < size_ && slot(forgotten).event.stamp <= stamp) ++forgotten;
-  const std::size_t first = ring_index(forgotten);
-  const std::size_t kept = size_ - forgotten;
-  restart(stamp, state);
-  first_ = first;
-  size_ = kept;
-  for (std::size_t position = 0; position < size_; ++position) apply(position);
+  while (forgotten < size_ && stamp(forgotten + 1) <= at) ++forgotten;
+  first_ = ring_index(forgotten);
+  size_ -= forgotten;
+  set_base(Base::kRestart, at);
+  state_after(0) = state;
+  for (std::size_t position = 1; position <= size_; ++position) apply(position);
 }
 
 void Timeline::clear() {
-  system_->initialize(base_state_.data());
-  restart(0, base_state_);
-  base_stamp_.reset();
-  base_is_restart_ = false;
+  size_ = 0;
+  set_base(Base::kInitial, 0);
+  system_->initialize(state_after(0).data());
+}
+
+/// A base that nothing came before; its state is still to be set.
+void Timeline::set_base(Base base, Stamp stamp) {
+  base_ = base;
+  slot(0).event.stamp = stamp;
+  slot(0).counts = EventCounts{};
+  newest_.col(static_cast<Eigen::Index>(order(0))).setConstant(kNever);
+  cursor_.origin.reset();
 }
 
 std::optional<Stamp> Timeline::earliest() const {
-  if (base_stamp_) return base_stamp_;
-  if (size_ > 0) return slot(0).event.stamp;
+  if (base_ != Base::kInitial) return stamp(0);
+  if (size_ > 0) return stamp(1);
   return std::nullopt;
 }
 
 std::optional<Stamp> Timeline::earliest_insertion() const {
   std::optional<Stamp> earliest;
-  if (base_stamp_) earliest = *base_stamp_ + 1;
-  if (size_ > 0) {
-    earliest = std::max(earliest.value_or(0), slot(size_ - 1).event.stamp - limits_.history);
-  }
+  if (base_ != Base::kInitial) earliest = stamp(0) + 1;
+  if (size_ > 0) earliest = std::max(earliest.value_or(0), stamp(size_) - limits_.history);
   return earliest;
 }
 
-/// The position behind all events that come before `event` or equal it.
+/// The position behind the base and all events that come before `event` or equal it.
 std::size_t Timeline::position_after(const Event& event) const {
   // Most events are the newest or nearly so: a search from the end beats a bisection.
   std::size_t position = size_;
-  while (position > 0 && compare(slot(position - 1).event, event) > 0) --position;
-  return position;
+  while (position > 0 && compare(slot(position).event, event) > 0) --position;
+  return position + 1;
 }
 
-bool Timeline::is_before_window(Stamp stamp) const {
-  if (base_stamp_ && stamp <= *base_stamp_) return true;
-  return size_ > 0 && stamp < slot(size_ - 1).event.stamp - limits_.history;
+bool Timeline::is_before_window(Stamp at) const {
+  if (base_ != Base::kInitial && at <= stamp(0)) return true;
+  return size_ > 0 && at < stamp(size_) - limits_.history;
 }
 
 void Timeline::open_position(std::size_t position, const Event& event) {
+  ++size_;
   const std::size_t free_slot = order(size_);
   for (std::size_t i = size_; i > position; --i) order(i) = order(i - 1);
   order(position) = free_slot;
-  ++size_;
-  if (cursor_.origin == free_slot) cursor_.origin.reset();
-  const double* values = slots_[free_slot].event.values;
+  Event& own = slots_[free_slot].event;
+  const double* values = own.values;
   values_.col(static_cast<Eigen::Index>(free_slot)).head(event.size) = event.vector();
-  slots_[free_slot].event = event;
-  slots_[free_slot].event.values = values;
+  own = event;
+  own.values = values;
 }
 
-/// Carries `state`, which holds after the event in slot `origin`, over `duration`.
-void Timeline::flow_from(std::size_t origin, Duration duration, StateRef state) const {
+/// Carries `state`, which holds after the event at `position`, over `duration`.
+void Timeline::flow_from(std::size_t position, Duration duration, StateRef state) const {
   const Duration step = system_->flow_step();
   if (duration > system_->flow_horizon()) {
     state.setConstant(std::numeric_limits<double>::quiet_NaN());
@@ -176,8 +169,8 @@ void Timeline::flow_from(std::size_t origin, Duration duration, StateRef state) 
     return;
   }
   const Duration whole = duration - duration % step;
-  if (cursor_.origin != origin || cursor_.reached > whole) {
-    cursor_.origin = origin;
+  if (cursor_.origin != order(position) || cursor_.reached > whole) {
+    cursor_.origin = order(position);
     cursor_.reached = 0;
     cursor_.state = state;
   }
@@ -190,15 +183,21 @@ void Timeline::flow_from(std::size_t origin, Duration duration, StateRef state) 
 /// Computes the state after the event at `position`, and what it rests on, from what stands before
 /// it.
 void Timeline::apply(std::size_t position) {
-  Slot& current = slots_[order(position)];
-  current.counts = position == 0 ? base_counts_ : slot(position - 1).counts;
-  if (current.event.kind != EventKind::kRejected) ++current.counts.events;
+  Slot& current = slot(position);
+  const Event& event = current.event;
+  const auto column = [&](std::size_t at) {
+    return newest_.col(static_cast<Eigen::Index>(order(at)));
+  };
+  current.counts = slot(position - 1).counts;
+  column(position) = column(position - 1);
+  if (event.kind != EventKind::kRejected) ++current.counts.events;
   current.effect = reset(position);
   if (!took_effect(current.effect)) return;
-  if (current.event.kind == EventKind::kJump) ++current.counts.jumps;
-  if (current.event.kind == EventKind::kSample) {
+  if (const auto family = family_of(event)) column(position)(*family) = event.stamp;
+  if (event.kind == EventKind::kJump) ++current.counts.jumps;
+  if (event.kind == EventKind::kSample) {
     ++current.counts.samples;
-    current.counts.last_sample = current.event.stamp;
+    current.counts.last_sample = event.stamp;
   }
 }
 
@@ -206,34 +205,22 @@ Effect Timeline::reset(std::size_t position) {
   const Event& event = slot(position).event;
   if (cursor_.origin == order(position)) cursor_.origin.reset();
   auto state = state_after(position);
-  const bool is_first = position == 0;
-  const Stamp now = event.stamp;
-  const auto restore = [&] {
-    if (is_first) {
-      state = base_state_;
-    } else {
-      state = state_after(position - 1);
-    }
-  };
+  const bool begins = position == 1 && base_ == Base::kInitial;
+  const Duration duration = begins ? 0 : event.stamp - stamp(position - 1);
   const auto flow = [&] {
-    if (!is_first) {
-      flow_from(order(position - 1), now - slot(position - 1).event.stamp, state);
-    } else if (base_stamp_) {
-      flow_from(base_origin(), now - *base_stamp_, state);
-    }
+    state = state_after(position - 1);
+    flow_from(position - 1, duration, state);
   };
   const auto hold = [&] {
-    restore();
+    state = state_after(position - 1);
     system_->hold(state.data());
   };
-  restore();
   flow();
   const bool flow_is_finite = is_usable(state);
   if (!flow_is_finite) hold();
   const Effect effect = system_->reset(event, state.data(), workspace_.data());
   if (!took_effect(effect) || is_usable(state)) return effect;
   if (flow_is_finite) {
-    restore();
     flow();
   } else {
     hold();
@@ -243,33 +230,26 @@ Effect Timeline::reset(std::size_t position) {
   return Effect::kNotFinite;
 }
 
+/// The oldest event becomes the base.
 void Timeline::forget_oldest() {
-  const Event& oldest = slot(0).event;
-  if (oldest.kind == EventKind::kSample && took_effect(slot(0).effect)) {
-    base_samples_[static_cast<std::size_t>(oldest.channel)] = oldest.stamp;
-  }
-  if (oldest.kind == EventKind::kJump && took_effect(slot(0).effect)) base_jump_ = oldest.stamp;
-  if (cursor_.origin == base_origin()) cursor_.origin.reset();
-  base_stamp_ = slot(0).event.stamp;
-  base_is_restart_ = false;
-  base_counts_ = slot(0).counts;
-  base_state_ = state_after(0);
   first_ = ring_index(1);
   --size_;
+  base_ = Base::kForgotten;
+}
+
+std::optional<Eigen::Index> Timeline::family_of(const Event& event) const {
+  if (event.kind == EventKind::kSample) return event.channel;
+  if (event.kind == EventKind::kJump) return newest_.rows() - 1;
+  return std::nullopt;
 }
 
 std::optional<Stamp> Timeline::previous(std::size_t position, const Event& event) const {
-  const bool is_sample = event.kind == EventKind::kSample;
-  if (!is_sample && event.kind != EventKind::kJump) return std::nullopt;
-  while (position > 0) {
-    const Event& earlier = slot(--position).event;
-    const bool is_alike =
-        earlier.kind == event.kind && (!is_sample || earlier.channel == event.channel);
-    if (is_alike && earlier.stamp < event.stamp && took_effect(slot(position).effect)) {
-      return earlier.stamp;
-    }
-  }
-  return is_sample ? base_samples_[static_cast<std::size_t>(event.channel)] : base_jump_;
+  const std::optional<Eigen::Index> family = family_of(event);
+  if (!family) return std::nullopt;
+  --position;
+  while (position > 0 && stamp(position) == event.stamp) --position;
+  const Stamp newest = newest_(*family, static_cast<Eigen::Index>(order(position)));
+  return newest == kNever ? std::nullopt : std::make_optional(newest);
 }
 
 }  // namespace sampled_data_observers

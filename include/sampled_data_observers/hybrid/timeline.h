@@ -129,23 +129,22 @@ class Timeline {
     Effect effect = Effect::kApplied;
   };
 
+  /// What the base is.
+  enum class Base {
+    kInitial,   ///< the initial state, at no time: it holds where the first event comes
+    kRestart,   ///< a given state at its stamp
+    kForgotten  ///< the newest event that was forgotten
+  };
+
   std::size_t ring_index(std::size_t position) const {
     const std::size_t index = first_ + position;
     return index < order_.size() ? index : index - order_.size();
   }
   std::size_t& order(std::size_t position) { return order_[ring_index(position)]; }
   std::size_t order(std::size_t position) const { return order_[ring_index(position)]; }
+  Slot& slot(std::size_t position) { return slots_[order(position)]; }
   const Slot& slot(std::size_t position) const { return slots_[order(position)]; }
-
-  std::size_t position_after(const Event& event) const;
-  bool is_before_window(Stamp stamp) const;
-  void open_position(std::size_t position, const Event& event);
-  void apply(std::size_t position);
-  Effect reset(std::size_t position);
-  void flow_from(std::size_t origin, Duration duration, StateRef state) const;
-  std::size_t base_origin() const { return slots_.size(); }
-  void forget_oldest();
-  std::optional<Stamp> previous(std::size_t position, const Event& event) const;
+  Stamp stamp(std::size_t position) const { return slot(position).event.stamp; }
   auto state_after(std::size_t position) {
     return states_.col(static_cast<Eigen::Index>(order(position)));
   }
@@ -153,34 +152,42 @@ class Timeline {
     return states_.col(static_cast<Eigen::Index>(order(position)));
   }
 
+  void set_base(Base base, Stamp stamp);
+  std::size_t position_after(const Event& event) const;
+  bool is_before_window(Stamp stamp) const;
+  void open_position(std::size_t position, const Event& event);
+  void apply(std::size_t position);
+  Effect reset(std::size_t position);
+  void flow_from(std::size_t position, Duration duration, StateRef state) const;
+  void forget_oldest();
+  /// Where an event of the kind and channel has its place in newest_; nothing for kinds that have
+  /// none.
+  std::optional<Eigen::Index> family_of(const Event& event) const;
+  std::optional<Stamp> previous(std::size_t position, const Event& event) const;
+
   std::shared_ptr<const HybridSystem> system_;
   Limits limits_;
 
-  /// One slot, one column of values and one column of states an event; `order_` is a ring of slot
-  /// numbers in the order of the events, followed by the free ones.
+  /// One slot, one column of values, of states and of newest_ each for the base and every event;
+  /// `order_` is a ring of slot numbers: the base at position 0, the events behind it in their
+  /// order, then the free ones.
   std::vector<Slot> slots_;
   Eigen::MatrixXd values_;
   Eigen::MatrixXd states_;
+  /// Stamps of the newest sample of each sensor and of the newest jump that took effect, up to the
+  /// event of the column.
+  Eigen::Matrix<Stamp, Eigen::Dynamic, Eigen::Dynamic> newest_;
   std::vector<std::size_t> order_;
   std::size_t first_ = 0;
+  /// Number of events.
   std::size_t size_ = 0;
-
-  /// The state before the oldest event of the log, once events were forgotten or after a restart.
-  std::optional<Stamp> base_stamp_;
-  bool base_is_restart_ = false;
-  EventCounts base_counts_;
-  Eigen::VectorXd base_state_;
-  /// Stamp of the newest sample of each channel that took effect before the oldest event of the
-  /// log.
-  std::vector<std::optional<Stamp>> base_samples_;
-  /// The same of the newest jump.
-  std::optional<Stamp> base_jump_;
+  Base base_ = Base::kInitial;
 
   /// Scratch of the maps; it makes even queries a matter of one thread at a time.
   mutable Eigen::VectorXd workspace_;
 
   /// How far the flow from one event was computed already, where flows may be split: the slot of
-  /// that event (base_origin() for the base state), a whole number of flow steps, the state there.
+  /// that event, a whole number of flow steps, the state there.
   struct Cursor {
     std::optional<std::size_t> origin;
     Duration reached = 0;
