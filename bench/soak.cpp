@@ -115,7 +115,7 @@ class Soak {
     const EventChannel& channel = channels_[message.channel];
     Event event;
     event.kind = channel.kind;
-    event.channel = channel.channel;
+    event.sensor = channel.sensor;
     event.stamp = message.stamp;
     event.values = &message.value;
     event.size = 1;

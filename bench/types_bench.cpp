@@ -23,19 +23,22 @@ class PreparedLaw {
         workspace_(law_->workspace_size()) {
     law_->initialize(state_.data());
     for (const EventKind kind : {EventKind::kInput, EventKind::kOutput, EventKind::kSample}) {
-      for (int channel = 0; channel < 4; ++channel) {
-        if (law_->event_size(kind, channel) >= 0) reset(event(kind, channel));
+      for (int sensor = 0; sensor < 4; ++sensor) {
+        const Event event = this->event(kind, sensor);
+        if (event.size >= 0) reset(event);
       }
     }
     law_->flow(kNanosecondsPerSecond, state_.data(), workspace_.data());
     prepared_ = state_;
   }
 
-  /// The event of a channel with most values.
-  Event event(EventKind kind, int channel) {
+  /// The event of a sensor with most values; of size -1 where there is none.
+  Event event(EventKind kind, int sensor) {
     values_.setConstant(law_->max_event_size(), 0.2);
-    Event result{1, kind, channel, values_.data(), law_->event_size(kind, channel), 0};
-    if (kind == EventKind::kJump && !law_->observer().knows_mode(result)) values_(0) = 2.0;
+    const PlantObserver& observer = law_->observer();
+    Event result{1, kind, sensor, values_.data(),
+                 observer.event_size(kind, static_cast<std::size_t>(sensor))};
+    if (kind == EventKind::kJump && observer.plant().switches()) result.mode = 2.0;
     return result;
   }
 
@@ -64,9 +67,9 @@ void flow(benchmark::State& state, const std::string& example) {
   }
 }
 
-void reset(benchmark::State& state, const std::string& example, EventKind kind, int channel) {
+void reset(benchmark::State& state, const std::string& example, EventKind kind, int sensor) {
   PreparedLaw law(example);
-  const Event event = law.event(kind, channel);
+  const Event event = law.event(kind, sensor);
   const Allocations allocations(state);
   for (auto _ : state) {
     law.restore();
@@ -75,11 +78,14 @@ void reset(benchmark::State& state, const std::string& example, EventKind kind, 
   }
 }
 
-/// The last channel of a kind that the law has, which has most values; -1 where there is none.
-int last_channel(const ObserverLaw& law, EventKind kind) {
-  int channel = 3;
-  while (channel >= 0 && law.event_size(kind, channel) < 0) --channel;
-  return channel;
+/// The last sensor of which the law has events of a kind; -1 where there is none.
+int last_sensor(const ObserverLaw& law, EventKind kind) {
+  if (kind == EventKind::kJump) return law.observer().plant().jumps() ? 0 : -1;
+  int sensor = 3;
+  while (sensor >= 0 && law.observer().event_size(kind, static_cast<std::size_t>(sensor)) < 0) {
+    --sensor;
+  }
+  return sensor;
 }
 
 void register_type(const std::string& example) {
@@ -87,10 +93,10 @@ void register_type(const std::string& example) {
                                [example](benchmark::State& state) { flow(state, example); });
   const PreparedLaw law(example);
   const auto register_reset = [&](EventKind kind, const char* name) {
-    const int channel = last_channel(law.law(), kind);
-    if (channel < 0) return;
+    const int sensor = last_sensor(law.law(), kind);
+    if (sensor < 0) return;
     benchmark::RegisterBenchmark((example + "/" + name).c_str(), [=](benchmark::State& state) {
-      reset(state, example, kind, channel);
+      reset(state, example, kind, sensor);
     });
   };
   register_reset(EventKind::kSample, "sample");

@@ -50,7 +50,7 @@ GuaranteedBound::GuaranteedBound(const std::shared_ptr<const ObserverLaw>& inner
       plant_(std::move(plant)),
       noise_(noise),
       angles_(weights_of_angles(*plant_)),
-      jumps_are_measured_(inner->event_size(EventKind::kJump, kMeasuredJump) >= 0) {
+      jumps_are_measured_(observer().event_size(EventKind::kJump) > 0) {
   set_bound(this);
 }
 
@@ -103,11 +103,9 @@ void GuaranteedBound::initialize(double* state) const {
   go_on_from_then(state);
 }
 
-Eigen::Index GuaranteedBound::event_size(EventKind kind, int channel) const {
-  if (kind != EventKind::kRejected) return law().event_size(kind, channel);
-  const bool matters = channel == static_cast<int>(EventKind::kInput) ||
-                       channel == static_cast<int>(EventKind::kJump);
-  return matters ? 0 : -1;
+bool GuaranteedBound::accepts(const Event& event) const {
+  if (event.kind != EventKind::kRejected) return law().accepts(event);
+  return event.rejected == EventKind::kInput || event.rejected == EventKind::kJump;
 }
 
 void GuaranteedBound::flow(Duration duration, double* state, double* workspace) const {
@@ -135,7 +133,7 @@ Effect GuaranteedBound::reset(const Event& event, double* state, double* workspa
   const bool is_output = event.kind == EventKind::kJumpOutput;
   const bool comes_to_jump = is_output && awaiting_.of(state) && since_.of(state) == 0.0;
   if (event.kind == EventKind::kRejected) {
-    const bool is_input = event.channel == static_cast<int>(EventKind::kInput);
+    const bool is_input = event.rejected == EventKind::kInput;
     give_up(state, is_input ? BoundLoss::kUnknownInput : BoundLoss::kUnknownJump);
     return Effect::kApplied;
   }
@@ -184,7 +182,7 @@ void GuaranteedBound::go_on_from_moved(double* state) const {
 }
 
 void GuaranteedBound::jump(const Event& event, double* state) const {
-  if (!jumps_are_measured_ || event.channel != kPlainJump) {
+  if (!jumps_are_measured_ || event.size > 0) {
     take_jump(state);
     return;
   }
@@ -243,7 +241,7 @@ bool GuaranteedBound::may_be_wrapped(double error, std::size_t sensor,
 }
 
 bool GuaranteedBound::may_be_wrapped(const Event& sample, double* state, double* workspace) const {
-  const auto sensor = static_cast<std::size_t>(sample.channel);
+  const auto sensor = static_cast<std::size_t>(sample.sensor);
   if (angles_[sensor].isZero(0.0)) return false;
   double* innovation = innovation_.of(workspace);
   observer().innovation(sample, state, innovation);

@@ -36,7 +36,7 @@ class GuaranteedBound : public LawDecorator, public StateBound {
                   std::unique_ptr<const ErrorBound> bound, std::shared_ptr<const Plant> plant,
                   double noise);
 
-  Eigen::Index event_size(EventKind kind, int channel) const override;
+  bool accepts(const Event& event) const override;
   void initialize(double* state) const override;
   void flow(Duration duration, double* state, double* workspace) const override;
   Effect reset(const Event& event, double* state, double* workspace) const override;

@@ -39,7 +39,7 @@ class ErrorMap {
         plant_(plant),
         state_(law.state_size()),
         workspace_(law.workspace_size()),
-        y_(std::max<Eigen::Index>(plant.max_outputs(), 1 + plant.outputs(SensorTiming::kAtJumps))),
+        y_(std::max(plant.max_outputs(), plant.outputs(SensorTiming::kAtJumps))),
         u_(Vector::Zero(plant.inputs())) {}
 
   /// After many such cycles: the map of the flowing part over one.
@@ -102,16 +102,18 @@ class ErrorMap {
 
   void take_jump(const Vector& reference, std::size_t next_mode) {
     const std::size_t mode = law_.mode_of(reference.data());
-    Eigen::Index size = 0;
-    if (plant_.switches()) y_(size++) = plant_.modes()[next_mode].label;
+    Event jump;
+    jump.stamp = 1;
+    jump.kind = EventKind::kJump;
+    jump.values = y_.data();
+    if (plant_.switches()) jump.mode = plant_.modes()[next_mode].label;
     for (std::size_t i = 0; i < plant_.sensors().size(); ++i) {
       const Sensor& sensor = plant_.sensors()[i];
       if (sensor.timing != SensorTiming::kAtJumps) continue;
-      plant_.modes()[mode].outputs[i]->evaluate(reference.data(), u_.data(), y_.data() + size);
-      size += sensor.outputs();
+      plant_.modes()[mode].outputs[i]->evaluate(reference.data(), u_.data(), y_.data() + jump.size);
+      jump.size += sensor.outputs();
     }
-    law_.reset({1, EventKind::kJump, kMeasuredJump, y_.data(), size, 0}, state_.data(),
-               workspace_.data());
+    law_.reset(jump, state_.data(), workspace_.data());
   }
 
   /// So small that no angle is wrapped.

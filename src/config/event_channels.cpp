@@ -18,9 +18,9 @@ EventKind kind_of(SensorTiming timing) {
 
 std::vector<EventChannel> event_channels(const ObserverConfig& config) {
   std::vector<EventChannel> channels;
-  const auto add = [&](EventKind kind, int channel, const std::string& name,
+  const auto add = [&](EventKind kind, int sensor, const std::string& name,
                        const TopicSource& source) {
-    channels.push_back({kind, channel, name, source, channels.size()});
+    channels.push_back({kind, sensor, name, source, channels.size()});
   };
   for (std::size_t i = 0; i < config.sensors.size(); ++i) {
     if (!config.sensors[i]) continue;

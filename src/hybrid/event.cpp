@@ -13,8 +13,11 @@ int three_way(T a, T b) {
 int compare(const Event& a, const Event& b) {
   if (const int order = three_way(a.stamp, b.stamp)) return order;
   if (const int order = three_way(a.kind, b.kind)) return order;
-  if (const int order = three_way(a.channel, b.channel)) return order;
+  if (const int order = three_way(a.sensor, b.sensor)) return order;
+  if (const int order = three_way(a.rejected, b.rejected)) return order;
   if (const int order = three_way(a.size, b.size)) return order;
+  if (const int order = three_way(a.mode, b.mode)) return order;
+  if (const int order = three_way(a.delay, b.delay)) return order;
   for (Eigen::Index i = 0; i < a.size; ++i) {
     if (const int order = three_way(a.values[i], b.values[i])) return order;
   }

@@ -238,7 +238,7 @@ void Timeline::forget_oldest() {
 }
 
 std::optional<Eigen::Index> Timeline::family_of(const Event& event) const {
-  if (event.kind == EventKind::kSample) return event.channel;
+  if (event.kind == EventKind::kSample) return event.sensor;
   if (event.kind == EventKind::kJump) return newest_.rows() - 1;
   return std::nullopt;
 }

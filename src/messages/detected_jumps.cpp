@@ -25,7 +25,6 @@ MessagePointer DetectedJumps::deserialize(std::uint8_t* data, std::uint32_t size
 Reading DetectedJumps::read(const MessagePointer& message, Stamp receipt, Event& event) {
   if (clock_.note(receipt) > 0) detector_.restart();
   event.size = 0;
-  event.channel = kPlainJump;
   Event sample;
   const Reading reading = signal_->read(message, receipt, sample);
   event.stamp = sample.stamp;
@@ -42,7 +41,6 @@ Reading DetectedJumps::read(const MessagePointer& message, Stamp receipt, Event&
         outputs_->evaluate(sample.values, nullptr, values_.data());
         event.values = values_.data();
         event.size = static_cast<Eigen::Index>(values_.size());
-        event.channel = kMeasuredJump;
       }
       return Reading::kEvent;
     case JumpDetector::Finding::kOutOfOrder:

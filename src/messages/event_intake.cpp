@@ -44,7 +44,7 @@ void EventIntake::give_up() {
 Event EventIntake::make_event() const {
   Event event;
   event.kind = channel_.kind;
-  event.channel = channel_.channel;
+  event.sensor = channel_.sensor;
   return event;
 }
 

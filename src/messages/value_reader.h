@@ -28,8 +28,7 @@ template <class M>
 class FieldReader {
  public:
   /// @throws ConfigError for a field that M does not have, or too few.
-  explicit FieldReader(const TopicSource& source)
-      : jump_channel_(source.fields.empty() ? kPlainJump : kMeasuredJump) {
+  explicit FieldReader(const TopicSource& source) : has_mode_(source.has_mode) {
     MessageFields<M> known;
     add_fields(known);
     const auto add = [&](const char* key, const std::string& path) {
@@ -45,22 +44,22 @@ class FieldReader {
     values_.resize(fields_.size());
   }
 
-  /// Sets values and size of the event, and the channel of jumps. The values live in the reader
-  /// until the next call. Returns false where the message does not hold a field.
+  /// Sets values, size and mode of the event. The values live in the reader until the next call.
+  /// Returns false where the message does not hold a field.
   bool read(const M& message, Event& event) {
     for (std::size_t i = 0; i < fields_.size(); ++i) {
       const std::optional<double> value = fields_[i](message);
       if (!value) return false;
       values_[i] = *value;
     }
-    event.values = values_.data();
-    event.size = static_cast<Eigen::Index>(values_.size());
-    if (event.kind == EventKind::kJump) event.channel = jump_channel_;
+    event.values = values_.data() + (has_mode_ ? 1 : 0);
+    event.size = static_cast<Eigen::Index>(values_.size()) - (has_mode_ ? 1 : 0);
+    if (has_mode_) event.mode = values_.front();
     return true;
   }
 
  private:
-  int jump_channel_;
+  bool has_mode_;
   std::vector<FieldGetter<M>> fields_;
   std::vector<double> values_;
 };
@@ -109,32 +108,20 @@ class ValueReader<Input> : public ListReader<Input> {
 template <>
 class ValueReader<JumpEvent> {
  public:
-  explicit ValueReader(const TopicSource& source)
-      : size_(source.size), first_output_(source.has_mode ? 1 : 0), values_(source.size + 1) {
+  explicit ValueReader(const TopicSource& source) : has_mode_(source.has_mode) {
     refuse_fields(source);
   }
 
   bool read(const JumpEvent& message, Event& event) {
     event.release = to_stamp(message.release);
-    const bool is_measured = !message.values.empty();
-    event.channel = is_measured ? kMeasuredJump : kPlainJump;
-    if (first_output_ == 1) values_[0] = static_cast<double>(message.mode);
-    event.values = values_.data();
-    event.size = first_output_ + static_cast<Eigen::Index>(message.values.size());
-    if (message.values.size() > size_) {
-      event.size = kWrongSize;
-    } else {
-      std::copy(message.values.begin(), message.values.end(), values_.begin() + first_output_);
-    }
+    if (has_mode_) event.mode = static_cast<double>(message.mode);
+    event.values = message.values.data();
+    event.size = static_cast<Eigen::Index>(message.values.size());
     return true;
   }
 
  private:
-  static constexpr Eigen::Index kWrongSize = -2;
-
-  std::size_t size_;
-  std::ptrdiff_t first_output_;
-  std::vector<double> values_;
+  bool has_mode_;
 };
 
 }  // namespace sampled_data_observers

@@ -8,12 +8,10 @@ namespace sampled_data_observers {
 
 DelayedJumps::DelayedJumps(const std::shared_ptr<const ObserverLaw>& inner) : LawDecorator(inner) {
   set_delays_jumps();
-  facts().max_event_size = std::max<Eigen::Index>(1, facts().max_event_size);
 }
 
-Eigen::Index DelayedJumps::event_size(EventKind kind, int channel) const {
-  if (kind == EventKind::kRelease) return channel == 0 ? 1 : -1;
-  return law().event_size(kind, channel);
+bool DelayedJumps::accepts(const Event& event) const {
+  return event.kind == EventKind::kRelease || law().accepts(event);
 }
 
 void DelayedJumps::initialize(double* state) const {
@@ -31,7 +29,8 @@ void DelayedJumps::flow(Duration duration, double* state, double* workspace) con
 Effect DelayedJumps::reset(const Event& event, double* state, double* workspace) const {
   const bool pending = pending_.of(state);
   if (event.kind == EventKind::kRelease) {
-    if (!pending || since_jump_.of(state) != event.values[0]) return Effect::kRefused;
+    const auto delay = static_cast<double>(event.delay);
+    if (!pending || since_jump_.of(state) != delay) return Effect::kRefused;
     release(state);
     return Effect::kApplied;
   }

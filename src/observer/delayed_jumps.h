@@ -18,7 +18,7 @@ class DelayedJumps : public LawDecorator {
  public:
   explicit DelayedJumps(const std::shared_ptr<const ObserverLaw>& law);
 
-  Eigen::Index event_size(EventKind kind, int channel) const override;
+  bool accepts(const Event& event) const override;
   void initialize(double* state) const override;
   void flow(Duration duration, double* state, double* workspace) const override;
   Effect reset(const Event& event, double* state, double* workspace) const override;

@@ -43,7 +43,7 @@ GatedSamples::GatedSamples(const std::shared_ptr<const ObserverLaw>& inner,
   refuse_unless(gates.size() == inner->sensors(), "one gate, or nothing, per sensor");
   for (std::size_t i = 0; i < gates.size(); ++i) {
     if (!gates[i]) continue;
-    check(*gates[i], inner->event_size(EventKind::kSample, static_cast<int>(i)), *inner);
+    check(*gates[i], observer().event_size(EventKind::kSample, i), *inner);
     const auto limit = static_cast<double>(gates[i]->recover_after);
     gates_[i] = {*gates[i], state_layout().choice<Standing>(), state_layout().timer(limit)};
   }
@@ -67,7 +67,7 @@ void GatedSamples::flow(Duration duration, double* state, double* workspace) con
 
 Effect GatedSamples::reset(const Event& event, double* state, double* workspace) const {
   if (event.kind == EventKind::kSample) {
-    const std::optional<GateInUse>& gate = gates_[static_cast<std::size_t>(event.channel)];
+    const std::optional<GateInUse>& gate = gates_[static_cast<std::size_t>(event.sensor)];
     if (gate) return reset(*gate, event, state, workspace);
   }
   return law().reset(event, state, workspace);

@@ -33,7 +33,7 @@ void HybridKalmanFilter::start_from(const double* estimate, double* state) const
 
 double HybridKalmanFilter::mahalanobis_distance(const Event& sample, const double* state,
                                                 double* workspace) const {
-  const auto sensor = static_cast<std::size_t>(sample.channel);
+  const auto sensor = static_cast<std::size_t>(sample.sensor);
   const Eigen::Index m = sample.size;
   double* nu = innovation_.of(workspace);
   double* S = S_.of(workspace);

@@ -11,9 +11,7 @@ namespace sampled_data_observers {
 /// of its own behind.
 class LawDecorator : public ObserverLaw {
  public:
-  Eigen::Index event_size(EventKind kind, int channel) const override {
-    return law_->event_size(kind, channel);
-  }
+  bool accepts(const Event& event) const override { return law_->accepts(event); }
 
  protected:
   explicit LawDecorator(std::shared_ptr<const ObserverLaw> law)

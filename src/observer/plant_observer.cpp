@@ -53,8 +53,8 @@ PlantObserver::PlantObserver(ObserverContext context, const std::vector<SensorTi
     for (const auto& output : mode.outputs) corrections.push_back(least_correction(*output));
   }
   facts().sensors = all.size();
-  facts().max_event_size = std::max({plant_->inputs(), plant_->max_outputs(),
-                                     mode_values() + plant_->outputs(SensorTiming::kAtJumps)});
+  facts().max_event_size =
+      std::max({plant_->inputs(), plant_->max_outputs(), plant_->outputs(SensorTiming::kAtJumps)});
   StateLayout& layout = state_layout();
   s_ = layout.vector(n() + flowing);
   flowing_ = n();
@@ -87,16 +87,14 @@ TimerSlot PlantObserver::timer() {
   return timers_.emplace_back(state_layout().timer());
 }
 
-Eigen::Index PlantObserver::event_size(EventKind kind, int channel) const {
-  const auto sensor = static_cast<std::size_t>(channel);
+Eigen::Index PlantObserver::event_size(EventKind kind, std::size_t sensor) const {
   const auto outputs = [&](SensorTiming timing) -> Eigen::Index {
-    const bool exists = channel >= 0 && sensor < sensors();
-    if (!exists || plant_->sensors()[sensor].timing != timing) return -1;
+    if (sensor >= sensors() || plant_->sensors()[sensor].timing != timing) return -1;
     return plant_->sensors()[sensor].outputs();
   };
   switch (kind) {
     case EventKind::kInput:
-      return plant_->inputs() > 0 && channel == 0 ? plant_->inputs() : -1;
+      return plant_->inputs() > 0 ? plant_->inputs() : -1;
     case EventKind::kOutput:
       return outputs(SensorTiming::kContinuous);
     case EventKind::kJumpOutput:
@@ -104,14 +102,19 @@ Eigen::Index PlantObserver::event_size(EventKind kind, int channel) const {
     case EventKind::kSample:
       return outputs(SensorTiming::kSampled);
     case EventKind::kJump:
-      if (!plant_->jumps()) return -1;
-      if (channel == kPlainJump) return mode_values();
-      return channel == kMeasuredJump && takes_jump_outputs() ? mode_values() + y_d_.size() : -1;
+      return plant_->jumps() ? plant_->outputs(SensorTiming::kAtJumps) : -1;
     case EventKind::kRelease:
     case EventKind::kRejected:
       break;
   }
   return -1;
+}
+
+bool PlantObserver::accepts(const Event& event) const {
+  const Eigen::Index size = event_size(event.kind, static_cast<std::size_t>(event.sensor));
+  if (event.kind != EventKind::kJump) return size >= 0 && event.size == size;
+  return size >= 0 && (event.size == 0 || event.size == size) &&
+         event.mode.has_value() == plant_->switches();
 }
 
 void PlantObserver::initialize(double* state) const {
@@ -135,7 +138,7 @@ PlantObserver::Held PlantObserver::held(const double* state) const {
 }
 
 Effect PlantObserver::reset(const Event& event, double* state, double* workspace) const {
-  const auto sensor = static_cast<std::size_t>(event.channel);
+  const auto sensor = static_cast<std::size_t>(event.sensor);
   switch (event.kind) {
     case EventKind::kInput:
       u_.set(event.values, state);
@@ -166,14 +169,14 @@ Effect PlantObserver::reset(const Event& event, double* state, double* workspace
 
 void PlantObserver::begin_jump(const Event& event, double* state, double* workspace) const {
   std::size_t next = 0;
-  if (plant_->switches()) next = *plant_->find_mode(event.values[0]);
+  if (plant_->switches()) next = *plant_->find_mode(*event.mode);
   if (takes_jump_outputs()) {
     s_before_jump_.set(s_.of(state), state);
     kept_before_jump_.set(kept_.of(state), state);
     has_jumped_.set(true, state);
     mode_after_jump_.set(next, state);
-    const bool measured = event.channel == kMeasuredJump;
-    if (measured) y_d_.set(event.values + mode_values(), state);
+    const bool measured = event.size > 0;
+    if (measured) y_d_.set(event.values, state);
     y_d_known_.fill(measured, state);
   }
   apply_jump(next, state, workspace);
@@ -191,7 +194,7 @@ void PlantObserver::apply_jump(std::size_t next, double* state, double* workspac
 /// jump say nothing.
 void PlantObserver::pair_with_jump(const Event& output, double* state, double* workspace) const {
   if (!has_jumped_.of(state) || since_jump(state) != 0.0) return;
-  const auto sensor = static_cast<std::size_t>(output.channel);
+  const auto sensor = static_cast<std::size_t>(output.sensor);
   y_d_.part(output_offset(sensor), output.size).set(output.values, state);
   y_d_known_[sensor].set(true, state);
   s_.set(s_before_jump_.of(state), state);
@@ -201,17 +204,17 @@ void PlantObserver::pair_with_jump(const Event& output, double* state, double* w
 
 bool PlantObserver::knows_mode(const Event& event) const {
   return event.kind != EventKind::kJump || !plant_->switches() ||
-         plant_->find_mode(event.values[0]).has_value();
+         plant_->find_mode(*event.mode).has_value();
 }
 
 void PlantObserver::innovation(const Event& sample, const double* state, double* innovation) const {
   const Held now = held(state);
-  compute_innovation(*plant_, now.mode, static_cast<std::size_t>(sample.channel), sample.values,
+  compute_innovation(*plant_, now.mode, static_cast<std::size_t>(sample.sensor), sample.values,
                      state, now.u, innovation);
 }
 
 void PlantObserver::fit_to(const Event& sample, double* state, double* workspace) const {
-  const auto sensor = static_cast<std::size_t>(sample.channel);
+  const auto sensor = static_cast<std::size_t>(sample.sensor);
   const Eigen::MatrixXd& correction = least_corrections_[mode_.of(state)][sensor];
   if (correction.size() == 0) return;
   double* innovation = innovation_.of(workspace);

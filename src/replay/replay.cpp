@@ -185,7 +185,7 @@ class Replay {
     const bool is_measurement =
         event.kind == EventKind::kSample || event.kind == EventKind::kOutput;
     if (report.used() && is_measurement) {
-      const auto sensor = static_cast<std::size_t>(event.channel);
+      const auto sensor = static_cast<std::size_t>(event.sensor);
       comparison_->add_sample(sensor, event.stamp, event.values);
     }
   }

@@ -18,7 +18,7 @@ void SummaryRecorder::add_event(const Event& event, const EventReport& report,
                                 const std::string& reason) {
   count(event, report, reason);
   if (report.used() && event.kind == EventKind::kSample) {
-    plot_sample(static_cast<std::size_t>(event.channel), event);
+    plot_sample(static_cast<std::size_t>(event.sensor), event);
   }
 }
 
@@ -38,7 +38,7 @@ void SummaryRecorder::count(const Event& event, const EventReport& report,
   ++summary_.samples_used;
   if (report.outcome == EventOutcome::kUsedLate) ++summary_.samples_late;
   if (report.recovers()) ++summary_.recovered[describe(report)];
-  used_stamps_[static_cast<std::size_t>(event.channel)].push_back(event.stamp);
+  used_stamps_[static_cast<std::size_t>(event.sensor)].push_back(event.stamp);
 }
 
 /// Between the samples of each sensor, as they were taken, not as they arrived.

@@ -42,11 +42,12 @@ EventOutcome outcome_of(const Timeline::InsertReport& report) {
                                                             : EventOutcome::kUsedLate;
 }
 
-bool is_sampled(const ObserverLaw& law) {
-  for (std::size_t i = 0; i < law.sensors(); ++i) {
-    if (law.event_size(EventKind::kSample, static_cast<int>(i)) >= 0) return true;
-  }
-  return false;
+Event rejection(EventKind of, Stamp stamp) {
+  Event event;
+  event.stamp = stamp;
+  event.kind = EventKind::kRejected;
+  event.rejected = of;
+  return event;
 }
 
 }  // namespace
@@ -64,9 +65,8 @@ Estimator::Estimator(std::shared_ptr<const ObserverLaw> law, const Options& opti
       restart_state_(law_->state_size()),
       workspace_(law_->workspace_size()),
       innovation_(law_->max_event_size()),
-      is_sampled_(is_sampled(*law_)),
-      has_other_events_(law_->event_size(EventKind::kInput, 0) > 0 ||
-                        law_->event_size(EventKind::kJump, kPlainJump) >= 0) {
+      is_sampled_(law_->observer().plant().outputs(SensorTiming::kSampled) > 0),
+      has_other_events_(law_->observer().plant().inputs() > 0 || law_->observer().plant().jumps()) {
   if (options_.sampling.T1 <= 0 || options_.sampling.T1 > options_.sampling.T2) {
     throw std::invalid_argument("Estimator: 0 < T1 <= T2 must hold");
   }
@@ -80,8 +80,10 @@ Estimator::Estimator(std::shared_ptr<const ObserverLaw> law, const Options& opti
 
 std::optional<EventOutcome> Estimator::objection(const Event& event, Stamp now) const {
   if (event.stamp <= 0) return EventOutcome::kNoStamp;
-  if (event.size != law_->event_size(event.kind, event.channel)) return EventOutcome::kWrongSize;
-  if (!is_admissible(event.vector())) return EventOutcome::kNotFinite;
+  if (!law_->accepts(event)) return EventOutcome::kWrongSize;
+  // Not so for NaN.
+  const bool mode_is_admissible = std::abs(event.mode.value_or(0.0)) <= kLargestValue;
+  if (!is_admissible(event.vector()) || !mode_is_admissible) return EventOutcome::kNotFinite;
   if (!law_->observer().knows_mode(event)) return EventOutcome::kUnknownMode;
   if (std::max(event.stamp, event.release) - now > options_.future_tolerance) {
     return EventOutcome::kInFuture;
@@ -138,7 +140,7 @@ double Estimator::innovation_of(const Event& measured) {
 }
 
 void Estimator::note_rejected(const Event& event, Stamp now) {
-  if (law_->event_size(EventKind::kRejected, static_cast<int>(event.kind)) < 0) return;
+  if (!law_->accepts(rejection(event.kind, event.stamp))) return;
   const Stamp stamp = event.stamp > 0 ? std::min(event.stamp, now) : now;
   if (stamp <= 0) return;
   if (event.kind == EventKind::kInput) {
@@ -151,7 +153,7 @@ void Estimator::note_rejected(const Event& event, Stamp now) {
 
 void Estimator::insert_rejected(EventKind kind, Stamp stamp) {
   stamp = std::max(stamp, timeline_.earliest_insertion().value_or(stamp));
-  timeline_.insert({stamp, EventKind::kRejected, static_cast<int>(kind), nullptr, 0});
+  timeline_.insert(rejection(kind, stamp));
 }
 
 PublishedBound Estimator::bound(const Estimate& estimate, Stamp now) const {
@@ -165,8 +167,11 @@ PublishedBound Estimator::bound(const Estimate& estimate, Stamp now) const {
 }
 
 void Estimator::insert_release(Stamp jump, Stamp release) {
-  const auto delay = static_cast<double>(release - jump);
-  timeline_.insert({release, EventKind::kRelease, 0, &delay, 1});
+  Event event;
+  event.stamp = release;
+  event.kind = EventKind::kRelease;
+  event.delay = release - jump;
+  timeline_.insert(event);
 }
 
 Timeline::Query Estimator::estimate_at(Stamp stamp, Estimate& estimate) const {

@@ -14,7 +14,7 @@ ObserverRuntime::ObserverRuntime(const RuntimeSetup& setup)
 
 bool ObserverRuntime::is_enabled(const Event& event) const {
   if (event.kind == EventKind::kInput || event.kind == EventKind::kJump) return enabled_;
-  return enabled_ && sensors_enabled_[static_cast<std::size_t>(event.channel)];
+  return enabled_ && sensors_enabled_[static_cast<std::size_t>(event.sensor)];
 }
 
 EventReport ObserverRuntime::receive(const Event& event, Stamp now) {
@@ -45,7 +45,7 @@ bool ObserverRuntime::comes_after_bound(const Event& event, const EventReport& r
 void ObserverRuntime::watch_innovation(const Event& event, EventReport& report) {
   const bool counts = report.used() || report.outcome == EventOutcome::kGated;
   if (!counts || std::isnan(report.innovation)) return;
-  InnovationWatch& watch = watches_[static_cast<std::size_t>(event.channel)];
+  InnovationWatch& watch = watches_[static_cast<std::size_t>(event.sensor)];
   report.trend = watch.add(report.innovation, event.vector().norm());
 }
 

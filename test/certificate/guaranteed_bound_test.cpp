@@ -209,11 +209,15 @@ initial_estimate: {p: 1}
 
 TEST(GuaranteedBoundTest, GrowsAtAJumpWhoseOutputsDoNotCome) {
   const auto law = bounded(read_example("synchronized"));
-  ASSERT_GE(law->event_size(EventKind::kJump, kMeasuredJump), 0);
-  int sensor = 0;
-  while (law->event_size(EventKind::kJumpOutput, sensor) < 0) ++sensor;
+  const PlantObserver& observer = law->observer();
+  const Eigen::Index outputs = observer.event_size(EventKind::kJump);
+  ASSERT_GT(outputs, 0);
+  const std::vector<double> all_outputs(static_cast<std::size_t>(outputs), 0.1);
+  std::size_t measured = 0;
+  while (observer.event_size(EventKind::kJumpOutput, measured) < 0) ++measured;
+  const auto sensor = static_cast<int>(measured);
   const std::vector<double> y_d(
-      static_cast<std::size_t>(law->event_size(EventKind::kJumpOutput, sensor)), 0.1);
+      static_cast<std::size_t>(observer.event_size(EventKind::kJumpOutput, measured)), 0.1);
   LawRunner runner(law);
   const auto bound = [&] { return law->error_bound(runner.state().data()); };
   runner.flow(kSecond);
@@ -222,8 +226,7 @@ TEST(GuaranteedBoundTest, GrowsAtAJumpWhoseOutputsDoNotCome) {
   runner.jump_output(sensor, y_d);
   EXPECT_NEAR(18.0, bound(), kRounding);
   runner.flow(kSecond);
-  runner.jump(std::vector<double>(
-      static_cast<std::size_t>(law->event_size(EventKind::kJump, kMeasuredJump)), 0.1));
+  runner.jump(all_outputs);
   EXPECT_NEAR(38.0, bound(), kRounding);
   runner.flow(kSecond);
   runner.jump();
@@ -233,8 +236,7 @@ TEST(GuaranteedBoundTest, GrowsAtAJumpWhoseOutputsDoNotCome) {
   runner.jump_output(sensor, y_d);
   runner.flow(kSecond / 2);
   EXPECT_NEAR(118.0, bound(), kRounding);
-  runner.jump(std::vector<double>(
-      static_cast<std::size_t>(law->event_size(EventKind::kJump, kMeasuredJump)), 0.1));
+  runner.jump(all_outputs);
   EXPECT_NEAR(236.0, bound(), kRounding);
 }
 
@@ -458,7 +460,7 @@ TEST(GuaranteedBoundTest, EveryOrderOfArrivalAndAnyQueriesGiveTheSameBits) {
       std::vector<OwnedEvent> events = random_events_for(*law, generator, 30, kStart, 2 * kSecond);
       std::uniform_int_distribution<Stamp> any(kStart, kStart + 3 * kSecond);
       // Among them one that is rejected.
-      const Eigen::Index inputs = law->event_size(EventKind::kInput, 0);
+      const Eigen::Index inputs = law->observer().event_size(EventKind::kInput);
       if (inputs > 0 && seed % 2 == 0) {
         events.push_back({any(generator), EventKind::kInput, 0,
                           std::vector<double>(static_cast<std::size_t>(inputs), kNan)});

@@ -124,21 +124,20 @@ class RandomRuns {
     const std::size_t next =
         static_cast<std::size_t>(uniform(0.0, 1.0) * static_cast<double>(modes.size()));
     std::vector<double> values;
-    if (plant_.switches()) values.push_back(modes[next].label);
-    int channel = kPlainJump;
     for (std::size_t i = 0; i < plant_.sensors().size(); ++i) {
       if (plant_.sensors()[i].timing != SensorTiming::kAtJumps) continue;
       const Eigen::VectorXd y = measurement(i);
       values.insert(values.end(), y.data(), y.data() + y.size());
-      channel = kMeasuredJump;
     }
     if (modes[mode_].jump) {
       const AffineMap& map = *modes[mode_].jump->affine();
       x_ = Eigen::VectorXd(map.M() * x_ + map.c());
     }
     mode_ = next;
-    submit({stamp_, EventKind::kJump, channel, values.data(),
-            static_cast<Eigen::Index>(values.size()), 0});
+    Event jump{stamp_, EventKind::kJump, 0, values.data(),
+               static_cast<Eigen::Index>(values.size())};
+    if (plant_.switches()) jump.mode = modes[next].label;
+    submit(jump);
   }
 
   void submit(const Event& event) { ASSERT_TRUE(estimator_->submit(event, event.stamp).used()); }

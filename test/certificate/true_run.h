@@ -53,13 +53,13 @@ class TrueRun {
     const double y = (plant_.modes().front().outputs.front()->affine()->M() * x_)(0);
     const AffineMap& map = *plant_.modes().front().jump->affine();
     x_ = Eigen::VectorXd(map.M() * x_ + map.c());
-    happen({EventKind::kJump, kMeasuredJump, {y}}, later);
+    happen({EventKind::kJump, 0, {y}}, later);
   }
   /// Told, although the plant did not jump.
   void false_jump(double seconds) {
     go_to(seconds);
     const double y = (plant_.modes().front().outputs.front()->affine()->M() * x_)(0);
-    happen({EventKind::kJump, kMeasuredJump, {y}}, 0.0);
+    happen({EventKind::kJump, 0, {y}}, 0.0);
   }
 
   /// Tells all that is due at `seconds`.
@@ -71,7 +71,7 @@ class TrueRun {
       const Told told = waiting_.front();
       waiting_.erase(waiting_.begin());
       reports_.push_back(
-          estimator_.submit({told.stamp, told.what.kind, told.what.channel, told.what.values.data(),
+          estimator_.submit({told.stamp, told.what.kind, told.what.sensor, told.what.values.data(),
                              static_cast<Eigen::Index>(told.what.values.size()), 0},
                             told.arrival));
     }
@@ -99,7 +99,7 @@ class TrueRun {
  private:
   struct What {
     EventKind kind;
-    int channel;
+    int sensor;
     std::vector<double> values;
   };
   struct Told {

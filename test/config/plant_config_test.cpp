@@ -119,11 +119,11 @@ TEST(PlantConfigTest, ReadsASwitchedPlantAndHowItsJumpsCome) {
   EXPECT_EQ(1u, config.jumps->size);
   EXPECT_FALSE(config.sensors[0]);
   test::LawRunner runner(parse(replaced(kSwitched, "late: delayed, ", "")).law);
-  EXPECT_TRUE(runner.jump({7.0, 4.0}));
+  EXPECT_TRUE(runner.jump({4.0}, 7.0));
   EXPECT_EQ(1.0, runner.estimate()(0));  // 0.5 * 0 + 0.25 * (4 - 1 * 0), then in mode 7
   runner.flow(kNanosecondsPerSecond);
   EXPECT_NEAR(std::exp(-2.0), runner.estimate()(0), 1e-15);
-  EXPECT_TRUE(runner.jump({2.0, 4.0}));
+  EXPECT_TRUE(runner.jump({4.0}, 2.0));
   EXPECT_NEAR(std::exp(-2.0) + 0.25 * (4.0 - 3.0 * std::exp(-2.0)), runner.estimate()(0), 1e-14);
 }
 

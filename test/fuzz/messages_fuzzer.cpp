@@ -94,7 +94,7 @@ class Observer {
         allocation_is_limited = false;
         Event event;
         event.kind = channel.kind;
-        event.channel = channel.channel;
+        event.sensor = channel.sensor;
         if (source->read(message, now_, event) != Reading::kEvent) return;
         EventStatus status;
         write(channel, event, runtime_->receive(event, now_), "", now_, status);

@@ -37,7 +37,7 @@ TEST(JumpSourceTest, BareStampsAreJumps) {
       read(*make_message_source(jumps<std_msgs::Header>({})), header, EventKind::kJump);
   EXPECT_EQ(Reading::kEvent, by_header.reading);
   EXPECT_EQ(kStamp, by_header.event.stamp);
-  EXPECT_EQ(kPlainJump, by_header.event.channel);
+  EXPECT_EQ(std::nullopt, by_header.event.mode);
   EXPECT_EQ(0, by_header.event.size);
   std_msgs::Time time;
   time.data.fromNSec(kStamp);
@@ -55,8 +55,8 @@ TEST(JumpSourceTest, FieldsAreModeAndOutputs) {
   message.point.x = 2.0;
   message.point.z = 0.5;
   const Read jump = read(*make_message_source(switching), message, EventKind::kJump);
-  EXPECT_EQ((std::vector<double>{2.0, 0.5}), jump.values);
-  EXPECT_EQ(kMeasuredJump, jump.event.channel);
+  EXPECT_EQ((std::vector<double>{0.5}), jump.values);
+  EXPECT_EQ(2.0, jump.event.mode);
   switching.mode = "";
   expect_parts(fault_of([&] { make_message_source(switching); }), {"source/mode", "found none"});
 }
@@ -89,7 +89,6 @@ TEST(DetectedJumpsTest, AreTheCrossingsOfTheSignal) {
   EXPECT_EQ(Reading::kEvent, jump.reading);
   EXPECT_EQ(1500, jump.event.stamp);
   EXPECT_EQ(0, jump.event.size);
-  EXPECT_EQ(kPlainJump, jump.event.channel);
   // The clock is corrected: what was before goes on counting.
   EXPECT_EQ(Reading::kPassedOver, reading(2500, 0.0, 2004).reading);
   EXPECT_EQ(2750, reading(3000, 10.0, 1950).event.stamp);
@@ -119,7 +118,6 @@ TEST(DetectedJumpsTest, CarryTheOutputsThatTheirMessageTells) {
   const Read jump = reading(2000, {0.5, 1.0});
   EXPECT_EQ(Reading::kEvent, jump.reading);
   EXPECT_EQ(1500, jump.event.stamp);
-  EXPECT_EQ(kMeasuredJump, jump.event.channel);
   EXPECT_EQ((std::vector<double>{6.0}), jump.values);
 }
 

@@ -56,9 +56,9 @@ TEST_F(SwitchedExample, EachCycleMultipliesTheErrorByTheCosineOfTheSecondMode) {
     const Duration tau = from_seconds(interval(generator));
     stamp += tau;
     x_ = turned(x_, mode, to_seconds(tau));
-    const double values[] = {mode == 1 ? 2.0 : 1.0, x_(0)};
+    const double next = mode == 1 ? 2.0 : 1.0;
     ASSERT_TRUE(
-        estimator_.submit({stamp, EventKind::kJump, kMeasuredJump, values, 2}, stamp).used());
+        estimator_.submit({stamp, EventKind::kJump, 0, x_.data(), 1, 0, next}, stamp).used());
     if (mode == 2) predicted *= std::abs(std::cos(to_seconds(tau)));
     if (mode == 1 && k > 0) {
       // The first mode began with an error of x1; from the third on there is none.
@@ -79,9 +79,8 @@ TEST_F(SwitchedExample, WithoutSwitchesOrOutputsTheErrorStays) {
   const double initial = x_.norm();
   x_ = turned(x_, 1, 50.0);
   EXPECT_NEAR(initial, error(kStart + from_seconds(50.0)), 1e-12);
-  const double label = 2.0;
   const Stamp stamp = kStart + from_seconds(50.0);
-  ASSERT_TRUE(estimator_.submit({stamp, EventKind::kJump, kPlainJump, &label, 1}, stamp).used());
+  ASSERT_TRUE(estimator_.submit({stamp, EventKind::kJump, 0, nullptr, 0, 0, 2.0}, stamp).used());
   x_ = turned(x_, 2, 10.0);
   EXPECT_NEAR(initial, error(stamp + from_seconds(10.0)), 1e-12);
 }

@@ -52,8 +52,9 @@ class LawRun {
     return Eigen::Map<const Eigen::MatrixXd>(law_.covariance(state_.data()), n, n);
   }
   void flow(Duration duration) { law_.flow(duration, state_.data(), workspace_.data()); }
-  void reset(EventKind kind, int channel, const std::vector<double>& values) {
-    const OwnedEvent event{1, kind, channel, values};
+  void reset(EventKind kind, int sensor, const std::vector<double>& values,
+             std::optional<double> mode = std::nullopt) {
+    const OwnedEvent event{1, kind, sensor, values, mode};
     law_.reset(event.view(), state_.data(), workspace_.data());
   }
 
@@ -176,14 +177,14 @@ TEST(HybridKalmanCasesTest, ASwitchedPlantWithInputsHasTheTextbooksFilter) {
         break;
       case 1: {
         const std::size_t next = y[0] < 0.0 ? 0 : 1;
-        run.reset(EventKind::kJump, kPlainJump, {next == 0 ? 1.0 : 2.0});
+        run.reset(EventKind::kJump, 0, {}, next == 0 ? 1.0 : 2.0);
         expected.jump(modes[mode].jump.get(), tuning.Q_d);
         mode = next;
         break;
       }
       case 2: {
         const std::size_t next = y[0] < 0.0 ? 0 : 1;
-        run.reset(EventKind::kJump, kMeasuredJump, {next == 0 ? 1.0 : 2.0, y[0], y[1], y[2]});
+        run.reset(EventKind::kJump, 0, y, next == 0 ? 1.0 : 2.0);
         expected.correct(*modes[mode].outputs[0], tuning.R[0], Eigen::VectorXd::Constant(1, y[0]));
         expected.correct(*modes[mode].outputs[1], tuning.R[1], Eigen::Vector2d(y[1], y[2]));
         expected.jump(modes[mode].jump.get(), tuning.Q_d);
@@ -232,7 +233,7 @@ TEST(HybridKalmanCasesTest, WithoutNoiseOfTheProcessItIsTheLeastSquaresFit) {
     run.flow((jump % 2 == 0 ? 2 : 5) * kSecond);
     t += jump % 2 == 0 ? 2.0 : 5.0;
     const double y = value(generator);
-    run.reset(EventKind::kJump, kMeasuredJump, {y});
+    run.reset(EventKind::kJump, 0, {y});
     const Eigen::Vector2d row(1.0, t);
     information += row * row.transpose() / 0.25;
     weighted += row * y / 0.25;
@@ -304,10 +305,10 @@ TEST_F(HybridKalmanTimelineTest, OutputsOfAJumpGiveTheSameBitsHoweverTheyArrive)
       {kStart, EventKind::kInput, 0, {0.4}},
       {kStart + kSecond, EventKind::kSample, 2, {0.2, -0.3}},
       {at, EventKind::kSample, 2, {0.1, 0.6}},
-      {kStart + 4 * kSecond, EventKind::kJump, kPlainJump, {1.0}},
+      {kStart + 4 * kSecond, EventKind::kJump, 0, {}, 1.0},
       {kStart + 5 * kSecond, EventKind::kSample, 2, {0.7, 0.1}}};
-  const OwnedEvent measured{at, EventKind::kJump, kMeasuredJump, {2.0, 0.3, -0.4, 0.9}};
-  const OwnedEvent plain{at, EventKind::kJump, kPlainJump, {2.0}};
+  const OwnedEvent measured{at, EventKind::kJump, 0, {0.3, -0.4, 0.9}, 2.0};
+  const OwnedEvent plain{at, EventKind::kJump, 0, {}, 2.0};
   const OwnedEvent early{at, EventKind::kJumpOutput, 0, {0.3}};
   const OwnedEvent late{at, EventKind::kJumpOutput, 1, {-0.4, 0.9}};
 

@@ -196,7 +196,7 @@ TEST(HybridKalmanFilterTest, AnOutputOfEqualStampJoinsTheJumpInAnyOrderOfArrival
   constexpr Stamp kStart = 1000 * kSecond;
   const Stamp at = kStart + kSecond / 3;
   std::vector<OwnedEvent> events = {{kStart, EventKind::kSample, 0, {0.3, 0.1}},
-                                    {at, EventKind::kJump, kPlainJump, {}},
+                                    {at, EventKind::kJump, 0, {}},
                                     {at, EventKind::kSample, 0, {0.5, 0.2}},
                                     {at, EventKind::kJumpOutput, 1, {0.9}}};
   const auto less = [](const OwnedEvent& a, const OwnedEvent& b) {

@@ -69,8 +69,9 @@ struct Body {
       : law(std::move(of)), state(law->state_size()), workspace(law->workspace_size()) {
     law->initialize(state.data());
   }
-  void take(EventKind kind, int channel, std::vector<double> values) {
-    const OwnedEvent event{kStart, kind, channel, std::move(values)};
+  void take(EventKind kind, int sensor, std::vector<double> values,
+            std::optional<double> mode = std::nullopt) {
+    const OwnedEvent event{kStart, kind, sensor, std::move(values), mode};
     EXPECT_EQ(Effect::kApplied, law->reset(event.view(), state.data(), workspace.data()));
   }
   void flow(double seconds) { law->flow(from_seconds(seconds), state.data(), workspace.data()); }
@@ -103,7 +104,7 @@ TEST(SwitchedFlowBasedTest, TheErrorFollowsTheModesMatrices) {
     flow.apply(from_seconds(tau), e.data(), nullptr, scratch.data());
     body.flow(tau);
     EXPECT_LT((body.x() - kRest - e).norm(), 1e-13);
-    body.take(EventKind::kJump, kPlainJump, {mode == 1 ? 2.0 : 1.0});
+    body.take(EventKind::kJump, 0, {}, mode == 1 ? 2.0 : 1.0);
     body.take(EventKind::kOutput, 0, {1.0});  // what it said before the jump is forgotten
   }
   EXPECT_LT((body.x() - kRest).norm(), 1e-9 * initial);
@@ -130,11 +131,11 @@ TEST(SwitchedJumpBasedTest, TheGainIsThatOfTheModeLeftAndOfTheTimeInIt) {
                {formulas({"tau", "tau^2"}), formulas({"exp(tau)", "-1"})}};
   Body body(std::make_shared<const SwitchedObserver>(context(plant), gains));
   body.flow(0.3);
-  body.take(EventKind::kJump, kMeasuredJump, {2.0, 7.0, 7.0});
+  body.take(EventKind::kJump, 0, {7.0, 7.0}, 2.0);
   EXPECT_NEAR(7.0, body.x()(0), 1e-14);
   body.flow(0.5);
   const Eigen::Vector2d x = body.x();
-  body.take(EventKind::kJump, kMeasuredJump, {1.0, 4.0, 5.0});
+  body.take(EventKind::kJump, 0, {4.0, 5.0}, 1.0);
   const double first = 4.0 - x(0);
   const double second = 5.0 - 2.0 * x(1);
   const Eigen::Vector2d expected = A_d * x + kRest + Eigen::Vector2d(0.5, 0.25) * first +
@@ -152,9 +153,9 @@ TEST(SwitchedJumpBasedTest, OutputsAsSamplesOfEqualStampCountAsThoseInTheEvent) 
   Body apart(law);
   Body half(law);
   for (Body* body : {&together, &apart, &half}) body->flow(0.4);
-  together.take(EventKind::kJump, kMeasuredJump, {2.0, 0.3, -0.6});
-  apart.take(EventKind::kJump, kPlainJump, {2.0});
-  half.take(EventKind::kJump, kPlainJump, {2.0});
+  together.take(EventKind::kJump, 0, {0.3, -0.6}, 2.0);
+  apart.take(EventKind::kJump, 0, {}, 2.0);
+  half.take(EventKind::kJump, 0, {}, 2.0);
   apart.take(EventKind::kJumpOutput, 0, {0.3});
   half.take(EventKind::kJumpOutput, 0, {0.3});
   apart.take(EventKind::kJumpOutput, 1, {-0.6});
@@ -188,9 +189,9 @@ TEST_P(SwitchedProjectionTest, MeetsTheOutputAndDoesNotIncreaseTheMetric) {
     const Eigen::Vector2d before = truth - body.x();
     if (!at_jumps) body.take(EventKind::kOutput, 0, {y});
     if (at_jumps) {
-      body.take(EventKind::kJump, kMeasuredJump, {2.0, y});
+      body.take(EventKind::kJump, 0, {y}, 2.0);
     } else {
-      body.take(EventKind::kJump, kPlainJump, {2.0});
+      body.take(EventKind::kJump, 0, {}, 2.0);
     }
     const Eigen::Vector2d after = truth - body.x();
     EXPECT_NEAR(0.0, H * after, 1e-12);
@@ -202,7 +203,7 @@ TEST_P(SwitchedProjectionTest, MeetsTheOutputAndDoesNotIncreaseTheMetric) {
     EXPECT_NEAR(V_before, V_after + taken.dot(metric() * taken), 1e-11 * V_before);
     // Mode 2 has no metric.
     const Eigen::Vector2d x = body.x();
-    body.take(EventKind::kJump, kPlainJump, {1.0});
+    body.take(EventKind::kJump, 0, {}, 1.0);
     EXPECT_EQ(x, body.x());
   }
 }
@@ -228,7 +229,7 @@ Estimator::Options options() {
 TEST(SwitchedObserverTest, AnUnknownModeIsRejected) {
   Estimator estimator(everything(), options());
   const auto jump = [&](Stamp stamp, double label) {
-    return estimator.submit({stamp, EventKind::kJump, kPlainJump, &label, 1}, stamp).outcome;
+    return estimator.submit({stamp, EventKind::kJump, 0, nullptr, 0, 0, label}, stamp).outcome;
   };
   EXPECT_EQ(EventOutcome::kUsed, jump(kStart, 2.0));
   EXPECT_EQ(EventOutcome::kUnknownMode, jump(kStart + 1, 3.0));
@@ -245,9 +246,9 @@ TEST(SwitchedObserverTest, TheEstimateDependsOnEventsNotOnTheirArrival) {
     events.push_back({stamp, EventKind::kOutput, 0, {value(generator)}});
     const double label = i % 3 == 0 ? 2.0 : 1.0;
     if (i % 4 == 0) {
-      events.push_back({stamp, EventKind::kJump, kMeasuredJump, {label, value(generator)}});
+      events.push_back({stamp, EventKind::kJump, 0, {value(generator)}, label});
     } else if (i % 4 == 1) {
-      events.push_back({stamp, EventKind::kJump, kPlainJump, {label}});
+      events.push_back({stamp, EventKind::kJump, 0, {}, label});
       events.push_back({stamp, EventKind::kJumpOutput, 1, {value(generator)}});
     }
   }

@@ -95,7 +95,7 @@ TEST(SynchronizedObserverTest, AnOutputOfEqualStampJoinsTheJumpWhicheverComesFir
   options.history = {10 * kSecond, 100};
   options.sampling = {kSecond, kSecond};
   std::vector<OwnedEvent> events = {{kStart, EventKind::kOutput, 0, {0.3}},
-                                    {kStart + kSecond / 3, EventKind::kJump, kPlainJump, {}},
+                                    {kStart + kSecond / 3, EventKind::kJump, 0, {}},
                                     {kStart + kSecond / 3, EventKind::kJumpOutput, 1, {0.9}}};
   std::sort(events.begin(), events.end(), [](const OwnedEvent& a, const OwnedEvent& b) {
     return compare(a.view(), b.view()) < 0;

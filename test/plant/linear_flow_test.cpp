@@ -140,6 +140,36 @@ TEST(LinearFlowTest, AConstantInputGivesTheConvolution) {
   }
 }
 
+TEST(LinearFlowTest, AConstantIsAnInputThatIsOne) {
+  Eigen::MatrixXd A(2, 2);
+  A << 0.1, 2.0, -1.5, -0.3;
+  const Eigen::Vector2d b(0.4, -0.7);
+  const Eigen::Vector2d c(0.2, 1.1);
+  Eigen::MatrixXd both(2, 2);
+  both << b, c;
+  const double u[] = {2.5, 1.0};
+  Eigen::Vector2d expected(1.0, -1.0);
+  Eigen::Vector2d found = expected;
+  Eigen::Vector2d scratch;
+  LinearFlow(A, both).apply(123456789, expected.data(), u, scratch.data());
+  LinearFlow(A, b, c).apply(123456789, found.data(), u, scratch.data());
+  EXPECT_EQ(expected, found);
+}
+
+TEST(LinearFlowTest, TheTransitionFlowsEachUnitVector) {
+  Eigen::MatrixXd A(2, 2);
+  A << 0.1, 2.0, -1.5, -0.3;
+  const LinearFlow flow(A, Eigen::MatrixXd::Zero(2, 0));
+  Eigen::Matrix2d E;
+  Eigen::Vector2d scratch;
+  flow.transition(123456789, E.data(), scratch.data());
+  for (Eigen::Index j = 0; j < 2; ++j) {
+    Eigen::Vector2d x = Eigen::Vector2d::Unit(j);
+    flow.apply(123456789, x.data(), nullptr, scratch.data());
+    EXPECT_EQ(x, E.col(j));
+  }
+}
+
 TEST(LinearFlowTest, FlowingInPartsIsFlowingAtOnce) {
   Eigen::MatrixXd A(2, 2);
   A << 0.1, 2.0, -1.5, -0.3;
@@ -185,6 +215,9 @@ TEST(LinearFlowTest, RefusesWhatDoesNotFit) {
   EXPECT_THROW(LinearFlow(zero(0, 0), zero(0, 0)), std::invalid_argument);
   EXPECT_THROW(LinearFlow(zero(2, 2), zero(3, 1)), std::invalid_argument);
   EXPECT_THROW(LinearFlow(Eigen::MatrixXd::Constant(1, 1, NAN), zero(1, 0)), std::invalid_argument);
+  EXPECT_THROW(LinearFlow(zero(2, 2), zero(2, 1), Eigen::Vector3d::Zero()), std::invalid_argument);
+  EXPECT_THROW(LinearFlow(zero(2, 2), zero(2, 1), Eigen::Vector2d(0.0, NAN)),
+               std::invalid_argument);
 }
 
 }  // namespace

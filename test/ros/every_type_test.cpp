@@ -54,7 +54,7 @@ class ChannelOf : public Channel {
               const std::vector<double>& values) override {
     Event event;
     event.kind = channel_.kind;
-    event.channel = channel_.channel;
+    event.sensor = channel_.sensor;
     event.stamp = to_stamp(stamp);
     const M sent = message(stamp, values);
     reader_.read(sent, event);

@@ -35,7 +35,7 @@ class LiveRuntimeTest : public ::testing::Test {
   /// An event of channel 0 (s), 1 (t) or 2 (the input) that arrives at once.
   EventOutcome receive(std::size_t channel, Stamp stamp, double value) {
     const EventChannel& from = channels_[channel];
-    return runtime_->receive({stamp, from.kind, from.channel, &value, 1}, stamp).outcome;
+    return runtime_->receive({stamp, from.kind, from.sensor, &value, 1}, stamp).outcome;
   }
   std::vector<Stamp> due(Stamp now) {
     std::vector<Stamp> stamps;
@@ -164,7 +164,7 @@ class BoundedRuntimeTest : public ::testing::Test {
   /// Channel 0 is the sensor, 1 the input.
   EventReport receive(std::size_t channel, Stamp stamp, double value, Stamp now) {
     const EventChannel& from = channels_[channel];
-    return runtime_->receive({stamp, from.kind, from.channel, &value, 1}, now);
+    return runtime_->receive({stamp, from.kind, from.sensor, &value, 1}, now);
   }
   PublishedBound last_due(Stamp now) {
     PublishedBound bound;

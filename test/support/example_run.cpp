@@ -54,7 +54,7 @@ class Runner {
  private:
   void take(const SimulatedMessage& message) {
     const SimulatedChannel& channel = simulator_.channels()[message.channel];
-    std::vector<double> values = message.values;
+    const std::vector<double>& values = message.values;
     Event event;
     event.stamp = message.stamp;
     switch (channel.kind) {
@@ -68,13 +68,12 @@ class Runner {
         break;
       case SimulatedChannel::Kind::kJump:
         event.kind = EventKind::kJump;
-        event.channel = values.empty() ? kPlainJump : kMeasuredJump;
         event.release = message.arrival;
-        if (config_.plant->switches()) values.insert(values.begin(), message.mode);
+        if (config_.plant->switches()) event.mode = message.mode;
         break;
       case SimulatedChannel::Kind::kMeasurement:
-        event.channel = sensor_of(channel.topic);
-        event.kind = is_continuous(event.channel) ? EventKind::kOutput : EventKind::kSample;
+        event.sensor = sensor_of(channel.topic);
+        event.kind = is_continuous(event.sensor) ? EventKind::kOutput : EventKind::kSample;
         break;
     }
     event.values = values.data();

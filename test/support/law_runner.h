@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -26,19 +27,26 @@ class LawRunner {
     return reset(EventKind::kJumpOutput, sensor, y);
   }
   bool input(std::vector<double> u) { return reset(EventKind::kInput, 0, u); }
-  bool jump() { return reset(EventKind::kJump, kPlainJump, {}); }
-  bool jump(std::vector<double> values) { return reset(EventKind::kJump, kMeasuredJump, values); }
+  bool jump(const std::vector<double>& y_d = {}, std::optional<double> mode = std::nullopt) {
+    return reset(
+        {1, EventKind::kJump, 0, y_d.data(), static_cast<Eigen::Index>(y_d.size()), 0, mode});
+  }
   bool release(Duration delay) {
-    return reset(EventKind::kRelease, 0, {static_cast<double>(delay)});
+    Event event;
+    event.kind = EventKind::kRelease;
+    event.delay = delay;
+    return reset(event);
   }
 
   Eigen::VectorXd estimate() const { return state_.head(law_->estimate_size()); }
   const Eigen::VectorXd& state() const { return state_; }
 
  private:
-  bool reset(EventKind kind, int channel, const std::vector<double>& values) {
-    EXPECT_EQ(static_cast<Eigen::Index>(values.size()), law_->event_size(kind, channel));
-    const Event event{1, kind, channel, values.data(), static_cast<Eigen::Index>(values.size()), 0};
+  bool reset(EventKind kind, int sensor, const std::vector<double>& values) {
+    return reset({1, kind, sensor, values.data(), static_cast<Eigen::Index>(values.size())});
+  }
+  bool reset(const Event& event) {
+    EXPECT_TRUE(law_->accepts(event));
     return took_effect(law_->reset(event, state_.data(), workspace_.data()));
   }
 

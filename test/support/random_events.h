@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -16,11 +17,12 @@ namespace sampled_data_observers::test {
 struct OwnedEvent {
   Stamp stamp = 0;
   EventKind kind = EventKind::kSample;
-  int channel = 0;
+  int sensor = 0;
   std::vector<double> values;
+  std::optional<double> mode = std::nullopt;
 
   Event view() const {
-    return {stamp, kind, channel, values.data(), static_cast<Eigen::Index>(values.size())};
+    return {stamp, kind, sensor, values.data(), static_cast<Eigen::Index>(values.size()), 0, mode};
   }
 };
 
@@ -76,7 +78,7 @@ inline std::vector<OwnedEvent> random_events(std::mt19937_64& generator, std::si
       event.kind = EventKind::kJump;
       values = 0;
     } else if (choice < 6) {
-      event.channel = 1;
+      event.sensor = 1;
       values = 2;
     }
     for (std::size_t i = 0; i < values; ++i) event.values.push_back(value(generator));

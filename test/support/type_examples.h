@@ -42,17 +42,20 @@ inline ObserverConfig read_example(const std::string& name) {
 /// equal. Modes are 1 and 2.
 inline std::vector<OwnedEvent> random_events_for(const ObserverLaw& law, std::mt19937_64& generator,
                                                  std::size_t size, Stamp start, Duration span) {
-  struct Channel {
-    EventKind kind;
-    int channel;
-    Eigen::Index size;
+  std::vector<OwnedEvent> channels;
+  const PlantObserver& observer = law.observer();
+  const auto add = [&](EventKind kind, std::size_t sensor, Eigen::Index size) {
+    channels.push_back(
+        {0, kind, static_cast<int>(sensor), std::vector<double>(static_cast<std::size_t>(size))});
   };
-  std::vector<Channel> channels;
   for (const EventKind kind : {EventKind::kInput, EventKind::kOutput, EventKind::kJump,
                                EventKind::kJumpOutput, EventKind::kSample}) {
-    for (int channel = 0; channel < 4; ++channel) {
-      const Eigen::Index values = law.event_size(kind, channel);
-      if (values >= 0) channels.push_back({kind, channel, values});
+    const bool is_measured = kind != EventKind::kInput && kind != EventKind::kJump;
+    for (std::size_t sensor = 0; sensor < (is_measured ? observer.sensors() : 1); ++sensor) {
+      const Eigen::Index size = observer.event_size(kind, sensor);
+      if (size < 0) continue;
+      if (kind == EventKind::kJump && size > 0) add(kind, sensor, 0);
+      add(kind, sensor, size);
     }
   }
   std::uniform_int_distribution<Stamp> stamp(start, start + span);
@@ -61,15 +64,12 @@ inline std::vector<OwnedEvent> random_events_for(const ObserverLaw& law, std::mt
   std::uniform_real_distribution<double> value(-1.0, 1.0);
   std::vector<OwnedEvent> events;
   while (events.size() < size) {
-    const Channel& channel = channels[choice(generator)];
-    OwnedEvent event;
+    OwnedEvent event = channels[choice(generator)];
     event.stamp = stamp(generator);
     if (!events.empty() && tenth(generator) < 3) event.stamp = events.back().stamp;
-    event.kind = channel.kind;
-    event.channel = channel.channel;
-    for (Eigen::Index i = 0; i < channel.size; ++i) event.values.push_back(value(generator));
-    if (event.kind == EventKind::kJump && !law.observer().knows_mode(event.view())) {
-      event.values[0] = tenth(generator) < 5 ? 1.0 : 2.0;
+    for (double& number : event.values) number = value(generator);
+    if (event.kind == EventKind::kJump && observer.plant().switches()) {
+      event.mode = tenth(generator) < 5 ? 1.0 : 2.0;
     }
     const bool known = std::any_of(events.begin(), events.end(), [&](const OwnedEvent& other) {
       return compare(other.view(), event.view()) == 0;

@@ -13,8 +13,7 @@ namespace sampled_data_observers {
 struct EventChannel {
   /// Of the events that its messages become.
   EventKind kind = EventKind::kSample;
-  /// As in Event.
-  int channel = 0;
+  int sensor = 0;  ///< index of it, for what is measured
   /// Name in EventStatus: the sensor's, "input" or "jumps".
   std::string name;
   /// The topic, and how its messages are read.

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 
 #include "sampled_data_observers/hybrid/time.h"
 
@@ -20,36 +21,37 @@ enum class EventKind : std::uint8_t {
   kRejected = 6     ///< something that the plant saw, and the estimate did not: no event itself
 };
 
-/// Channel of jumps whose events carry no outputs.
-constexpr int kPlainJump = 0;
-/// Channel of jumps whose events carry the outputs y_d measured at them.
-constexpr int kMeasuredJump = 1;
-
 /// One event, as a view: the values belong to whoever made it.
 struct Event {
   /// When it takes effect; 0 where that is unknown, and the event is of no use.
   Stamp stamp = 0;
-  /// Decides what `channel` and `values` mean.
+  /// Decides what else means something.
   EventKind kind = EventKind::kSample;
-  /// Index of the sensor for what is measured, kPlainJump or kMeasuredJump for jumps, the EventKind
-  /// of what was rejected, else 0.
-  int channel = 0;
-  /// u of inputs, y of what is measured. Of jumps: the label of the mode that follows, where the
-  /// plant switches, then y_d. Of releases: the time since the jump [ns].
+  /// Of what is measured: the index of its sensor.
+  int sensor = 0;
+  /// u of inputs, y of what is measured, y_d of jumps that come with it.
   const double* values = nullptr;
-  /// Number of values; what a channel takes, HybridSystem::event_size() says.
+  /// Number of values.
   Eigen::Index size = 0;
   /// Of jumps: when the reset takes effect, for a law that delays jumps; 0 where that is when the
   /// event arrives. It is no part of the jump itself.
   Stamp release = 0;
+  /// Of jumps of a plant that switches: the label of the mode that follows. Messages may hold any
+  /// number.
+  std::optional<double> mode = std::nullopt;
+  /// Of releases: the time since the jump.
+  Duration delay = 0;
+  /// Of what was rejected: its kind.
+  EventKind rejected = EventKind::kInput;
 
   /// The values where they are: nothing is copied.
   Eigen::Map<const Eigen::VectorXd> vector() const { return {values, size}; }
 };
 
-/// Total order of events: by stamp, then kind, channel, number of values, and values in
-/// lexicographic order. Negative, zero or positive as for strcmp; zero means a duplicate.
-/// @pre all values are finite
+/// Total order of events: by stamp, then kind, sensor or kind rejected, number of values, mode or
+/// delay, and values in lexicographic order. Negative, zero or positive as for strcmp; zero means a
+/// duplicate.
+/// @pre all values and modes are finite
 int compare(const Event& a, const Event& b);
 
 }  // namespace sampled_data_observers

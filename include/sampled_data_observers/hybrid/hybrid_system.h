@@ -42,7 +42,7 @@ class HybridSystem {
   /// Number of entries that the maps need in `workspace`.
   Eigen::Index workspace_size() const { return workspace_layout_.size(); }
 
-  /// Largest event_size() of all channels.
+  /// Largest number of values of an event.
   Eigen::Index max_event_size() const { return facts_.max_event_size; }
 
   /// Number of sensors.
@@ -56,9 +56,9 @@ class HybridSystem {
   /// as not finite.
   Duration flow_horizon() const { return facts_.flow_horizon; }
 
-  /// Number of values that an event of this kind and channel carries; -1 where there is no such
-  /// channel. Channels of samples are numbers of sensors; there are sensors().
-  virtual Eigen::Index event_size(EventKind kind, int channel) const = 0;
+  /// Whether the system has such events: of that kind and sensor, with so many values, and with a
+  /// mode or without. Which mode it is does not matter.
+  virtual bool accepts(const Event& event) const = 0;
 
   /// The state before the first event.
   virtual void initialize(double* state) const = 0;
@@ -71,7 +71,7 @@ class HybridSystem {
   /// outlive that.
   virtual void hold(double* state) const { static_cast<void>(state); }
 
-  /// Reset map of an event that event_size() accepts. Where the event must not take effect, nothing
+  /// Reset map of an event that it accepts. Where the event must not take effect, nothing
   /// changes but what the system remembers of such events. Never returns kNotFinite.
   virtual Effect reset(const Event& event, double* state, double* workspace) const = 0;
 

@@ -70,7 +70,7 @@ class Timeline {
     std::size_t rewound = 0;
     /// Of the event itself.
     Effect effect = Effect::kApplied;
-    /// For a sample: stamp of the newest one of the same channel before it that took effect; for a
+    /// For a sample: stamp of the newest one of the same sensor before it that took effect; for a
     /// jump: of the newest jump.
     std::optional<Stamp> previous;
   };
@@ -96,7 +96,7 @@ class Timeline {
   Timeline& operator=(Timeline&&) = default;
 
   /// Takes in one event. The values are copied.
-  /// @pre event.size == system.event_size(event.kind, event.channel); all values finite
+  /// @pre system.accepts(event); all values finite
   InsertReport insert(const Event& event);
 
   /// The state at `stamp` from all events with a stamp up to and including it.
@@ -160,7 +160,7 @@ class Timeline {
   Effect reset(std::size_t position);
   void flow_from(std::size_t position, Duration duration, StateRef state) const;
   void forget_oldest();
-  /// Where an event of the kind and channel has its place in newest_; nothing for kinds that have
+  /// Where an event of its kind and sensor has its place in newest_; nothing for kinds that have
   /// none.
   std::optional<Eigen::Index> family_of(const Event& event) const;
   std::optional<Stamp> previous(std::size_t position, const Event& event) const;

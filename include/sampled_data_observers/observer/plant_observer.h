@@ -46,12 +46,16 @@ class PlantObserver : public ObserverLaw {
   /// about it.
   virtual LawGains gains() const { return {}; }
 
-  Eigen::Index event_size(EventKind kind, int channel) const override;
+  bool accepts(const Event& event) const override;
   void initialize(double* state) const override;
   void flow(Duration duration, double* state, double* workspace) const override;
   Effect reset(const Event& event, double* state, double* workspace) const override;
 
-  /// Whether the plant has the mode that a jump event names. @pre event_size() accepts the event
+  /// Number of values that events of the kind, and sensor, carry; -1 where there are no such. Jumps
+  /// may come with the outputs measured at them, all or none.
+  Eigen::Index event_size(EventKind kind, std::size_t sensor = 0) const;
+
+  /// Whether the plant has the mode that a jump event names. @pre accepts(event)
   bool knows_mode(const Event& event) const;
 
   /// What is held in a state: the input, and behind it the continuous outputs. For observers of one
@@ -198,7 +202,6 @@ class PlantObserver : public ObserverLaw {
   void pair_with_jump(const Event& output, double* state, double* workspace) const;
   bool is_built() const { return numeric_flow_ != nullptr || !exact_flows_.empty(); }
   bool takes_jump_outputs() const { return y_d_.size() > 0; }
-  Eigen::Index mode_values() const { return plant_->switches() ? 1 : 0; }
   std::size_t regime(const Held& held) const;
   LinearFlow exact_flow(const Held& held) const;
 

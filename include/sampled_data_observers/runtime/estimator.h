@@ -61,7 +61,7 @@ class Estimator {
   const ObserverLaw& law() const { return *law_; }
 
   /// Admits an event that arrived at `now`. Whatever it holds, the estimate stays finite.
-  /// @pre the channel exists: law().event_size(event.kind, event.channel) >= 0
+  /// @pre the plant has events of this kind and sensor
   EventReport submit(const Event& event, Stamp now);
 
   /// Takes note of something that was rejected before it was an event. What is known of a rejected

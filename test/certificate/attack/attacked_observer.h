@@ -62,7 +62,7 @@ class AttackedObserver {
     }
     const AffineMap& jump = *plant_.modes().front().jump->affine();
     at.x = (jump.M() * at.x + jump.c()).eval();
-    reset({0, EventKind::kJump, kMeasuredJump, y.data(), y.size(), 0}, at);
+    reset({0, EventKind::kJump, 0, y.data(), y.size(), 0}, at);
   }
 
   Eigen::VectorXd error(const Attacked& at) const {
