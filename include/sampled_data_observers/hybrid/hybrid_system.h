@@ -76,11 +76,12 @@ class HybridSystem {
   virtual Effect reset(const Event& event, double* state, double* workspace) const = 0;
 
  protected:
+  /// What holds of a system for ever.
   struct Facts {
-    Eigen::Index max_event_size = 0;
-    std::size_t sensors = 0;
-    Duration flow_step = 0;
-    Duration flow_horizon = std::numeric_limits<Duration>::max();
+    Eigen::Index max_event_size = 0;                               ///< max_event_size()
+    std::size_t sensors = 0;                                       ///< sensors()
+    Duration flow_step = 0;                                        ///< flow_step()
+    Duration flow_horizon = std::numeric_limits<Duration>::max();  ///< flow_horizon()
   };
 
   HybridSystem() = default;
@@ -89,11 +90,13 @@ class HybridSystem {
   /// one's state and its workspace with that one's workspace.
   HybridSystem(const HybridSystem&) = default;
 
-  /// What a system keeps in its state, and what its maps need beside it, is handed out here while
-  /// it is built. Workspace is not shared: what one map takes, no other one changes.
+  /// What a system keeps in its state is handed out here while it is built.
   StateLayout& state_layout() { return state_layout_; }
+  /// What its maps need beside the state, likewise: a part of the workspace that no other one
+  /// shares.
   VectorSlot scratch(Eigen::Index entries) { return workspace_layout_.vector(entries); }
 
+  /// To be set while the system is built.
   Facts& facts() { return facts_; }
 
  private:

@@ -19,12 +19,18 @@ namespace sampled_data_observers {
 class VectorSlot {
  public:
   VectorSlot() = default;
+  /// From the entry `first` of a state on.
   VectorSlot(Eigen::Index first, Eigen::Index size) : first_(first), size_(size) {}
 
+  /// Number of entries.
   Eigen::Index size() const { return size_; }
+  /// Its entries in a state.
   double* of(double* state) const { return state + first_; }
+  /// The same of a state that is only read.
   const double* of(const double* state) const { return state + first_; }
+  /// Copies size() values, which do not overlap it, into a state.
   void set(const double* values, double* state) const { std::copy_n(values, size_, of(state)); }
+  /// Sets all its entries to one value.
   void fill(double value, double* state) const { std::fill_n(of(state), size_, value); }
 
   /// `size` of its entries, from the one at `offset` on.
@@ -42,9 +48,12 @@ class VectorSlot {
 class NumberSlot {
  public:
   NumberSlot() = default;
+  /// At one place of a state.
   explicit NumberSlot(Eigen::Index place) : place_(place) {}
 
+  /// Its value in a state.
   double of(const double* state) const { return state[place_]; }
+  /// Sets it in a state.
   void set(double value, double* state) const { state[place_] = value; }
 
  private:
@@ -55,9 +64,12 @@ class NumberSlot {
 class FlagSlot {
  public:
   FlagSlot() = default;
+  /// At one place of a state.
   explicit FlagSlot(Eigen::Index place) : place_(place) {}
 
+  /// Its value in a state.
   bool of(const double* state) const { return state[place_] != 0.0; }
+  /// Sets it in a state.
   void set(bool value, double* state) const { state[place_] = value ? 1.0 : 0.0; }
 
  private:
@@ -68,13 +80,17 @@ class FlagSlot {
 class FlagsSlot {
  public:
   FlagsSlot() = default;
+  /// From the entry `first` of a state on.
   FlagsSlot(Eigen::Index first, std::size_t size) : first_(first), size_(size) {}
 
+  /// Number of flags.
   std::size_t size() const { return size_; }
+  /// One of them.
   FlagSlot operator[](std::size_t i) const {
     assert(i < size_);
     return FlagSlot(first_ + static_cast<Eigen::Index>(i));
   }
+  /// Sets all in a state.
   void fill(bool value, double* state) const {
     std::fill_n(state + first_, size_, value ? 1.0 : 0.0);
   }
@@ -89,11 +105,14 @@ template <class T>
 class ChoiceSlot {
  public:
   ChoiceSlot() = default;
+  /// At one place of a state.
   explicit ChoiceSlot(Eigen::Index place) : place_(place) {}
 
+  /// Its value in a state.
   T of(const double* state) const {
     return static_cast<T>(static_cast<std::int64_t>(state[place_]));
   }
+  /// Sets it in a state.
   void set(T value, double* state) const {
     state[place_] = static_cast<double>(static_cast<std::int64_t>(value));
   }
@@ -110,12 +129,18 @@ using ModeSlot = ChoiceSlot<std::size_t>;
 class TimerSlot {
  public:
   TimerSlot() = default;
+  /// At one place of a state, with its limit [ns].
   TimerSlot(Eigen::Index place, double limit) : place_(place), limit_(limit) {}
 
+  /// The time in a state [ns].
   double of(const double* state) const { return state[place_]; }
+  /// Whether it has come to its limit.
   bool is_over(const double* state) const { return state[place_] >= limit_; }
+  /// Sets it to zero.
   void restart(double* state) const { state[place_] = 0.0; }
+  /// Sets it to its limit.
   void expire(double* state) const { state[place_] = limit_; }
+  /// Lets time pass, `duration` >= 0.
   void advance(Duration duration, double* state) const {
     state[place_] = std::min(limit_, state[place_] + static_cast<double>(duration));
   }
@@ -128,17 +153,25 @@ class TimerSlot {
 /// Hands out slots, one behind the other.
 class StateLayout {
  public:
+  /// Number of entries handed out.
   Eigen::Index size() const { return size_; }
 
+  /// A vector, or a matrix, of so many entries.
   VectorSlot vector(Eigen::Index entries) { return {take(entries), entries}; }
+  /// A number.
   NumberSlot number() { return NumberSlot(take(1)); }
+  /// A flag.
   FlagSlot flag() { return FlagSlot(take(1)); }
+  /// So many flags.
   FlagsSlot flags(std::size_t count) { return {take(static_cast<Eigen::Index>(count)), count}; }
+  /// One of the values of T.
   template <class T>
   ChoiceSlot<T> choice() {
     return ChoiceSlot<T>(take(1));
   }
+  /// A mode.
   ModeSlot mode() { return choice<std::size_t>(); }
+  /// A timer; without a limit, it goes on for ever.
   TimerSlot timer(double limit = std::numeric_limits<double>::infinity()) {
     return {take(1), limit};
   }

@@ -19,6 +19,7 @@ struct LawGain {
 
 /// A state that the flow map takes from a continuous output instead of from the estimate.
 struct OutputInjection {
+  /// Position among the states of the plant.
   Eigen::Index state = 0;
   /// A sensor that measures continuously and has one output.
   std::size_t sensor = 0;
@@ -27,12 +28,16 @@ struct OutputInjection {
 /// All that makes an observer of the copy of a plant, as its law computes with it: what
 /// certificates, error bounds and analysis are about.
 struct LawGains {
+  /// Each symbol of each sensor and mode once.
   std::vector<LawGain> all;
+  /// At most one per state.
   std::vector<OutputInjection> output_injections;
   /// |θ| of what is injected before the first sample, units of the outputs.
   double initial_injection = 0.0;
 
+  /// Adds a matrix; one without entries stands for a formula.
   LawGains& add(const std::string& name, const Eigen::MatrixXd& value);
+  /// Adds a number.
   LawGains& add(const std::string& name, double value);
   /// Those of all sensors of a timing, out of one per sensor, as `symbol`/sensor.
   LawGains& add(const std::string& symbol, const std::vector<Eigen::MatrixXd>& per_sensor,

@@ -75,12 +75,15 @@ class ObserverLaw : public HybridSystem {
   }
 
  protected:
+  /// For the observer itself.
   explicit ObserverLaw(const PlantObserver* observer) : observer_(observer) {}
 
   /// For a law around another one: it begins with all that one is, and says what it changes.
   ObserverLaw(const ObserverLaw&) = default;
 
+  /// To be called where a law gives a bound.
   void set_bound(const StateBound* bound) { bound_ = bound; }
+  /// To be called where a law delays jumps.
   void set_delays_jumps() { delays_jumps_ = true; }
 
  private:

@@ -67,6 +67,8 @@ class PlantObserver : public ObserverLaw {
 
   /// The mode that holds in a state, as its position among the plant's.
   std::size_t mode_of(const double* state) const { return mode_.of(state); }
+
+  /// Takes over a mode, as mode_of() of an observer of the same plant gives it.
   void keep_mode(std::size_t mode, double* state) const { mode_.set(mode, state); }
 
   /// Moves the estimate of an initialized state the least (in the norm |·|) so that it fits a
@@ -114,6 +116,7 @@ class PlantObserver : public ObserverLaw {
   /// The outputs at a jump.
   class JumpOutputs {
    public:
+    /// Those that a state of the law holds.
     JumpOutputs(const PlantObserver& law, const double* state) : law_(law), state_(state) {}
 
     /// y_d of a sensor that measures at jumps; null where it is not known.
@@ -127,17 +130,22 @@ class PlantObserver : public ObserverLaw {
     const double* state_;
   };
 
+  /// @param context  the plant, and where the estimate begins
+  /// @param timings  those that the observer takes
   /// @param flowing  number of states that flow beside x̂
   /// @throws std::invalid_argument for sizes that do not fit the plant, and where a sensor has a
   /// timing that is not in `timings`.
   PlantObserver(ObserverContext context, const std::vector<SensorTiming>& timings,
                 Eigen::Index flowing = 0);
 
-  /// What an observer keeps in its state beside x̂: the next of its flowing states, numbers that the
-  /// flow leaves alone, and the time [ns] since it restarted the timer last. All are zero at first.
-  /// @pre build_flow() was not called yet
+  /// The next so many of the states that flow beside x̂. As all that an observer keeps in its state,
+  /// they are zero at first, and are to be declared before build_flow().
   VectorSlot flowing(Eigen::Index entries);
+
+  /// Numbers in the state that the flow leaves alone.
   VectorSlot constants(Eigen::Index entries);
+
+  /// The time since the observer restarted it last [ns].
   TimerSlot timer();
 
   /// To be called at the end of every constructor that makes an observer: builds its flow. The
@@ -186,8 +194,7 @@ class PlantObserver : public ObserverLaw {
   /// What a state holds; its pointers point into the state.
   Held held(const double* state) const;
 
-  /// The sensors of a timing, by their numbers, and where the outputs of one begin among those of
-  /// its timing.
+  /// The sensors of a timing, by their numbers.
   const std::vector<std::size_t>& sensors_of(SensorTiming timing) const {
     return sensors_of_[static_cast<std::size_t>(timing)];
   }
