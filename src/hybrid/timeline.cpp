@@ -152,7 +152,9 @@ void Timeline::open_position(std::size_t position, const Event& event) {
   order(position) = free_slot;
   Event& own = slots_[free_slot].event;
   const double* values = own.values;
-  values_.col(static_cast<Eigen::Index>(free_slot)).head(event.size) = event.vector();
+  // Negative zeros become positive ones: they compare equal, and whichever comes first must not
+  // decide which of them the maps see.
+  values_.col(static_cast<Eigen::Index>(free_slot)).head(event.size) = event.vector().array() + 0.0;
   own = event;
   own.values = values;
 }

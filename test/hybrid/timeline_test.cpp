@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <random>
@@ -98,6 +99,38 @@ TEST_F(TimelineTest, EveryOrderOfEventsWithOneStampGivesTheSameBits) {
     for (const OwnedEvent& event : events) timeline.insert(event.view());
     EXPECT_TRUE(expected == snapshot(timeline, *law_, kStart + kSecond));
   } while (std::next_permutation(events.begin(), events.end(), less));
+}
+
+/// Remembers the last value to the bit.
+class LastValue : public HybridSystem {
+ public:
+  LastValue() {
+    state_layout().vector(1);
+    facts().max_event_size = 1;
+    facts().sensors = 1;
+  }
+
+  bool accepts(const Event& event) const override { return event.size == 1; }
+  void initialize(double* state) const override { *state = 1.0; }
+  void flow(Duration, double*, double*) const override {}
+  Effect reset(const Event& event, double* state, double*) const override {
+    *state = *event.values;
+    return Effect::kApplied;
+  }
+};
+
+TEST_F(TimelineTest, ASignedZeroOfTheSameStampGivesTheSameBitsWhicheverComesFirst) {
+  const auto system = std::make_shared<const LastValue>();
+  const auto after = [&](const std::vector<double>& arrived) {
+    Timeline timeline(system, {10 * kSecond, 200});
+    for (const double value : arrived) timeline.insert(sample(kStart, value).view());
+    return snapshot(timeline, *system, kStart + kSecond);
+  };
+  const Snapshot expected = after({0.0, -0.0});
+  EXPECT_FALSE(std::signbit(expected.state.front()));
+  EXPECT_TRUE(expected == after({-0.0, 0.0}));
+  EXPECT_TRUE(expected == after({-0.0}));
+  EXPECT_EQ(1u, expected.events);
 }
 
 TEST_F(TimelineTest, QueriesChangeNothing) {
