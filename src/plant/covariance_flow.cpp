@@ -11,7 +11,7 @@ namespace sampled_data_observers {
 namespace {
 
 /// Φ and Q_Δ of one duration.
-struct Step {
+struct CovarianceStep {
   Transition transition;
   ExtendedMatrix noise;
 
@@ -23,14 +23,14 @@ struct Step {
   }
 };
 
-Step compose(const Step& first, const Step& second) {
+CovarianceStep compose(const CovarianceStep& first, const CovarianceStep& second) {
   const ExtendedMatrix& Phi = second.transition.full;
   const ExtendedMatrix noise = Phi * first.noise * Phi.transpose() + second.noise;
   return {compose(first.transition, second.transition), (noise + noise.transpose()) / 2.0L};
 }
 
 /// The step over one unit of the time in which A and Q are given.
-Step unit_step(const ExtendedMatrix& A, const ExtendedMatrix& Q) {
+CovarianceStep unit_step(const ExtendedMatrix& A, const ExtendedMatrix& Q) {
   // Q_h is the sum of D^k(Q) h^{k+1} / (k + 1)! with D(X) = A X + X Aᵀ: at |A| h <= 1/4 the
   // remainder after 20 terms is below 1e-25, relative to Q h.
   constexpr int kTerms = 20;
@@ -42,7 +42,7 @@ Step unit_step(const ExtendedMatrix& A, const ExtendedMatrix& Q) {
     term = ((A * term + term * A.transpose()) * (h / static_cast<long double>(k))).eval();
     sum += term;
   }
-  Step result{exponential(A * h), sum};
+  CovarianceStep result{exponential(A * h), sum};
   for (int i = 0; i < doublings && result.is_finite(); ++i) result = compose(result, result);
   return result;
 }
@@ -65,7 +65,7 @@ CovarianceFlow::CovarianceFlow(const Eigen::MatrixXd& A, const Eigen::MatrixXd& 
     const long double seconds = 1e-9L * scale;
     return unit_step(A.cast<long double>() * seconds, Q.cast<long double>() * seconds);
   };
-  tables_ = digit_tables(block(), Step{Transition(zero), zero}, unit);
+  tables_ = digit_tables(block(), CovarianceStep{Transition(zero), zero}, unit);
 }
 
 void CovarianceFlow::apply(Duration duration, double* P, double* scratch) const {

@@ -11,8 +11,8 @@ namespace sampled_data_observers {
 namespace {
 
 /// The transition of (x, u, 1), of which the rows of x are wanted.
-struct Step : Transition {
-  Step(Transition transition, Eigen::Index states)
+struct AffineStep : Transition {
+  AffineStep(Transition transition, Eigen::Index states)
       : Transition(std::move(transition)), states(states) {}
 
   void write(double* table) const {
@@ -22,7 +22,7 @@ struct Step : Transition {
   Eigen::Index states;
 };
 
-Step compose(const Step& first, const Step& second) {
+AffineStep compose(const AffineStep& first, const AffineStep& second) {
   return {compose(static_cast<const Transition&>(first), second), first.states};
 }
 
@@ -49,9 +49,9 @@ LinearFlow::LinearFlow(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B, const
   generator.block(0, states_, states_, inputs_) = B.cast<long double>();
   if (has_constant_) generator.topRightCorner(states_, 1) = c.cast<long double>();
   generator *= 1e-9L;
-  const Step none(Transition(ExtendedMatrix::Zero(columns, columns)), states_);
+  const AffineStep none(Transition(ExtendedMatrix::Zero(columns, columns)), states_);
   const auto unit = [&](long double scale) {
-    return Step(exponential(generator * scale), states_);
+    return AffineStep(exponential(generator * scale), states_);
   };
   tables_ = digit_tables(static_cast<std::size_t>(states_ * columns), none, unit);
 }
