@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <utility>
 
 #include "linear_algebra/ordered_solve.h"
+#include "observer/gain_requirement.h"
 #include "observer/observable_form.h"
 
 namespace sampled_data_observers {
@@ -14,10 +14,6 @@ namespace {
 /// The step of central differences that balances rounding and truncation, relative to the variable:
 /// the third root of the rounding unit, a power of two.
 constexpr double kDifference = 1.0 / 131072.0;
-
-void require(bool holds, const char* what) {
-  if (!holds) throw std::invalid_argument(what);
-}
 
 }  // namespace
 
@@ -29,8 +25,8 @@ OriginalHighGainObserver::OriginalHighGainObserver(const ObserverContext& contex
       T_(std::move(T)),
       gain_(scaled_gain(ell, K)) {
   require_one_output();
-  require(gain_.size() == n(), "K: as many entries as the plant has states");
-  require(T_ && T_->size() == n(), "T: as many entries as the plant has states");
+  require_of_gains(gain_.size() == n(), "K: as many entries as the plant has states");
+  require_of_gains(T_ && T_->size() == n(), "T: as many entries as the plant has states");
   listed().add("ell", ell).add("K", K.transpose()).add("T", Eigen::MatrixXd());
   build_flow();
   check_start();

@@ -2,17 +2,13 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
-#include <stdexcept>
 #include <string>
 
+#include "observer/gain_requirement.h"
 #include "sampled_data_observers/observer/gain_check.h"
 
 namespace sampled_data_observers {
 namespace {
-
-void require(bool holds, const std::string& what) {
-  if (!holds) throw std::invalid_argument(what);
-}
 
 bool is_identity(const VectorMap& map) {
   const AffineMap& affine = *map.affine();
@@ -25,7 +21,8 @@ Eigen::MatrixXd projection_gain(const Eigen::MatrixXd& P, const Eigen::MatrixXd&
   if (H.rows() == 0) return {};
   const Eigen::MatrixXd lifted = P.llt().solve(H.transpose());
   const Eigen::FullPivLU<Eigen::MatrixXd> gram(H * lifted);
-  require(gram.isInvertible(), "projection" + where + ": the outputs of the mode are dependent");
+  require_of_gains(gram.isInvertible(),
+                   "projection" + where + ": the outputs of the mode are dependent");
   return lifted * gram.inverse();
 }
 
@@ -34,12 +31,13 @@ Projection make_projection(const SwitchedGains& gains, const Plant& plant, std::
   const Eigen::MatrixXd& P = *gains.P[mode];
   const PlantMode& of_plant = plant.modes()[mode];
   const std::string where = " of mode " + std::to_string(of_plant.label);
-  require(P.rows() == plant.states() && P.cols() == plant.states() && P.allFinite(),
-          "projection" + where + ": one row and one column per state");
-  require((P - P.transpose()).norm() <= 1e-9 * P.norm() && P.llt().info() == Eigen::Success,
-          "projection" + where + ": the metric must be symmetric and positive definite");
-  require(!of_plant.jump || is_identity(*of_plant.jump),
-          "projection" + where + ": its jump map must be the identity");
+  require_of_gains(P.rows() == plant.states() && P.cols() == plant.states() && P.allFinite(),
+                   "projection" + where + ": one row and one column per state");
+  require_of_gains(
+      (P - P.transpose()).norm() <= 1e-9 * P.norm() && P.llt().info() == Eigen::Success,
+      "projection" + where + ": the metric must be symmetric and positive definite");
+  require_of_gains(!of_plant.jump || is_identity(*of_plant.jump),
+                   "projection" + where + ": its jump map must be the identity");
   return {projection_gain(P, plant.stacked_outputs(mode, SensorTiming::kAtJumps), where),
           projection_gain(P, plant.stacked_outputs(mode, SensorTiming::kContinuous), where)};
 }
@@ -47,32 +45,34 @@ Projection make_projection(const SwitchedGains& gains, const Plant& plant, std::
 }  // namespace
 
 void check_switched_gains(const SwitchedGains& gains, const Plant& plant) {
-  require(plant.switches(), "the plant must have several modes (plant/modes)");
-  require(plant.is_affine(), "all modes of the plant must be affine");
+  require_of_gains(plant.switches(), "the plant must have several modes (plant/modes)");
+  require_of_gains(plant.is_affine(), "all modes of the plant must be affine");
   const std::size_t modes = plant.modes().size();
   const auto fits = [modes](std::size_t size) { return size == 0 || size == modes; };
-  require(fits(gains.L_c.size()) && fits(gains.L_d.size()) && fits(gains.P.size()),
-          "one gain per mode of the plant");
-  require(!gains.L_c.empty() || !gains.L_d.empty() || !gains.P.empty(),
-          "at least one of L_c, L_d and projection");
+  require_of_gains(fits(gains.L_c.size()) && fits(gains.L_d.size()) && fits(gains.P.size()),
+                   "one gain per mode of the plant");
+  require_of_gains(!gains.L_c.empty() || !gains.L_d.empty() || !gains.P.empty(),
+                   "at least one of L_c, L_d and projection");
   const bool continuous = plant.outputs(SensorTiming::kContinuous) > 0;
   const bool at_jumps = plant.outputs(SensorTiming::kAtJumps) > 0;
-  require(gains.L_c.empty() || continuous, "L_c needs a sensor that is measured continuously");
-  require(gains.L_d.empty() || at_jumps, "L_d needs a sensor that is measured at jumps");
-  require(!continuous || !gains.L_c.empty() || !gains.P.empty(),
-          "sensors that are measured continuously need L_c or projection");
-  require(!at_jumps || !gains.L_d.empty() || !gains.P.empty(),
-          "sensors that are measured at jumps need L_d or projection");
+  require_of_gains(gains.L_c.empty() || continuous,
+                   "L_c needs a sensor that is measured continuously");
+  require_of_gains(gains.L_d.empty() || at_jumps, "L_d needs a sensor that is measured at jumps");
+  require_of_gains(!continuous || !gains.L_c.empty() || !gains.P.empty(),
+                   "sensors that are measured continuously need L_c or projection");
+  require_of_gains(!at_jumps || !gains.L_d.empty() || !gains.P.empty(),
+                   "sensors that are measured at jumps need L_d or projection");
   for (const std::vector<Eigen::MatrixXd>& L_c : gains.L_c) {
     check_gains("L_c", L_c, plant, SensorTiming::kContinuous);
   }
   for (const std::vector<std::shared_ptr<const VectorMap>>& L_d : gains.L_d) {
-    require(L_d.size() == plant.sensors().size(), "L_d: one gain per sensor");
+    require_of_gains(L_d.size() == plant.sensors().size(), "L_d: one gain per sensor");
     for (std::size_t i = 0; i < plant.sensors().size(); ++i) {
       const Sensor& sensor = plant.sensors()[i];
       if (sensor.timing != SensorTiming::kAtJumps) continue;
-      require(L_d[i] && L_d[i]->size() == plant.states() * sensor.outputs(),
-              "L_d of sensor '" + sensor.name + "': one row per state, one column per output");
+      require_of_gains(
+          L_d[i] && L_d[i]->size() == plant.states() * sensor.outputs(),
+          "L_d of sensor '" + sensor.name + "': one row per state, one column per output");
     }
   }
 }

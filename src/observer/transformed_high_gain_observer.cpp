@@ -1,20 +1,12 @@
 #include "observer/transformed_high_gain_observer.h"
 
 #include <algorithm>
-#include <stdexcept>
 #include <utility>
 
+#include "observer/gain_requirement.h"
 #include "observer/observable_form.h"
 
 namespace sampled_data_observers {
-namespace {
-
-void require(bool holds, const char* what) {
-  if (!holds) throw std::invalid_argument(what);
-}
-
-}  // namespace
-
 TransformedHighGainObserver::TransformedHighGainObserver(const ObserverContext& context,
                                                          Saturation saturation, double ell,
                                                          const Eigen::VectorXd& K, Maps maps)
@@ -22,9 +14,9 @@ TransformedHighGainObserver::TransformedHighGainObserver(const ObserverContext& 
       maps_(std::move(maps)),
       gain_(scaled_gain(ell, K)) {
   require_one_output();
-  require(maps_.T && maps_.T->size() == gain_.size(), "T: as many entries as K");
-  require(maps_.Phi && maps_.Phi->size() == 1, "Phi: one entry");
-  require(maps_.Theta && maps_.Theta->size() == n(), "Theta: one entry per state");
+  require_of_gains(maps_.T && maps_.T->size() == gain_.size(), "T: as many entries as K");
+  require_of_gains(maps_.Phi && maps_.Phi->size() == 1, "Phi: one entry");
+  require_of_gains(maps_.Theta && maps_.Theta->size() == n(), "Theta: one entry per state");
   listed().add("ell", ell).add("K", K.transpose());
   for (const char* map : {"T", "Phi", "Theta"}) listed().add(map, Eigen::MatrixXd());
   build_flow();
