@@ -137,7 +137,7 @@ class StartFaultTest : public testing::TestWithParam<StartFault> {
 
 TEST_P(StartFaultTest, IsRefused) {
   FaultBench& bench = Campaign::bench();
-  const Configuration& good = configuration("oscillator");
+  const Configuration good = configuration("oscillator");
   bench.unload();
   for (const StartFault::Change& change : GetParam().changes) {
     bench.observer().set_parameters(good.files);
