@@ -93,6 +93,17 @@ std::optional<ConfigError> objection(ConfigSection& root, const ConfigNode& tree
                     "others: " + describe_violations(checks));
 }
 
+/// The bound must not leave out a disturbance that the certificate reckons with.
+std::optional<ConfigError> objection_to_other_disturbances(ConfigSection& root,
+                                                           const CertificateConfig& claim,
+                                                           const CertificateConfig& for_bound) {
+  const Eigen::MatrixXd& N = claim.certificate.subject.plant.N;
+  const Eigen::MatrixXd& own = for_bound.certificate.subject.plant.N;
+  if (N.cols() == own.cols() && N == own) return std::nullopt;
+  return root.error(for_bound.section, std::string("the N of 'certificate'") + kGainsRemedy,
+                    own.cols() == 0 ? "none" : "another one");
+}
+
 double assumption(ConfigSection& section, const std::string& key) {
   return section.number_in(key, 0.0, kLargestAssumption, std::nullopt);
 }
@@ -210,6 +221,7 @@ Guarantee read_guarantee(ConfigSection& root, const ConfigNode& tree, const Obse
   }
   auto error = objection(root, tree, *claim, config);
   if (!error && for_bound) error = objection(root, tree, *for_bound, config);
+  if (!error && for_bound) error = objection_to_other_disturbances(root, *claim, *for_bound);
   if (error && !allow_uncertified) throw ConfigError(*error);
   const Certificate& certificate = claim->certificate;
   const Theorem& theorem = *certificate.theorem;

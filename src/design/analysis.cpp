@@ -278,9 +278,10 @@ std::shared_ptr<const Design> prove_for_run_time(const Design& design,
   for (double factor = 1.7; factor > kFinest; factor = std::sqrt(factor)) {
     const double from = scalar_value(best->certificate.values, decay);
     rate = from * factor;
-    if (improves()) continue;
-    rate = from / factor;
-    improves();
+    if (!improves()) {
+      rate = from / factor;
+      improves();
+    }
   }
   return best;
 }

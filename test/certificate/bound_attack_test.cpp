@@ -34,6 +34,9 @@ const Claim kClaims[] = {
     {ATTACK("multi_output/ferrante2016_theorem1"), {1.0, 0.0, 0.0}},
     {ATTACK("multi_output/ferrante2016_theorem1"), {1.0, 0.1, 0.0}},
     {"test/certificate/ferrante2019_oscillator_0.41.yaml", {1.0, 0.05, 0.5}},
+    // By their run-time certificates.
+    {"config/examples/ferrante2019_oscillator/gains.yaml", {1.0, 0.05, 0.5}},
+    {"config/examples/ferrante2019_unicycle/gains.yaml", {1.0, 0.05, 0.1}},
     {ATTACK("stiff/ferrante2019_theorem2"), {0.001, 0.01, 0.1}},
     {ATTACK("stiff/ferrante2019_corollary1"), {1.0, 0.01, 0.0}},
     {ATTACK("stiff/ferrante2019_corollary2"), {0.001, 0.01, 0.1}},

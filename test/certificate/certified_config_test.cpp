@@ -347,6 +347,8 @@ TEST(CertifiedConfigTest, RefusesARunTimeCertificateThatDoesNotHold) {
                 "is violated by"});
   expect_parts(fault(CertifiedGains(kTwoProofs).with("run_time_certificate: {plant: {hash: no}}")),
                {"run_time_certificate/plant/hash: expected "});
+  expect_parts(fault(CertifiedGains(kTwoProofs).with("run_time_certificate: {N: [[1e-3], [0]]}")),
+               {"run_time_certificate: expected the N of 'certificate'", "found another one"});
   const ConfigNode alone = without(CertifiedGains(kTwoProofs).tree(), kCertificate);
   try {
     read_observer_config(alone, no_plant_plugins);

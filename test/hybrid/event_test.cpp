@@ -11,18 +11,21 @@ namespace {
 
 using test::OwnedEvent;
 
-Event release(Duration delay) {
+Event without_values(EventKind kind) {
   Event event;
   event.stamp = 5;
-  event.kind = EventKind::kRelease;
+  event.kind = kind;
+  return event;
+}
+
+Event release(Duration delay) {
+  Event event = without_values(EventKind::kRelease);
   event.delay = delay;
   return event;
 }
 
 Event rejection(EventKind kind) {
-  Event event;
-  event.stamp = 5;
-  event.kind = EventKind::kRejected;
+  Event event = without_values(EventKind::kRejected);
   event.rejected = kind;
   return event;
 }
