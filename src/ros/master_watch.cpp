@@ -1,6 +1,7 @@
 #include "sampled_data_observers/ros/master_watch.h"
 
 #include <ros/connection_manager.h>
+#include <ros/init.h>
 #include <ros/master.h>
 #include <ros/network.h>
 #include <ros/publication.h>
@@ -25,9 +26,11 @@ XmlRpc::XmlRpcValue list_of(const std::vector<std::string>& texts) {
 }
 
 /// Calls the master, with the name of this node and `arguments`. Returns whether it agreed;
-/// `response` is not valid where it did not answer.
+/// `response` is not valid where it did not answer, or was not asked since the node ends: its
+/// services are gone then, and whatever is registered now would stay.
 bool call_master(const std::string& method, std::vector<std::string> arguments,
                  XmlRpc::XmlRpcValue& response, XmlRpc::XmlRpcValue& payload) {
+  if (ros::isShuttingDown()) return false;
   arguments.insert(arguments.begin(), ros::this_node::getName());
   const bool wait = false;
   return ros::master::execute(method, list_of(arguments), response, payload, wait);
@@ -65,6 +68,8 @@ MasterWatch::MasterWatch(const ros::NodeHandle& handle, std::vector<std::string>
     : services_(std::move(services)),
       topics_(std::move(topics)),
       take_type_(std::move(take_type)),
+      server_("rosrpc://" + ros::network::getHost() + ":" +
+              std::to_string(ros::ConnectionManager::instance()->getTCPPort())),
       warned_(topics_.size()),
       log_(std::move(log)) {
   timer_ = handle.createSteadyTimer(ros::WallDuration(kPeriod),
@@ -77,7 +82,7 @@ void MasterWatch::check() {
   XmlRpc::XmlRpcValue payload;
   if (call_master("lookupService", {services_.front()}, response, payload)) return;
   const bool answered = response.valid();
-  if (answered) register_again();
+  if (answered && !ros::isShuttingDown()) register_again();
 }
 
 void MasterWatch::check_types() {
@@ -116,10 +121,8 @@ void MasterWatch::register_again() const {
     // Where nobody has registered yet, the connections there are shall stay.
     if (payload.size() > 0) tell_of_publishers(topic, payload);
   }
-  const std::string server = "rosrpc://" + ros::network::getHost() + ":" +
-                             std::to_string(ros::ConnectionManager::instance()->getTCPPort());
   for (const std::string& service : services_) {
-    call_master("registerService", {service, server, node}, response, payload);
+    call_master("registerService", {service, server_, node}, response, payload);
   }
   log_.warn("the ROS master was restarted: topics and services are registered again");
 }

@@ -5,6 +5,7 @@
 #include <ros/ros.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <xmlrpcpp/XmlRpc.h>
 
 #include <algorithm>
 #include <atomic>
@@ -14,6 +15,7 @@
 #include <thread>
 
 #include "ros/observer_client.h"
+#include "sampled_data_observers/ros/master_watch.h"
 
 namespace sampled_data_observers {
 namespace {
@@ -133,6 +135,29 @@ TEST_F(LifecycleTest, PublishersMayDieAndReturn) {
     EXPECT_TRUE(test::spin_until([&] { return client.estimates.size() > estimates + 10; }));
   }
   EXPECT_EQ(EventStatus::USED, client.sample(ros::Time::now(), {1.0}).outcome);
+}
+
+/// Ends roscpp: the last of this program.
+TEST(MasterWatchTest, AfterShutdownNothingIsRegistered) {
+  const char service[] = "/of_a_node_that_ends";
+  ros::CallbackQueue queue;
+  ros::NodeHandle handle;
+  handle.setCallbackQueue(&queue);
+  const MasterWatch watch(
+      handle, {service}, {}, [](std::size_t, const std::string&) {}, NodeLog("lifecycle_test"));
+  XmlRpc::XmlRpcClient master(ros::master::getHost().c_str(),
+                              static_cast<int>(ros::master::getPort()), "/");
+  ros::shutdown();
+  const ros::WallTime end =
+      ros::WallTime::now() + ros::WallDuration(4.0);  // longer than its period
+  while (ros::WallTime::now() < end) queue.callAvailable(ros::WallDuration(0.1));
+
+  XmlRpc::XmlRpcValue question;
+  question[0] = "/lifecycle_test";
+  question[1] = service;
+  XmlRpc::XmlRpcValue answer;
+  ASSERT_TRUE(master.execute("lookupService", question, answer));
+  EXPECT_EQ(-1, static_cast<int>(answer[0])) << "found: " << answer.toXml();
 }
 
 }  // namespace

@@ -45,6 +45,8 @@ class MasterWatch {
   const std::vector<std::string> services_;
   const std::vector<ExpectedType> topics_;
   const TypeReceiver take_type_;
+  /// Where services of this process are: roscpp no longer tells while it ends.
+  const std::string server_;
   /// The type that was last warned of, for each topic; empty: none.
   std::vector<std::string> warned_;
   const NodeLog log_;
