@@ -13,12 +13,14 @@
 #include "certificate/certified_gains.h"
 #include "certificate/disturbed_flow.h"
 #include "sampled_data_observers/runtime/estimator.h"
+#include "support/long_tests.h"
 
 namespace sampled_data_observers::test {
 namespace {
 
 constexpr Stamp kStart = 1'600'000'000'000'000'000;
-constexpr int kRuns = 10000;
+constexpr int kRuns = 2000;
+constexpr int kRunsOfLongTests = 10000;
 constexpr int kEventsPerRun = 12;
 constexpr int kPartsPerInterval = 3;
 constexpr Duration kStep = 10'000'000;
@@ -206,7 +208,8 @@ TEST_P(BoundTest, HoldsInRandomRuns) {
   const Certificate certificate = gains.certificate();
   const ObserverConfig config = gains.assuming(assumptions_text(claim.assumptions)).config();
   RandomRuns runs(config, certificate, claim.assumptions);
-  for (int seed = 0; seed < kRuns; ++seed) {
+  const int count = long_tests_are_wanted() ? kRunsOfLongTests : kRuns;
+  for (int seed = 0; seed < count; ++seed) {
     runs.run(static_cast<std::uint64_t>(seed));
     ASSERT_EQ(0u, runs.violations()) << "seed " << seed;
     ASSERT_EQ(0u, runs.losses()) << "seed " << seed;

@@ -19,6 +19,7 @@
 #include "design/gain_file.h"
 #include "design/workers.h"
 #include "sampled_data_observers/config/yaml_file.h"
+#include "support/long_tests.h"
 #include "textbook_run.h"
 
 namespace sampled_data_observers::test {
@@ -96,7 +97,16 @@ TEST_P(TextbookPlants, HaveGainsOfUseWhereOnlyNoiseIsDeclared) {
   EXPECT_LT(random_.estimated, 1.1 * plant_.noise);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, TextbookPlants, ::testing::ValuesIn(textbook_plants()),
+/// Every third where long tests are not wanted.
+std::vector<TextbookPlant> tried_plants() {
+  const std::vector<TextbookPlant>& all = textbook_plants();
+  const std::size_t step = long_tests_are_wanted() ? 1 : 3;
+  std::vector<TextbookPlant> tried;
+  for (std::size_t i = 0; i < all.size(); i += step) tried.push_back(all[i]);
+  return tried;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, TextbookPlants, ::testing::ValuesIn(tried_plants()),
                          [](const auto& info) { return info.param.name; });
 
 /// Which are hard: stiff, of several modes, or moving little between samples.
