@@ -29,7 +29,7 @@ void expect_bound(double expected, double found) {
 }
 
 /// The message with which a configuration is refused.
-std::string fault(const CertifiedGains& gains) {
+std::string refusal_of(const CertifiedGains& gains) {
   try {
     gains.config();
   } catch (const ConfigError& error) {
@@ -192,16 +192,16 @@ const Change kUnproved[] = {
 TEST(CertifiedConfigTest, RefusesWhatIsNotProved) {
   for (const Change& change : kUnproved) {
     SCOPED_TRACE(change.yaml);
-    expect_parts(fault(CertifiedGains(kGains).with(change.yaml)), change.message);
+    expect_parts(refusal_of(CertifiedGains(kGains).with(change.yaml)), change.message);
   }
 }
 
 TEST(CertifiedConfigTest, RefusesAnOutputInjectionThatTheProofDoesNotKnow) {
   const std::string message =
-      fault(CertifiedGains("config/examples/bernard2022_bouncing_ball/gains.yaml")
-                .with("sensors: {level: {C: [[1, 0]], measured: continuous, "
-                      "source: {topic: level}}}")
-                .with("gains: {output_injection: {theta: level}}"));
+      refusal_of(CertifiedGains("config/examples/bernard2022_bouncing_ball/gains.yaml")
+                     .with("sensors: {level: {C: [[1, 0]], measured: continuous, "
+                           "source: {topic: level}}}")
+                     .with("gains: {output_injection: {theta: level}}"));
   expect_parts(message, {"gains/output_injection", "certificate/A", "design/A"});
 }
 
@@ -244,8 +244,9 @@ TEST(CertifiedConfigTest, RefusesWhatIsNoCertificateInAnyCase) {
   };
   for (const Change& change : changes) {
     SCOPED_TRACE(change.yaml);
-    expect_parts(fault(CertifiedGains(kGains).with("allow_uncertified: true").with(change.yaml)),
-                 change.message);
+    expect_parts(
+        refusal_of(CertifiedGains(kGains).with("allow_uncertified: true").with(change.yaml)),
+        change.message);
   }
 }
 
@@ -342,13 +343,15 @@ TEST(CertifiedConfigTest, TakesTheBoundFromTheRunTimeCertificate) {
 }
 
 TEST(CertifiedConfigTest, RefusesARunTimeCertificateThatDoesNotHold) {
-  expect_parts(fault(CertifiedGains(kTwoProofs).with("run_time_certificate: {lambda_t: 0.5}")),
+  expect_parts(refusal_of(CertifiedGains(kTwoProofs).with("run_time_certificate: {lambda_t: 0.5}")),
                {"ferrante2019_oscillator", "run_time_certificate: expected gains and matrices",
                 "is violated by"});
-  expect_parts(fault(CertifiedGains(kTwoProofs).with("run_time_certificate: {plant: {hash: no}}")),
-               {"run_time_certificate/plant/hash: expected "});
-  expect_parts(fault(CertifiedGains(kTwoProofs).with("run_time_certificate: {N: [[1e-3], [0]]}")),
-               {"run_time_certificate: expected the N of 'certificate'", "found another one"});
+  expect_parts(
+      refusal_of(CertifiedGains(kTwoProofs).with("run_time_certificate: {plant: {hash: no}}")),
+      {"run_time_certificate/plant/hash: expected "});
+  expect_parts(
+      refusal_of(CertifiedGains(kTwoProofs).with("run_time_certificate: {N: [[1e-3], [0]]}")),
+      {"run_time_certificate: expected the N of 'certificate'", "found another one"});
   const ConfigNode alone = without(CertifiedGains(kTwoProofs).tree(), kCertificate);
   try {
     read_observer_config(alone, no_plant_plugins);

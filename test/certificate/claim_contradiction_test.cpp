@@ -25,14 +25,14 @@ std::string refusal(const std::string& file, const std::string& changes) {
   return refusal(CertifiedGains(file).with(changes).tree());
 }
 
-void expect_parts(const std::string& message, const std::vector<const char*>& parts) {
+void expect_message(const std::string& message, const std::vector<const char*>& parts) {
   EXPECT_EQ("", missing_parts({"", "", parts}, message)) << message;
 }
 
 TEST(ClaimTest, StatedErrorMapsThatRestOnAnInjectedOutputNeedIt) {
-  expect_parts(refusal(kNeuron, "{}"),
-               {"gains/output_injection: expected {x1: membrane}, on which certificate/A rests",
-                "found none"});
+  expect_message(refusal(kNeuron, "{}"),
+                 {"gains/output_injection: expected {x1: membrane}, on which certificate/A rests",
+                  "found none"});
   EXPECT_EQ("no fault", refusal(kNeuron, kInjection));
   const ObserverConfig config = CertifiedGains(kNeuron).with(kInjection).config();
   EXPECT_NE("", config.guarantee);
@@ -43,17 +43,17 @@ TEST(ClaimTest, StatedErrorMapsThatRestOnAnInjectedOutputNeedIt) {
 }
 
 TEST(ClaimTest, StatedErrorMapsMustBeThoseOfTheFormulas) {
-  expect_parts(refusal(CertifiedGains(kNeuron)
-                           .with(kInjection)
-                           .with("certificate: {A: [[0, -1, 0], [0, -0.03, 0], [0, 0, 0]]}")
-                           .tree()),
-               {"certificate/A: expected the map of the error: f(x) - f(x^) = [", "at x = [",
-                "x^ = [", "output_injection: {x1: membrane}", "found A (x - x^) = ["});
-  expect_parts(refusal(CertifiedGains(kNeuron)
-                           .with(kInjection)
-                           .with("certificate: {A_d: [[0, 0, 0], [0, 1, 0.9], [0, 0, 1]]}")
-                           .tree()),
-               {"certificate/A_d: expected the map of the error: g(x) - g(x^) = [", "at x = ["});
+  expect_message(refusal(CertifiedGains(kNeuron)
+                             .with(kInjection)
+                             .with("certificate: {A: [[0, -1, 0], [0, -0.03, 0], [0, 0, 0]]}")
+                             .tree()),
+                 {"certificate/A: expected the map of the error: f(x) - f(x^) = [", "at x = [",
+                  "x^ = [", "output_injection: {x1: membrane}", "found A (x - x^) = ["});
+  expect_message(refusal(CertifiedGains(kNeuron)
+                             .with(kInjection)
+                             .with("certificate: {A_d: [[0, 0, 0], [0, 1, 0.9], [0, 0, 1]]}")
+                             .tree()),
+                 {"certificate/A_d: expected the map of the error: g(x) - g(x^) = [", "at x = ["});
 }
 
 const char kUnstable[] = R"yaml(
@@ -74,8 +74,8 @@ certificate:
 
 TEST(ClaimTest, ACertificateDoesNotReplaceALinearPlant) {
   const ConfigNode tree = read_yaml_text(kUnstable, "unstable.yaml");
-  expect_parts(refusal(tree), {"unstable.yaml", "certificate/A: expected the map of the error",
-                               "found A (x - x^) = ["});
+  expect_message(refusal(tree), {"unstable.yaml", "certificate/A: expected the map of the error",
+                                 "found A (x - x^) = ["});
   const ConfigNode stable = override_with(tree, read_yaml_text("plant: {A: [[-1]]}", "test.yaml"));
   EXPECT_EQ("no fault", refusal(stable));
 }
@@ -83,32 +83,33 @@ TEST(ClaimTest, ACertificateDoesNotReplaceALinearPlant) {
 TEST(ClaimTest, ALipschitzConstantMustBeOne) {
   const char kLink[] = "config/examples/ferrante2019_flexible_link/gains.yaml";
   EXPECT_EQ("no fault", refusal(kLink, "{}"));
-  expect_parts(refusal(kLink, "plant: {psi: ['20 * sin(4 * v1)'], lipschitz_constant: 0.1}"),
-               {"plant/lipschitz_constant: expected at least |psi(a) - psi(b)| / |a - b|, which is "
-                "80",
-                "at a = [", "b = [", "found 0.1"});
+  expect_message(
+      refusal(kLink, "plant: {psi: ['20 * sin(4 * v1)'], lipschitz_constant: 0.1}"),
+      {"plant/lipschitz_constant: expected at least |psi(a) - psi(b)| / |a - b|, which is "
+       "80",
+       "at a = [", "b = [", "found 0.1"});
   // Less than a percent short.
-  expect_parts(refusal(kLink, "plant: {lipschitz_constant: 3.28}"), {"which is 3.3 at"});
+  expect_message(refusal(kLink, "plant: {lipschitz_constant: 3.28}"), {"which is 3.3 at"});
   // It holds nowhere but near the origin.
-  expect_parts(refusal(kLink, "plant: {psi: ['0.1 * v1^2']}"),
-               {"lipschitz_constant", "min and max"});
+  expect_message(refusal(kLink, "plant: {psi: ['0.1 * v1^2']}"),
+                 {"lipschitz_constant", "min and max"});
   EXPECT_EQ("no fault", refusal(kLink, "plant: {psi: ['0.1 * max(min(v1, 10), -10)^2']}"));
 }
 
 TEST(ClaimTest, VerticesMustHoldTheFormulas) {
   const char kDrive[] = "config/examples/etienne2019_dc_drive/gains.yaml";
   EXPECT_EQ("no fault", refusal(kDrive, "{}"));
-  expect_parts(refusal(kDrive, "plant: {psi: ['1.01 * sin(v1)'], lipschitz_constant: 1.01}"),
-               {"plant/vertices: expected matrices", "in the convex hull", "at x = [", "x^ = [",
-                "found 2 whose hull lacks it"});
-  expect_parts(refusal(kDrive, "plant: {vertices: {2: [[0, 0, 0], [-1.9, 0, 0], [0, 0, 0]]}}"),
-               {"plant/vertices"});
+  expect_message(refusal(kDrive, "plant: {psi: ['1.01 * sin(v1)'], lipschitz_constant: 1.01}"),
+                 {"plant/vertices: expected matrices", "in the convex hull", "at x = [", "x^ = [",
+                  "found 2 whose hull lacks it"});
+  expect_message(refusal(kDrive, "plant: {vertices: {2: [[0, 0, 0], [-1.9, 0, 0], [0, 0, 0]]}}"),
+                 {"plant/vertices"});
 }
 
 TEST(ClaimTest, EveryKeyOfTheGainsMustBeOneOfTheTheorems) {
-  expect_parts(refusal("config/examples/bernard2022_switched/gains.yaml",
-                       "gains: {projection: {1: [[1, 0, 0], [0, 1, 0], [0, 0, 1]]}}"),
-               {"gains/projection: expected only gains that bernard2022_section7_3_2 is about"});
+  expect_message(refusal("config/examples/bernard2022_switched/gains.yaml",
+                         "gains: {projection: {1: [[1, 0, 0], [0, 1, 0], [0, 0, 1]]}}"),
+                 {"gains/projection: expected only gains that bernard2022_section7_3_2 is about"});
 }
 
 /// A ball whose height is measured while it flies, too: L_c of it is none of the theorem's gains.
@@ -120,7 +121,7 @@ TEST(ClaimTest, AGainThatTheTheoremDoesNotNameMustBeZero) {
                        L_c + "}");
   };
   EXPECT_EQ("no fault", with_L_c("[[0], [0]]"));
-  expect_parts(
+  expect_message(
       with_L_c("[[0], [1e-9]]"),
       {"test.yaml:2: gains/L_c: expected only gains that bernard2022_corollary5_2 is about",
        "make them again with 'design synthesize'", "allow_uncertified: true",
@@ -130,16 +131,16 @@ TEST(ClaimTest, AGainThatTheTheoremDoesNotNameMustBeZero) {
 TEST(ClaimTest, AProofOfTheInverseOutputGainIsForNoGainFromACertificate) {
   const char kInverse[] = "test/certificate/attack/all_outputs/sferlazza2019_equation17.yaml";
   EXPECT_EQ("no fault", refusal(kInverse, "{}"));
-  expect_parts(refusal(kInverse, "gains: {P: [[1, 0], [0, 1]]}"),
-               {"gains/P: expected only gains that sferlazza2019_equation17 is about"});
+  expect_message(refusal(kInverse, "gains: {P: [[1, 0], [0, 1]]}"),
+                 {"gains/P: expected only gains that sferlazza2019_equation17 is about"});
 }
 
 TEST(ClaimTest, AGainThatIsAFormulaIsNotTheOneThatWasProved) {
-  expect_parts(refusal("config/examples/bernard2022_switched/gains.yaml",
-                       "gains: {L_d: {1: [[1 + 0 * tau], [0], [0]]}}"),
-               {"gains/L_d/1: expected a 3 x 1 matrix of numbers, since "
-                "bernard2022_section7_3_2 is about it",
-                "found a formula"});
+  expect_message(refusal("config/examples/bernard2022_switched/gains.yaml",
+                         "gains: {L_d: {1: [[1 + 0 * tau], [0], [0]]}}"),
+                 {"gains/L_d/1: expected a 3 x 1 matrix of numbers, since "
+                  "bernard2022_section7_3_2 is about it",
+                  "found a formula"});
 }
 
 const char kHighGain[] = R"yaml(
@@ -163,12 +164,12 @@ TEST(ClaimTest, AProofForAnObserverWithoutSaturationsIsForNoOther) {
   EXPECT_EQ("no fault", refusal(tree));
   const ConfigNode saturated =
       override_with(tree, read_yaml_text("gains: {saturations: {x: [-1, 1]}}", "test.yaml"));
-  expect_parts(refusal(saturated), {"gains/saturations: expected only gains that "
-                                    "bernard2022_example4_2 is about"});
+  expect_message(refusal(saturated), {"gains/saturations: expected only gains that "
+                                      "bernard2022_example4_2 is about"});
   const ConfigNode nonlinear =
       override_with(tree, read_yaml_text("gains: {form: original, K: [1], T: [x]}", "test.yaml"));
-  expect_parts(refusal(nonlinear),
-               {"gains/T: expected only gains that bernard2022_example4_2 is about"});
+  expect_message(refusal(nonlinear),
+                 {"gains/T: expected only gains that bernard2022_example4_2 is about"});
 }
 
 TEST(ClaimTest, DelayedJumpsLoseTheGuarantee) {
@@ -198,15 +199,15 @@ plant:
   lipschitz_constant: 0.1
 sensors: {position: {C: [[1, 0]], source: {topic: position}}}
 )yaml";
-  expect_parts(design_refusal(lipschitz),
-               {"claim_plant.yaml", "plant/lipschitz_constant", "a = ["});
+  expect_message(design_refusal(lipschitz),
+                 {"claim_plant.yaml", "plant/lipschitz_constant", "a = ["});
   EXPECT_EQ("no fault", design_refusal(replaced(lipschitz, "constant: 0.1", "constant: 80")));
   const std::string stated = R"yaml(
 plant: {states: [x], A: [[1]]}
 sensors: {position: {C: [[1]], source: {topic: position}}}
 design: {A: [[-1]]}
 )yaml";
-  expect_parts(design_refusal(stated), {"design/A: expected the map of the error", "x = ["});
+  expect_message(design_refusal(stated), {"design/A: expected the map of the error", "x = ["});
 }
 
 }  // namespace

@@ -16,13 +16,12 @@
 #include "support/allocation_counter.h"
 #include "support/law_runner.h"
 #include "support/random_events.h"
+#include "support/stamps.h"
 #include "support/type_examples.h"
 
 namespace sampled_data_observers::test {
 namespace {
 
-constexpr Stamp kStart = 1'600'000'000'000'000'000;
-constexpr Duration kSecond = kNanosecondsPerSecond;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// What is added for it is less.
 constexpr double kRounding = 1e-11;

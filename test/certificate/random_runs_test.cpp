@@ -14,11 +14,11 @@
 #include "certificate/disturbed_flow.h"
 #include "sampled_data_observers/runtime/estimator.h"
 #include "support/long_tests.h"
+#include "support/stamps.h"
 
 namespace sampled_data_observers::test {
 namespace {
 
-constexpr Stamp kStart = 1'600'000'000'000'000'000;
 constexpr int kRuns = 2000;
 constexpr int kRunsOfLongTests = 10000;
 constexpr int kEventsPerRun = 12;

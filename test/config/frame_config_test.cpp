@@ -12,7 +12,7 @@ using test::fault;
 using test::parse;
 using test::replaced;
 
-const char kGood[] = R"(
+const char kFramed[] = R"(
 observer: ConstantGainObserver
 plant: {states: [yaw], A: [[0]]}
 sensors:
@@ -28,7 +28,7 @@ static_transforms:
 )";
 
 TEST(FrameConfigTest, ReadsEveryKey) {
-  const ObserverConfig config = parse(kGood);
+  const ObserverConfig config = parse(kFramed);
   const SourceFrames& frames = config.sensors[0]->frames;
   EXPECT_EQ("map", frames.frame);
   EXPECT_EQ("base_link", frames.body_frame);
@@ -46,9 +46,9 @@ TEST(FrameConfigTest, ReadsEveryKey) {
 TEST(FrameConfigTest, DefaultsAreDataAsTheyComeAndHalfASecond) {
   const char kFrames[] =
       ", frame: map, body_frame: base_link, sensor_frame: camera, tf_timeout: 0.25";
-  const ObserverConfig as_it_comes = parse(replaced(kGood, kFrames, ""));
+  const ObserverConfig as_it_comes = parse(replaced(kFramed, kFrames, ""));
   EXPECT_FALSE(as_it_comes.sensors[0]->frames.any());
-  const ObserverConfig default_time = parse(replaced(kGood, ", tf_timeout: 0.25", ""));
+  const ObserverConfig default_time = parse(replaced(kFramed, ", tf_timeout: 0.25", ""));
   EXPECT_EQ(from_seconds(0.5), default_time.sensors[0]->frames.timeout);
 }
 
@@ -71,7 +71,7 @@ TEST(FrameConfigTest, RefusesFaults) {
       {"- {frame: map, child_frame: odom}", "- map", {"static_transforms/3", "a map of keys"}},
   };
   for (const Fault& expected : faults) {
-    const std::string message = fault(replaced(kGood, expected.from, expected.to));
+    const std::string message = fault(replaced(kFramed, expected.from, expected.to));
     EXPECT_EQ("", test::missing_parts(expected, message)) << message;
   }
 }

@@ -12,7 +12,7 @@ using test::Fault;
 using test::parse;
 using test::replaced;
 
-const char kGood[] = R"(
+const char kGated[] = R"(
 observer: ConstantGainObserver
 plant: {states: [p, v], A: [[0, 1], [0, 0]]}
 sensors:
@@ -34,13 +34,13 @@ gains: {P0: [[1, 0], [0, 1]], R: {d: [[1]], s: [[0.1]]}, Q: [[0, 0], [0, 1]], Q_
 )";
 
 TEST(GateConfigTest, ReadsBothKinds) {
-  for (const char* text : {kGood, kFilter}) {
+  for (const char* text : {kGated, kFilter}) {
     EXPECT_NE(nullptr, std::dynamic_pointer_cast<const GatedSamples>(parse(text).law));
   }
 }
 
 TEST(GateConfigTest, LimitsAndTimesAreThoseConfigured) {
-  const ObserverConfig config = parse(kGood);
+  const ObserverConfig config = parse(kGated);
   Estimator estimator(config.law, config.options);
   const auto submit = [&](double seconds, int sensor, std::vector<double> y) {
     const Stamp stamp = from_seconds(1000.0 + seconds);
@@ -65,7 +65,7 @@ class BadGateTest : public ::testing::TestWithParam<Fault> {};
 
 TEST_P(BadGateTest, IsRefusedWithAMessageThatHelps) {
   const std::string good =
-      std::string(kGood).find(GetParam().from) != std::string::npos ? kGood : kFilter;
+      std::string(kGated).find(GetParam().from) != std::string::npos ? kGated : kFilter;
   const std::string found = test::fault(replaced(good, GetParam().from, GetParam().to));
   EXPECT_EQ("", test::missing_parts(GetParam(), found)) << found;
 }

@@ -40,12 +40,12 @@ gains:
   saturations: {x1: [-2, 2]}
 )";
 
-struct Fault {
+struct FaultyText {
   const char* text;
   test::Fault change;
 };
 
-class BadHighGainTest : public ::testing::TestWithParam<Fault> {};
+class BadHighGainTest : public ::testing::TestWithParam<FaultyText> {};
 
 TEST_P(BadHighGainTest, IsRefusedWithAMessageThatHelps) {
   const std::string text = GetParam().text;
@@ -58,34 +58,40 @@ TEST_P(BadHighGainTest, IsRefusedWithAMessageThatHelps) {
 INSTANTIATE_TEST_SUITE_P(
     Faults, BadHighGainTest,
     ::testing::Values(
-        Fault{kLinear, {"form: linear", "form: quadratic", {"gains/form", "linear, transformed"}}},
-        Fault{kLinear, {"ell: 2", "ell: -2", {"gains", "ell must be positive"}}},
-        Fault{kLinear, {"ell: 2, ", "", {"gains/ell", "missing"}}},
-        Fault{kLinear, {"[[2, 3], [1]]", "[[2, 3], 1]", {"gains/K", "list of such lists", "'1'"}}},
-        Fault{kLinear, {"[[2, 3], [1]]", "[[2, 3], [x]]", {"gains/K", "'x'"}}},
-        Fault{kLinear, {"[[2, 3], [1]]", "[2, 3]", {"gains", "one list per continuous output"}}},
-        Fault{kLinear, {"[[2, 3], [1]]", "[[2], [1]]", {"K of continuous output 1", "2 numbers"}}},
-        Fault{kLinear, {"[[2, 3], [1]]", "[[2, 3], [-1]]", {"output 2", "not Hurwitz"}}},
-        Fault{kLinear, {"[[0, 0, 1]]", "[[0, 1, 0]]", {"not observable", "2 of 3"}}},
-        Fault{kLinear, {"{v: [-5, 5]}", "{v: [5, -5]}", {"gains/saturations/v", "lower bound"}}},
-        Fault{kLinear, {"{v: [-5, 5]}", "{v: [5]}", {"gains/saturations/v", "2 finite numbers"}}},
-        Fault{kLinear, {"{v: [-5, 5]}", "{u: [-5, 5]}", {"gains/saturations/u", "unknown"}}},
-        Fault{kLinear, {"form: linear", "form: linear, T: [p]", {"gains/T", "unknown"}}},
-        Fault{kLinear,
-              {"measured: continuous, source: {topic: a}", "source: {topic: a}", {"sampled"}}},
-        Fault{kTransformed, {"K: [2, 1]", "K: [2, 1, 1]", {"gains/K", "2 finite numbers"}}},
-        Fault{kTransformed, {"K: [2, 1]", "K: [2, -1]", {"gains", "not Hurwitz"}}},
-        Fault{kTransformed, {"T: [x1, x2]", "T: [x1, z2]", {"gains/T", "z2"}}},
-        Fault{kTransformed, {"T: [x1, x2]", "T: [x1, x2 + u]", {"gains/T", "u"}}},
-        Fault{kTransformed, {"Theta: {x1: z1, ", "Theta: {", {"gains/Theta/x1", "missing"}}},
-        Fault{kTransformed, {"{x1: z1, x2", "{x1: x1, x2", {"gains/Theta", "x1"}}},
-        Fault{kTransformed, {"Phi: -k*cube", "Phi: -k*z3", {"gains/Phi", "z3"}}},
-        Fault{kTransformed, {"[{cube: z1^3}]", "[{x2: z1^3}]", {"gains/definitions", "'x2'"}}},
-        Fault{kTransformed, {"[{cube: z1^3}]", "[{cube: x1^3}]", {"gains/definitions", "x1"}}},
-        Fault{kTransformed, {"{k: 2}", "{k: 2, z2: 1}", {"gains/form", "'z2'"}}},
-        Fault{kTransformed, {"form: transformed", "form: original", {"gains/definitions"}}},
-        Fault{kTransformed,
-              {"h: [x1]", "h: [x1, x2]", {"one continuous sensor with one output"}}}));
+        FaultyText{kLinear,
+                   {"form: linear", "form: quadratic", {"gains/form", "linear, transformed"}}},
+        FaultyText{kLinear, {"ell: 2", "ell: -2", {"gains", "ell must be positive"}}},
+        FaultyText{kLinear, {"ell: 2, ", "", {"gains/ell", "missing"}}},
+        FaultyText{kLinear,
+                   {"[[2, 3], [1]]", "[[2, 3], 1]", {"gains/K", "list of such lists", "'1'"}}},
+        FaultyText{kLinear, {"[[2, 3], [1]]", "[[2, 3], [x]]", {"gains/K", "'x'"}}},
+        FaultyText{kLinear,
+                   {"[[2, 3], [1]]", "[2, 3]", {"gains", "one list per continuous output"}}},
+        FaultyText{kLinear,
+                   {"[[2, 3], [1]]", "[[2], [1]]", {"K of continuous output 1", "2 numbers"}}},
+        FaultyText{kLinear, {"[[2, 3], [1]]", "[[2, 3], [-1]]", {"output 2", "not Hurwitz"}}},
+        FaultyText{kLinear, {"[[0, 0, 1]]", "[[0, 1, 0]]", {"not observable", "2 of 3"}}},
+        FaultyText{kLinear,
+                   {"{v: [-5, 5]}", "{v: [5, -5]}", {"gains/saturations/v", "lower bound"}}},
+        FaultyText{kLinear,
+                   {"{v: [-5, 5]}", "{v: [5]}", {"gains/saturations/v", "2 finite numbers"}}},
+        FaultyText{kLinear, {"{v: [-5, 5]}", "{u: [-5, 5]}", {"gains/saturations/u", "unknown"}}},
+        FaultyText{kLinear, {"form: linear", "form: linear, T: [p]", {"gains/T", "unknown"}}},
+        FaultyText{kLinear,
+                   {"measured: continuous, source: {topic: a}", "source: {topic: a}", {"sampled"}}},
+        FaultyText{kTransformed, {"K: [2, 1]", "K: [2, 1, 1]", {"gains/K", "2 finite numbers"}}},
+        FaultyText{kTransformed, {"K: [2, 1]", "K: [2, -1]", {"gains", "not Hurwitz"}}},
+        FaultyText{kTransformed, {"T: [x1, x2]", "T: [x1, z2]", {"gains/T", "z2"}}},
+        FaultyText{kTransformed, {"T: [x1, x2]", "T: [x1, x2 + u]", {"gains/T", "u"}}},
+        FaultyText{kTransformed, {"Theta: {x1: z1, ", "Theta: {", {"gains/Theta/x1", "missing"}}},
+        FaultyText{kTransformed, {"{x1: z1, x2", "{x1: x1, x2", {"gains/Theta", "x1"}}},
+        FaultyText{kTransformed, {"Phi: -k*cube", "Phi: -k*z3", {"gains/Phi", "z3"}}},
+        FaultyText{kTransformed, {"[{cube: z1^3}]", "[{x2: z1^3}]", {"gains/definitions", "'x2'"}}},
+        FaultyText{kTransformed, {"[{cube: z1^3}]", "[{cube: x1^3}]", {"gains/definitions", "x1"}}},
+        FaultyText{kTransformed, {"{k: 2}", "{k: 2, z2: 1}", {"gains/form", "'z2'"}}},
+        FaultyText{kTransformed, {"form: transformed", "form: original", {"gains/definitions"}}},
+        FaultyText{kTransformed,
+                   {"h: [x1]", "h: [x1, x2]", {"one continuous sensor with one output"}}}));
 
 }  // namespace
 }  // namespace sampled_data_observers

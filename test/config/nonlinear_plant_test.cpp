@@ -5,12 +5,13 @@
 
 #include "sampled_data_observers/runtime/estimator.h"
 #include "support/config_faults.h"
+#include "support/stamps.h"
 
 namespace sampled_data_observers {
 namespace {
 
-constexpr Duration kSecond = kNanosecondsPerSecond;
-constexpr Stamp kStart = 1000 * kSecond;
+using test::kSecond;
+using test::kStart;
 
 /// A tank that empties, by Torricelli's law: its root has no value below zero.
 const char kTank[] = R"yaml(

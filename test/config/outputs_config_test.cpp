@@ -7,7 +7,7 @@
 namespace sampled_data_observers {
 namespace {
 
-const char kGood[] = R"(
+const char kOutputs[] = R"(
 observer: ConstantGainObserver
 plant: {states: [x, v, yaw], A: [[0, 1, 0], [0, 0, 0], [0, 0, 0]]}
 sensors: {s: {C: [[1, 0, 0]], source: {topic: s}}}
@@ -27,7 +27,7 @@ outputs:
 )";
 
 TEST(OutputsConfigTest, ReadsEveryKey) {
-  const OutputsConfig outputs = *test::parse(kGood).outputs;
+  const OutputsConfig outputs = *test::parse(kOutputs).outputs;
   EXPECT_EQ(0, *outputs.body.position[0].state);
   EXPECT_FALSE(outputs.body.position[1].state);
   EXPECT_EQ(0.25, outputs.body.position[2].constant);
@@ -48,7 +48,7 @@ TEST(OutputsConfigTest, ReadsEveryKey) {
 
 TEST(OutputsConfigTest, ReadsAQuaternion) {
   const OutputsConfig outputs =
-      *test::parse(test::replaced(kGood, "orientation: {yaw: yaw}",
+      *test::parse(test::replaced(kOutputs, "orientation: {yaw: yaw}",
                                   "orientation: {x: 0, y: 0, z: v, w: x}"))
            .outputs;
   ASSERT_TRUE(outputs.body.quaternion);
@@ -58,7 +58,7 @@ TEST(OutputsConfigTest, ReadsAQuaternion) {
 
 TEST(OutputsConfigTest, TakesInputsWhereNoStateHasTheName) {
   const std::string driven =
-      test::replaced(kGood, "states: [x, v, yaw],",
+      test::replaced(kOutputs, "states: [x, v, yaw],",
                      "states: [x, v, yaw], inputs: [u, w], B: [[0, 0], [1, 0], [0, 1]],");
   const std::string moved =
       test::replaced(driven, "linear_velocity: {x: v}", "linear_velocity: {x: v, y: w}");
@@ -91,14 +91,14 @@ TEST(OutputsConfigTest, RefusesFaultsAndSaysWhatExists) {
       {"odometry: {topic: odometry}", "odometry: {}", {"outputs/odometry/topic", "missing"}},
   };
   for (const test::Fault& fault : faults) {
-    const std::string message = test::fault(test::replaced(kGood, fault.from, fault.to));
+    const std::string message = test::fault(test::replaced(kOutputs, fault.from, fault.to));
     EXPECT_EQ("", test::missing_parts(fault, message)) << message;
   }
 }
 
 TEST(OutputsConfigTest, NeedsAnOutputAndAPose) {
   const char kStart[] = "rate: 10\nframe_id: map\noutputs:\n  base_frame: b\n";
-  const std::string plant = test::replaced(kGood, "frame_id: map", "#");
+  const std::string plant = test::replaced(kOutputs, "frame_id: map", "#");
   const std::string without_outputs = plant.substr(0, plant.find("outputs:"));
   EXPECT_FALSE(test::parse(without_outputs).outputs);
   EXPECT_NE(std::string::npos, test::fault(without_outputs + kStart + "  position: {x: x}\n")

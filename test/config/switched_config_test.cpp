@@ -10,7 +10,7 @@ namespace {
 
 using test::fault;
 
-const char kGood[] = R"(
+const char kModes[] = R"(
 observer: SwitchedObserver
 plant:
   states: [x1, x2]
@@ -33,8 +33,8 @@ gains:
 )";
 
 TEST(SwitchedConfigTest, EachKindOfGainMayBeMissingButNotAll) {
-  EXPECT_EQ("no fault", fault(kGood));
-  const std::string text = kGood;
+  EXPECT_EQ("no fault", fault(kModes));
+  const std::string text = kModes;
   const std::size_t gains = text.find("  L_c:\n");
   const std::size_t at_jumps = text.find("  L_d:\n");
   const std::size_t projection = text.find("  projection:");
@@ -51,7 +51,7 @@ using test::Fault;
 class BadSwitchedTest : public ::testing::TestWithParam<Fault> {};
 
 TEST_P(BadSwitchedTest, IsRefusedWithAMessageThatHelps) {
-  const std::string found = fault(test::replaced(kGood, GetParam().from, GetParam().to));
+  const std::string found = fault(test::replaced(kModes, GetParam().from, GetParam().to));
   EXPECT_EQ("", test::missing_parts(GetParam(), found)) << found;
 }
 

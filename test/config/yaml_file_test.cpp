@@ -5,7 +5,7 @@
 namespace sampled_data_observers {
 namespace {
 
-std::string fault(const std::string& text) {
+std::string yaml_fault(const std::string& text) {
   try {
     read_yaml_text(text, "test.yaml");
   } catch (const ConfigError& error) {
@@ -28,7 +28,7 @@ TEST(YamlFileTest, AFewAliasesOfAliasesDoNotFillTheMemory) {
     for (int i = 0; i < 9; ++i) text += ", " + inner;
     text += "]\n";
   }
-  const std::string message = fault(text);
+  const std::string message = yaml_fault(text);
   for (const char* part : {"test.yaml:", "a5", "at most 200000 values"}) {
     EXPECT_NE(std::string::npos, message.find(part)) << message;
   }
@@ -36,7 +36,7 @@ TEST(YamlFileTest, AFewAliasesOfAliasesDoNotFillTheMemory) {
 
 TEST(YamlFileTest, ATokenThatBelongsToNoDocumentIsRefused) {
   for (const char* text : {",a: 1", "]", "}", "a: 1\n]", "a: 1\n--- \nb: 2"}) {
-    EXPECT_NE("no fault", fault(text)) << text;
+    EXPECT_NE("no fault", yaml_fault(text)) << text;
   }
 }
 

@@ -19,7 +19,7 @@ CertificateSubject plant(const Eigen::MatrixXd& A) {
 }
 
 /// bernard2022, example 5.5
-CertificateSubject impulsive() {
+CertificateSubject unobserved_impulsive() {
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(3, 3);
   A(0, 1) = 1.0;
   CertificateSubject subject = plant(A);
@@ -45,17 +45,18 @@ bool says(const CertificateSubject& subject, const std::string& part) {
 }
 
 TEST(Explanation, FindsFlowAndJumpsDetectableTogetherOnly) {
-  EXPECT_TRUE(says(impulsive(),
+  EXPECT_TRUE(says(unobserved_impulsive(),
                    "Jumps alone, (A_d, C_d): not observable. - unseen: the mode 1, "
                    "which moves x2; it does not shrink: by 1 at each jump"))
-      << explain(impulsive());
-  EXPECT_TRUE(says(impulsive(), "detectable at all 101 values of tau looked at"));
-  EXPECT_TRUE(says(impulsive(), "(26), which takes flow and jumps one by one, can't hold"));
-  EXPECT_FALSE(says(impulsive(), "NO OBSERVER"));
+      << explain(unobserved_impulsive());
+  EXPECT_TRUE(says(unobserved_impulsive(), "detectable at all 101 values of tau looked at"));
+  EXPECT_TRUE(
+      says(unobserved_impulsive(), "(26), which takes flow and jumps one by one, can't hold"));
+  EXPECT_FALSE(says(unobserved_impulsive(), "NO OBSERVER"));
 }
 
 TEST(Explanation, TellsThatNothingSeesAnUnstableModeAtJumps) {
-  CertificateSubject subject = impulsive();
+  CertificateSubject subject = unobserved_impulsive();
   subject.plant.modes.front().C_d = Eigen::RowVector3d(0, 1, 0);  // the velocity only
   EXPECT_TRUE(says(subject, "NOT detectable at 101 of 101"));
   EXPECT_TRUE(says(subject, "NO OBSERVER CAN CONVERGE"));
@@ -78,7 +79,7 @@ TEST(Explanation, ComparesTheDecayInFlowWithTheGrowthAtJumps) {
 }
 
 TEST(Explanation, SaysOfEveryMethodWhetherItApplies) {
-  const std::string text = words(explain(impulsive()));
+  const std::string text = words(explain(unobserved_impulsive()));
   for (const DesignMethod* method : design_methods()) {
     EXPECT_TRUE(text.find(method->name() + " applies: ") != std::string::npos ||
                 text.find(method->name() + " no: ") != std::string::npos)
@@ -107,7 +108,7 @@ TEST(Explanation, WarnsOfAPathologicalIntervalOnlyWhereT2IsClose) {
 }
 
 TEST(Explanation, RecommendsOneMethod) {
-  EXPECT_TRUE(says(impulsive(), "or with --method bernard2022_equation36"));
+  EXPECT_TRUE(says(unobserved_impulsive(), "or with --method bernard2022_equation36"));
   EXPECT_TRUE(says(test::aircraft(1.0, 3.0), "or with --method sferlazza2019_algorithm1"));
   EXPECT_TRUE(says(test::oscillator(0.2), "or with --method ferrante2019_alternating"));
 }
@@ -125,7 +126,7 @@ TEST(Explanation, TellsTheGainThatNoT2CanDoWithout) {
 }
 
 TEST(Explanation, SpeaksWithoutTimes) {
-  CertificateSubject subject = impulsive();
+  CertificateSubject subject = unobserved_impulsive();
   subject.T1 = subject.T2 = 0.0;
   EXPECT_TRUE(says(subject, "times between events: not given"));
   EXPECT_FALSE(says(subject, "nan"));

@@ -92,8 +92,8 @@ TEST(Ferrante2016Example1, BoundsTheErrorTightlyAndNoLooserThanThePaper) {
 
 TEST(Ferrante2016Example2, BoundsTheErrorWithoutAllocatingAndAtAnyTimes) {
   const CertificateSubject subject = mass_spring(0.2, 3.0);
-  const NamedMatrices values = certified("ferrante2016_theorem1", subject,
-                                         {{"L", printed_gain()}, {"decay", scalar_matrix(0.0)}});
+  const NamedMatrices values = proof_for_gains(
+      "ferrante2016_theorem1", subject, {{"L", printed_gain()}, {"decay", scalar_matrix(0.0)}});
   ASSERT_FALSE(values.empty());
   ErrorAssumptions assumptions;
   assumptions.initial_error = 3.0;
@@ -171,8 +171,8 @@ TEST(Ferrante2016Example2, AcceptsThePrintedGainByItsPolytope) {
 
 TEST(Ferrante2016Example2, AcceptsThePrintedGainByTheTheorem) {
   const CertificateSubject subject = mass_spring(0.2, 3.0);
-  const NamedMatrices values = certified("ferrante2016_theorem1", subject,
-                                         {{"L", printed_gain()}, {"decay", scalar_matrix(0.0)}});
+  const NamedMatrices values = proof_for_gains(
+      "ferrante2016_theorem1", subject, {{"L", printed_gain()}, {"decay", scalar_matrix(0.0)}});
   ASSERT_FALSE(values.empty());
   EXPECT_LE(max_eigenvalue(values.at("P")), 1.0 + 1e-6);
   // The largest eigenvalue of the left side of (12).
@@ -222,8 +222,8 @@ TEST(Ferrante2016Theorem1, ProvesTheDecayOfADoubleIntegratorUpToItsLimit) {
   Eigen::MatrixXd L(2, 1);
   L << 1.0, 1.0 + std::exp(-kLargestDecay);
   const auto is_proved = [&](double decay) {
-    return !certified("ferrante2016_theorem1", double_integrator(),
-                      {{"L", L}, {"decay", scalar_matrix(decay)}})
+    return !proof_for_gains("ferrante2016_theorem1", double_integrator(),
+                            {{"L", L}, {"decay", scalar_matrix(decay)}})
                 .empty();
   };
   EXPECT_TRUE(is_proved(0.99 * kLargestDecay));

@@ -3,7 +3,7 @@
 namespace sampled_data_observers::test {
 namespace {
 
-CertificateSubject linear_subject(const Eigen::MatrixXd& A, const Eigen::MatrixXd& C, double T2) {
+CertificateSubject sampled_subject(const Eigen::MatrixXd& A, const Eigen::MatrixXd& C, double T2) {
   CertificateSubject subject;
   ModeMatrices mode;
   mode.A = A;
@@ -24,7 +24,7 @@ CertificateSubject linear_subject(const Eigen::MatrixXd& A, const Eigen::MatrixX
 CertificateSubject oscillator(double T2) {
   Eigen::MatrixXd A(2, 2);
   A << 0, 1, -4, 0;
-  CertificateSubject subject = linear_subject(A, Eigen::MatrixXd::Identity(1, 2), T2);
+  CertificateSubject subject = sampled_subject(A, Eigen::MatrixXd::Identity(1, 2), T2);
   subject.plant.N = Eigen::MatrixXd::Identity(2, 1);
   subject.plant.C_p = Eigen::MatrixXd::Identity(2, 2);
   return subject;
@@ -35,7 +35,7 @@ CertificateSubject unicycle(double T2) {
   A << 0, 1, 0, 0, -0.01, 0, 1, 0, 0;
   Eigen::MatrixXd C(2, 3);
   C << 1, 0, 0, 0, 0, 1;
-  CertificateSubject subject = linear_subject(A, C, T2);
+  CertificateSubject subject = sampled_subject(A, C, T2);
   subject.plant.N = Eigen::MatrixXd::Zero(3, 1);
   subject.plant.N(1, 0) = 1.0;
   subject.plant.C_p = subject.plant.N.transpose();
@@ -45,7 +45,7 @@ CertificateSubject unicycle(double T2) {
 CertificateSubject flexible_link(double T2, int performance_outputs) {
   Eigen::MatrixXd A(4, 4);
   A << 0, 1, 0, 0, -48.6, -1.25, 48.6, 0, 0, 0, 0, 1, 19.5, 0, -19.5, 0;
-  CertificateSubject subject = linear_subject(A, Eigen::MatrixXd::Identity(2, 4), T2);
+  CertificateSubject subject = sampled_subject(A, Eigen::MatrixXd::Identity(2, 4), T2);
   PlantMatrices& plant = subject.plant;
   plant.G = Eigen::MatrixXd::Zero(4, 1);
   plant.G(3, 0) = -1.0;

@@ -71,8 +71,8 @@ inline Design design_by(const char* method, const CertificateSubject& subject,
 }
 
 /// The proof that certify_here() finds for given gains and parameters; empty where it finds none.
-inline NamedMatrices certified(const char* theorem_name, const CertificateSubject& subject,
-                               const NamedMatrices& fixed) {
+inline NamedMatrices proof_for_gains(const char* theorem_name, const CertificateSubject& subject,
+                                     const NamedMatrices& fixed) {
   const Theorem& theorem = *find_theorem(theorem_name);
   const auto task = [&](std::size_t) {
     const DesignCandidate candidate = certify_here(theorem, subject, fixed, Objective::kFeasible);

@@ -223,7 +223,7 @@ TEST(RigorousCheck, ProvesAFastMotorOverLongTimes) {
     expect_proved(
         prove_theorem("sferlazza2019_theorem2", motor, {{"P", P}, {"lambda", scalar_matrix(0.0)}}));
   }
-  const NamedMatrices values = certified(
+  const NamedMatrices values = proof_for_gains(
       "ferrante2016_theorem1", motor, {{"L", matrix(2, 1, {1, 0})}, {"decay", scalar_matrix(0.0)}});
   ASSERT_FALSE(values.empty());
   expect_proved(prove_theorem("ferrante2016_theorem1", motor, values));
@@ -241,7 +241,7 @@ TEST(RigorousCheck, ProvesThePrintedGainOfFerrante2016) {
   NamedMatrices fixed = {{"L", matrix(5, 1, {0.77524, 0.18123, -0.12123, -0.17406, 0.22469})},
                          {"decay", scalar_matrix(0.0)}};
   const CertificateSubject subject = mass_spring(0.2, 3.0);
-  const NamedMatrices values = certified("ferrante2016_theorem1", subject, fixed);
+  const NamedMatrices values = proof_for_gains("ferrante2016_theorem1", subject, fixed);
   ASSERT_FALSE(values.empty());
   expect_proved(prove_theorem("ferrante2016_theorem1", subject, values));
 }

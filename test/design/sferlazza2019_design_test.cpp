@@ -18,8 +18,8 @@
 namespace sampled_data_observers::test {
 namespace {
 
-const char* const kMethod = "sferlazza2019_algorithm1";
-const Theorem& theorem() { return *find_theorem("sferlazza2019_theorem2"); }
+const char* const kAlgorithm1 = "sferlazza2019_algorithm1";
+const Theorem& rate_theorem() { return *find_theorem("sferlazza2019_theorem2"); }
 
 NamedMatrices with_P(const std::vector<double>& upper, double lambda = 0.0) {
   Eigen::MatrixXd P(3, 3);
@@ -31,7 +31,7 @@ const NamedMatrices kPrinted_1_3 = with_P({0.8334, -0.0041, 0.8333, 2.0116, -0.0
 const NamedMatrices kPrinted_4_8 = with_P({0.9573, -0.0031, 0.9571, 2.2754, -0.0122, 0.9573});
 
 double margin_of(const NamedMatrices& values, double T1, double T2) {
-  const Condition condition = theorem().conditions(aircraft(T1, T2)).back();
+  const Condition condition = rate_theorem().conditions(aircraft(T1, T2)).back();
   return least_eigenvalue(condition.positive_definite, values, *condition.tau, 2001);
 }
 
@@ -48,32 +48,32 @@ TEST(Sferlazza2019Aircraft, HasThePrintedPWhereItHoldsAndWhereNot) {
 }
 
 TEST(Sferlazza2019Aircraft, IsDesignedForInOneIterationFor1To3Seconds) {
-  const Design design = design_by(kMethod, aircraft(1.0, 3.0));
+  const Design design = design_by(kAlgorithm1, aircraft(1.0, 3.0));
   EXPECT_EQ(design.solver, "CSDP, in 1 iteration");
   EXPECT_TRUE(all_hold(check(design.certificate)));
   EXPECT_TRUE(verified(design.certificate.values, 1.0, 3.0).holds);
 }
 
 TEST(Sferlazza2019Aircraft, IsDesignedForFor3To4SecondsAgainstThePaper) {
-  const Design design = design_by(kMethod, aircraft(3.0, 4.0), {{"lambda", 0.7}});
+  const Design design = design_by(kAlgorithm1, aircraft(3.0, 4.0), {{"lambda", 0.7}});
   EXPECT_TRUE(verified(design.certificate.values, 3.0, 4.0).holds);
   EXPECT_EQ(scalar_value(design.certificate.values, "lambda"), 0.7);
 }
 
 TEST(Sferlazza2019Aircraft, IsDesignedForFor4To8Seconds) {
-  const Design design = design_by(kMethod, aircraft(4.0, 8.0));
+  const Design design = design_by(kAlgorithm1, aircraft(4.0, 8.0));
   EXPECT_TRUE(all_hold(check(design.certificate)));
   EXPECT_TRUE(verified(design.certificate.values, 4.0, 8.0).holds);
 }
 
 TEST(Sferlazza2019Aircraft, CannotBeObservedFromSamplesHalfATurnApart) {
   // pi / 0.36782 = 8.541
-  const std::string message = refusal(kMethod, aircraft(8.5, 8.6));
+  const std::string message = refusal(kAlgorithm1, aircraft(8.5, 8.6));
   EXPECT_NE(message.find("samples 8.541"), std::string::npos) << message;
 }
 
 TEST(Sferlazza2019Aircraft, HasALargestT2BelowHalfATurn) {
-  const Design design = design_by(kMethod, aircraft(7.0, 7.5), {}, Objective::kMaxT2);
+  const Design design = design_by(kAlgorithm1, aircraft(7.0, 7.5), {}, Objective::kMaxT2);
   EXPECT_GT(design.certificate.subject.T2, 7.9);
   EXPECT_LT(design.certificate.subject.T2, 8.541);
 }
@@ -101,7 +101,8 @@ TEST(Sferlazza2019Aircraft, HasTheSameGainForAPlantThatDecaysFaster) {
 TEST(Sferlazza2019Aircraft, ConvergesAtTheRateThatIsProved) {
   for (const double lambda : {0.0, 0.1}) {
     const CertificateSubject subject = aircraft(1.0, 3.0);
-    const Design design = design_by(kMethod, subject, {{"lambda", lambda}}, Objective::kMaxDecay);
+    const Design design =
+        design_by(kAlgorithm1, subject, {{"lambda", lambda}}, Objective::kMaxDecay);
     const NamedMatrices& values = design.certificate.values;
     const double decay = scalar_value(values, "decay");
     // By (21) alone, with lambda = 0, 0.149 1/s.
@@ -151,27 +152,27 @@ TEST(Sferlazza2019Equation17, KeepsLambdaOfTheErrorAtEachSample) {
 TEST(Sferlazza2019Algorithm1, TakesAnyPWhereAllOfTheStateIsMeasured) {
   const CertificateSubject subject =
       linear_subject(aircraft(1.0, 3.0).plant.A(), Eigen::MatrixXd::Identity(3, 3), 1.0, 20.0);
-  EXPECT_TRUE(all_hold(check(design_by(kMethod, subject).certificate)));
+  EXPECT_TRUE(all_hold(check(design_by(kAlgorithm1, subject).certificate)));
 }
 
 TEST(Sferlazza2019Algorithm1, TellsWhatItCannotDesignFor) {
   Eigen::MatrixXd C(2, 3);
   C << 1, 0, 1, 2, 0, 2;
-  std::string message = refusal(kMethod, linear_subject(aircraft(1, 3).plant.A(), C, 1.0, 3.0));
+  std::string message = refusal(kAlgorithm1, linear_subject(aircraft(1, 3).plant.A(), C, 1.0, 3.0));
   EXPECT_NE(message.find("not linearly independent"), std::string::npos) << message;
 
   Eigen::MatrixXd blind = Eigen::MatrixXd::Zero(1, 2);
   blind(0, 1) = 1.0;
   Eigen::MatrixXd A(2, 2);
   A << 0, 1, 0, 0;
-  message = refusal(kMethod, linear_subject(A, blind, 0.1, 1.0));
+  message = refusal(kAlgorithm1, linear_subject(A, blind, 0.1, 1.0));
   EXPECT_NE(message.find("not detectable"), std::string::npos) << message;
 
-  message = refusal(kMethod, aircraft(1.0, 3.0), {{"lambda", 1.0}});
+  message = refusal(kAlgorithm1, aircraft(1.0, 3.0), {{"lambda", 1.0}});
   EXPECT_NE(message.find("lambda must be in [0, 1)"), std::string::npos) << message;
-  message = refusal(kMethod, aircraft(1.0, 3.0), {{"decay", -0.1}});
+  message = refusal(kAlgorithm1, aircraft(1.0, 3.0), {{"decay", -0.1}});
   EXPECT_NE(message.find("decay must not be negative"), std::string::npos) << message;
-  message = refusal(kMethod, aircraft(1.0, 3.0), {{"lambda", 0.5}, {"decay", 0.3}});
+  message = refusal(kAlgorithm1, aircraft(1.0, 3.0), {{"lambda", 0.5}, {"decay", 0.3}});
   EXPECT_NE(message.find("falls more slowly than by decay"), std::string::npos) << message;
 }
 
@@ -182,7 +183,7 @@ class BoundedError {
                const ErrorAssumptions& assumptions, const Eigen::VectorXd& error)
       : A_(subject.plant.A()),
         C_(subject.plant.C()),
-        bound_(theorem().error_bound(subject, values, assumptions)),
+        bound_(rate_theorem().error_bound(subject, values, assumptions)),
         gain_(C_, values.at("P"), scalar_value(values, "lambda")),
         state_(static_cast<std::size_t>(bound_->state_size())),
         workspace_(static_cast<std::size_t>(bound_->workspace_size())),
@@ -314,7 +315,8 @@ TEST(Sferlazza2019Bound, CoversTheErrorOfAFastOscillation) {
 
 TEST(Sferlazza2019Bound, AllocatesNothingAtSamples) {
   if (!allocations_are_counted()) GTEST_SKIP() << "a sanitizer owns the allocator";
-  const auto bound = theorem().error_bound(aircraft(1.0, 3.0), kPrinted_1_3, assuming(1.0, 0.1));
+  const auto bound =
+      rate_theorem().error_bound(aircraft(1.0, 3.0), kPrinted_1_3, assuming(1.0, 0.1));
   std::vector<double> state(static_cast<std::size_t>(bound->state_size()));
   std::vector<double> workspace(static_cast<std::size_t>(bound->workspace_size()));
   const std::size_t before = allocations();

@@ -3,11 +3,10 @@
 
 #include "faults/fault.h"
 #include "faults/messages.h"
+#include "support/stamps.h"
 
 namespace sampled_data_observers::test {
 namespace {
-
-constexpr Duration kMillisecond = 1'000'000;
 
 void jump(FaultBench& bench, Stamp stamp) { bench.publish("jumps", jump_event(stamp)); }
 

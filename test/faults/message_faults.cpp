@@ -7,8 +7,6 @@
 namespace sampled_data_observers::test {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
 /// For one second, joint states of these names and positions.
 std::function<void(FaultBench&)> joints(const std::vector<std::string>& names,
                                         const std::vector<double>& positions) {

@@ -9,12 +9,15 @@
 #include <sensor_msgs/JointState.h>
 #include <tf2_msgs/TFMessage.h>
 
+#include <limits>
 #include <string>
 #include <vector>
 
 #include "sampled_data_observers/hybrid/time.h"
 
 namespace sampled_data_observers::test {
+
+inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 Measurement measurement(Stamp stamp, const std::vector<double>& values);
 Input input(Stamp stamp, const std::vector<double>& values);

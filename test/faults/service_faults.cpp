@@ -9,11 +9,10 @@
 #include "faults/fault.h"
 #include "faults/messages.h"
 #include "messages/time_conversion.h"
+#include "support/stamps.h"
 
 namespace sampled_data_observers::test {
 namespace {
-
-constexpr Duration kMillisecond = 1'000'000;
 
 void require(bool condition, const std::string& complaint) {
   if (!condition) throw std::runtime_error(complaint);

@@ -2,11 +2,10 @@
 #include "faults/fault.h"
 #include "faults/messages.h"
 #include "messages/time_conversion.h"
+#include "support/stamps.h"
 
 namespace sampled_data_observers::test {
 namespace {
-
-constexpr Duration kSecond = kNanosecondsPerSecond;
 
 /// For one second, each sample comes a second time, with another stamp.
 std::function<void(FaultBench&)> stamped(const std::function<ros::Time(Stamp)>& stamp_instead) {

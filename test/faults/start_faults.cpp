@@ -44,7 +44,7 @@ XmlRpc::XmlRpcValue binary_data() {
   return {bytes, sizeof(bytes)};
 }
 
-StartFault wrong_type(const std::string& key) {
+StartFault key_of_wrong_type(const std::string& key) {
   return {"TypeOf_" + key,
           "`" + key + "` is a list in a list, or binary data",
           {parameter(key, list_in_list()), parameter(key, binary_data())},
@@ -53,7 +53,7 @@ StartFault wrong_type(const std::string& key) {
 
 /// Of a key that may not be a text.
 StartFault wrong_type_or_text(const std::string& key) {
-  StartFault fault = wrong_type(key);
+  StartFault fault = key_of_wrong_type(key);
   fault.injected = "`" + key + "` is a list in a list, binary data, or a text";
   fault.changes.push_back(parameter(key, std::string("fast")));
   return fault;
@@ -99,7 +99,7 @@ std::vector<StartFault> start_faults() {
        "gains"},
   };
   for (const char* key : {"observer", "frame_id", "gains_directory"}) {
-    faults.push_back(wrong_type(key));
+    faults.push_back(key_of_wrong_type(key));
   }
   for (const char* key : {"plant",
                           "sensors",

@@ -2,11 +2,10 @@
 #include "faults/fault.h"
 #include "faults/messages.h"
 #include "messages/time_conversion.h"
+#include "support/stamps.h"
 
 namespace sampled_data_observers::test {
 namespace {
-
-constexpr Duration kSecond = kNanosecondsPerSecond;
 
 void stop(FaultBench& bench) {
   bench.await_estimates();

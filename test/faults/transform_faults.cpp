@@ -4,12 +4,10 @@
 #include "faults/fault.h"
 #include "faults/messages.h"
 #include "messages/time_conversion.h"
+#include "support/stamps.h"
 
 namespace sampled_data_observers::test {
 namespace {
-
-constexpr Duration kSecond = kNanosecondsPerSecond;
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 void measure(FaultBench& bench, Stamp stamp, const std::string& frame) {
   bench.publish("camera", point_ahead(stamp, frame, bench.truth(stamp)[0]));
@@ -38,7 +36,7 @@ std::function<void(FaultBench&)> transforms(
 }
 
 /// Each transform comes 0.3 s after its point.
-void late(FaultBench& bench) {
+void late_transforms(FaultBench& bench) {
   for (int i = 0; i < 13; ++i) {
     bench.set_clock(bench.now() + kSecond / 10);
     if (i < 10) measure(bench, bench.now(), "lens");
@@ -79,7 +77,7 @@ std::vector<Fault> transform_faults() {
   };
   return {
       {"Missing", "camera", "1 s without transforms; points wait 0.5 s", in_frame("lens"), dropped},
-      {"Late", "camera", "transforms that come 0.3 s after the points", late, {}},
+      {"Late", "camera", "transforms that come 0.3 s after the points", late_transforms, {}},
       {"BeyondTheLast", "camera", "points after the last transform: nothing is extrapolated",
        beyond_the_last, dropped},
       {"UnknownFrame", "camera", "points in a frame that nobody knows", in_frame("nowhere"),

@@ -8,11 +8,10 @@
 #include "faults/fault.h"
 #include "faults/malformed_message.h"
 #include "faults/messages.h"
+#include "support/stamps.h"
 
 namespace sampled_data_observers::test {
 namespace {
-
-constexpr Duration kMillisecond = 1'000'000;
 
 /// All samples of four seconds, a thousand, at once and in any order.
 void late_burst(FaultBench& bench) {

@@ -8,7 +8,6 @@
 namespace sampled_data_observers::test {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// For one second, each sample has these values instead.

@@ -9,14 +9,14 @@
 
 #include "support/allocation_counter.h"
 #include "support/random_events.h"
+#include "support/stamps.h"
 
 namespace sampled_data_observers {
 namespace {
 
+using test::kSecond;
+using test::kStart;
 using test::OwnedEvent;
-
-constexpr Stamp kStart = 1'600'000'000'000'000'000;
-constexpr Duration kSecond = kNanosecondsPerSecond;
 
 struct Snapshot {
   Timeline::Query query = Timeline::Query::kNoEvent;

@@ -10,12 +10,14 @@
 #include <vector>
 
 #include "messages/time_conversion.h"
+#include "support/stamps.h"
 
 namespace sampled_data_observers {
 namespace {
 
+using test::kSecond;
+
 constexpr Duration kMillisecond = 1000000;
-constexpr Stamp kSecond = kNanosecondsPerSecond;
 
 EventChannel camera(Duration min_interval = 0) {
   EventChannel channel;

@@ -9,9 +9,12 @@
 #include "messages/time_conversion.h"
 #include "messages/transform_message.h"
 #include "sampled_data_observers/messages/transform_buffer.h"
+#include "support/stamps.h"
 
 namespace sampled_data_observers {
 namespace {
+
+using test::kSecond;
 
 const double kPi = std::acos(-1.0);
 
@@ -256,8 +259,6 @@ StaticTransform static_transform(const std::string& frame, const std::string& ch
   transform.translation.x() = x;
   return transform;
 }
-
-constexpr Stamp kSecond = kNanosecondsPerSecond;
 
 TEST(TransformBufferTest, StaticTransformsHoldAtAllTimes) {
   StaticTransform husky = static_transform("base_link", "imu_link", 0.0);

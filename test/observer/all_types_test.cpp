@@ -6,15 +6,15 @@
 #include <memory>
 
 #include "support/allocation_counter.h"
+#include "support/stamps.h"
 #include "support/type_examples.h"
 
 namespace sampled_data_observers {
 namespace {
 
+using test::kSecond;
+using test::kStart;
 using test::OwnedEvent;
-
-constexpr Stamp kStart = 1'600'000'000'000'000'000;
-constexpr Duration kSecond = kNanosecondsPerSecond;
 
 class EveryTypeTest : public ::testing::TestWithParam<std::string> {
  protected:

@@ -12,7 +12,7 @@
 namespace sampled_data_observers {
 namespace {
 
-constexpr Stamp kStart = 1000 * kNanosecondsPerSecond;
+constexpr Stamp kFirst = 1000 * kNanosecondsPerSecond;
 
 /// x after `time` in a mode.
 Eigen::Vector3d turned(const Eigen::Vector3d& x, int mode, double time) {
@@ -47,8 +47,8 @@ class SwitchedExample : public ::testing::Test {
 TEST_F(SwitchedExample, EachCycleMultipliesTheErrorByTheCosineOfTheSecondMode) {
   std::mt19937_64 generator(3);
   std::uniform_real_distribution<double> interval(0.6, 1.4);
-  estimator_.restart(kStart);
-  Stamp stamp = kStart;
+  estimator_.restart(kFirst);
+  Stamp stamp = kFirst;
   double after_cycle = 0.0;
   double predicted = 1.0;
   for (int k = 0; k < 240; ++k) {
@@ -75,11 +75,11 @@ TEST_F(SwitchedExample, EachCycleMultipliesTheErrorByTheCosineOfTheSecondMode) {
 }
 
 TEST_F(SwitchedExample, WithoutSwitchesOrOutputsTheErrorStays) {
-  estimator_.restart(kStart);
+  estimator_.restart(kFirst);
   const double initial = x_.norm();
   x_ = turned(x_, 1, 50.0);
-  EXPECT_NEAR(initial, error(kStart + from_seconds(50.0)), 1e-12);
-  const Stamp stamp = kStart + from_seconds(50.0);
+  EXPECT_NEAR(initial, error(kFirst + from_seconds(50.0)), 1e-12);
+  const Stamp stamp = kFirst + from_seconds(50.0);
   ASSERT_TRUE(estimator_.submit({stamp, EventKind::kJump, 0, nullptr, 0, 0, 2.0}, stamp).used());
   x_ = turned(x_, 2, 10.0);
   EXPECT_NEAR(initial, error(stamp + from_seconds(10.0)), 1e-12);

@@ -8,15 +8,15 @@
 #include "observer/gated_samples.h"
 #include "support/allocation_counter.h"
 #include "support/config_faults.h"
+#include "support/stamps.h"
 #include "support/type_examples.h"
 
 namespace sampled_data_observers {
 namespace {
 
+using test::kSecond;
+using test::kStart;
 using test::OwnedEvent;
-
-constexpr Stamp kStart = 1'600'000'000'000'000'000;
-constexpr Duration kSecond = kNanosecondsPerSecond;
 
 /// Narrow gates on all samples of an observer type, which recover by turns in both ways.
 std::shared_ptr<const ObserverLaw> with_gates(const ObserverConfig& config) {

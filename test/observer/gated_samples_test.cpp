@@ -10,12 +10,14 @@
 #include "sampled_data_observers/runtime/estimator.h"
 #include "support/matrix_functions.h"
 #include "support/random_events.h"
+#include "support/stamps.h"
 
 namespace sampled_data_observers {
 namespace {
 
-constexpr Duration kSecond = kNanosecondsPerSecond;
-constexpr Stamp kStart = 1000 * kSecond;
+using test::kSecond;
+using test::kStart;
+
 constexpr int kPosition = 0;  // sensors of test::example_law()
 constexpr int kPose = 1;
 

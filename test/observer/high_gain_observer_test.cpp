@@ -15,13 +15,13 @@
 #include "sampled_data_observers/runtime/estimator.h"
 #include "support/allocation_counter.h"
 #include "support/random_events.h"
+#include "support/stamps.h"
 
 namespace sampled_data_observers {
 namespace {
 
+using test::kStart;
 using test::OwnedEvent;
-
-constexpr Stamp kStart = 1000 * kNanosecondsPerSecond;
 
 /// Position and velocity with a measured position, which bounces: x⁺ = (x1, −2 x2).
 std::shared_ptr<const Plant> cart(bool angular) {

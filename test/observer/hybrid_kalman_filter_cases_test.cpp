@@ -10,14 +10,14 @@
 #include "sampled_data_observers/hybrid/timeline.h"
 #include "support/matrix_functions.h"
 #include "support/random_events.h"
+#include "support/stamps.h"
 
 namespace sampled_data_observers {
 namespace {
 
+using test::kSecond;
+using test::kStart;
 using test::OwnedEvent;
-
-constexpr Stamp kStart = 1'600'000'000'000'000'000;
-constexpr Duration kSecond = kNanosecondsPerSecond;
 
 Eigen::MatrixXd identity(Eigen::Index n) { return Eigen::MatrixXd::Identity(n, n); }
 Eigen::MatrixXd zero(Eigen::Index n) { return Eigen::MatrixXd::Zero(n, n); }
@@ -40,9 +40,9 @@ std::shared_ptr<const VectorMap> affine(const Eigen::MatrixXd& M, const Eigen::M
 }
 
 /// A law with a state of its own, driven by hand.
-class LawRun {
+class FilterRun {
  public:
-  explicit LawRun(const HybridKalmanFilter& law)
+  explicit FilterRun(const HybridKalmanFilter& law)
       : law_(law), state_(law.state_size()), workspace_(law.workspace_size()) {
     law_.initialize(state_.data());
   }
@@ -92,7 +92,7 @@ PlantDescription example_plant() {
   return plant;
 }
 
-KalmanCovariances example_covariances() {
+KalmanCovariances three_state_covariances() {
   KalmanCovariances result;
   result.P0 = matrix(3, 3, {1.0, 0.2, 0.0, 0.2, 2.0, -0.3, 0.0, -0.3, 0.5});
   result.R = {matrix(1, 1, {0.1}), matrix(2, 2, {0.2, 0.1, 0.1, 0.3}),
@@ -102,7 +102,7 @@ KalmanCovariances example_covariances() {
   return result;
 }
 
-ObserverContext context(const PlantDescription& plant) {
+ObserverContext context_of(const PlantDescription& plant) {
   const auto n = static_cast<Eigen::Index>(plant.state_names.size());
   const auto p = static_cast<Eigen::Index>(plant.input_names.size());
   return {std::make_shared<const Plant>(plant), Eigen::VectorXd::LinSpaced(n, 0.5, -0.5),
@@ -110,12 +110,12 @@ ObserverContext context(const PlantDescription& plant) {
 }
 
 std::shared_ptr<const HybridKalmanFilter> example_law() {
-  return std::make_shared<const HybridKalmanFilter>(context(example_plant()),
-                                                    example_covariances());
+  return std::make_shared<const HybridKalmanFilter>(context_of(example_plant()),
+                                                    three_state_covariances());
 }
 
 /// The discrete Kalman filter of the textbooks, over durations by Van Loan's block exponential.
-struct Textbook {
+struct TextbookFilter {
   Eigen::VectorXd x;
   Eigen::MatrixXd P;
 
@@ -156,13 +156,13 @@ struct Textbook {
 TEST(HybridKalmanCasesTest, ASwitchedPlantWithInputsHasTheTextbooksFilter) {
   const std::shared_ptr<const HybridKalmanFilter> law = example_law();
   const std::vector<PlantMode>& modes = law->plant().modes();
-  const KalmanCovariances tuning = example_covariances();
+  const KalmanCovariances tuning = three_state_covariances();
   std::mt19937_64 generator(1);
   std::uniform_real_distribution<double> value(-2.0, 2.0);
   std::uniform_int_distribution<Duration> duration(1, 2 * kSecond);
   std::uniform_int_distribution<int> choice(0, 3);
-  LawRun run(*law);
-  Textbook expected{run.x(), tuning.P0};
+  FilterRun run(*law);
+  TextbookFilter expected{run.x(), tuning.P0};
   Eigen::VectorXd u = Eigen::VectorXd::Constant(1, 0.3);
   std::size_t mode = 0;
   for (int i = 0; i < 300; ++i) {
@@ -223,7 +223,7 @@ TEST(HybridKalmanCasesTest, WithoutNoiseOfTheProcessItIsTheLeastSquaresFit) {
   const ObserverContext start{std::make_shared<const Plant>(example_5_5()), Eigen::Vector3d::Zero(),
                               Eigen::VectorXd::Zero(0)};
   const HybridKalmanFilter law(start, tuning);
-  LawRun run(law);
+  FilterRun run(law);
   Eigen::Matrix2d information = Eigen::Matrix2d::Identity() / 4.0;
   Eigen::Vector2d weighted = Eigen::Vector2d::Zero();
   std::mt19937_64 generator(2);
@@ -255,7 +255,7 @@ TEST(HybridKalmanCasesTest, TheInnovationOfAnAngleIsWrapped) {
   const ObserverContext start{std::make_shared<const Plant>(plant),
                               Eigen::VectorXd::Constant(1, 3.0), Eigen::VectorXd::Zero(0)};
   const HybridKalmanFilter law(start, {identity(1), {identity(1)}, zero(1), zero(1)});
-  LawRun run(law);
+  FilterRun run(law);
   run.reset(EventKind::kSample, 0, {-3.0});
   const double innovation = 2.0 * 3.14159265358979323846 - 6.0;
   EXPECT_NEAR(3.0 + innovation / 2.0, run.x()(0), 1e-15);
@@ -274,7 +274,7 @@ TEST(HybridKalmanCasesTest, AnExtremelyCertainSampleLeavesACovariance) {
   const ObserverContext start{std::make_shared<const Plant>(plant), Eigen::VectorXd::Zero(1),
                               Eigen::VectorXd::Zero(0)};
   const HybridKalmanFilter law(start, {1e20 * identity(1), {identity(2)}, zero(1), zero(1)});
-  LawRun run(law);
+  FilterRun run(law);
   run.reset(EventKind::kSample, 0, {1.0, 2.0});
   EXPECT_NEAR(1.5, run.x()(0), 1e-12);
   EXPECT_NEAR(0.5, run.P()(0, 0), 1e-12);
@@ -331,10 +331,10 @@ TEST_F(HybridKalmanTimelineTest, OutputsOfAJumpGiveTheSameBitsHoweverTheyArrive)
 
 TEST(HybridKalmanFilterFaultTest, SaysWhichCovariancesItCantUse) {
   const auto fault = [](auto&& change) -> std::string {
-    KalmanCovariances tuning = example_covariances();
+    KalmanCovariances tuning = three_state_covariances();
     change(tuning);
     try {
-      const HybridKalmanFilter law(context(example_plant()), tuning);
+      const HybridKalmanFilter law(context_of(example_plant()), tuning);
     } catch (const std::invalid_argument& error) {
       return error.what();
     }
@@ -376,7 +376,8 @@ TEST(HybridKalmanFilterFaultTest, SaysWhichPlantsItCantTake) {
     plant.modes = {mode};
     change(plant);
     try {
-      const HybridKalmanFilter law(context(plant), {identity(1), {identity(1)}, zero(1), zero(1)});
+      const HybridKalmanFilter law(context_of(plant),
+                                   {identity(1), {identity(1)}, zero(1), zero(1)});
     } catch (const std::invalid_argument& error) {
       return error.what();
     }

@@ -10,16 +10,16 @@
 #include "support/law_runner.h"
 #include "support/matrix_functions.h"
 #include "support/random_events.h"
+#include "support/stamps.h"
 
 namespace sampled_data_observers {
 namespace {
 
+using test::kSecond;
 using test::LawRunner;
 using test::OwnedEvent;
 
-constexpr Duration kSecond = kNanosecondsPerSecond;
-
-std::shared_ptr<const VectorMap> map(const Eigen::MatrixXd& M) {
+std::shared_ptr<const VectorMap> linear_map(const Eigen::MatrixXd& M) {
   return std::make_shared<const AffineMap>(M);
 }
 
@@ -31,9 +31,9 @@ std::shared_ptr<const Plant> plant(const Eigen::Matrix3d& A, const Eigen::Matrix
   description.sensors = {{"a", SensorTiming::kSampled, {false, false}},
                          {"d", SensorTiming::kAtJumps, {false}}};
   PlantMode mode;
-  mode.flow = map(A);
-  mode.jump = map(A_d);
-  mode.outputs = {map(C), map(H_d)};
+  mode.flow = linear_map(A);
+  mode.jump = linear_map(A_d);
+  mode.outputs = {linear_map(C), linear_map(H_d)};
   description.modes = {mode};
   return std::make_shared<const Plant>(description);
 }

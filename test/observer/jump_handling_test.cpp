@@ -8,14 +8,14 @@
 #include "sampled_data_observers/runtime/estimator.h"
 #include "support/law_runner.h"
 #include "support/random_events.h"
+#include "support/stamps.h"
 
 namespace sampled_data_observers {
 namespace {
 
+using test::kSecond;
+using test::kStart;
 using test::LawRunner;
-
-constexpr Duration kSecond = kNanosecondsPerSecond;
-constexpr Stamp kStart = 1000 * kSecond;
 
 Estimator::Options options() {
   Estimator::Options result;

@@ -12,13 +12,13 @@
 #include "sampled_data_observers/runtime/estimator.h"
 #include "support/allocation_counter.h"
 #include "support/random_events.h"
+#include "support/stamps.h"
 
 namespace sampled_data_observers {
 namespace {
 
+using test::kStart;
 using test::OwnedEvent;
-
-constexpr Stamp kStart = 1000 * kNanosecondsPerSecond;
 
 /// Two oscillators about the same rest x = (1, 0), which has the output 1: ẋ = A_q (x − (1, 0)).
 Eigen::Matrix2d A(int mode) {
@@ -64,8 +64,8 @@ std::shared_ptr<const VectorMap> formulas(const std::vector<std::string>& texts)
                                                std::vector<NamedExpression>{}, expressions);
 }
 
-struct Body {
-  explicit Body(std::shared_ptr<const ObserverLaw> of)
+struct ModalBody {
+  explicit ModalBody(std::shared_ptr<const ObserverLaw> of)
       : law(std::move(of)), state(law->state_size()), workspace(law->workspace_size()) {
     law->initialize(state.data());
   }
@@ -88,7 +88,8 @@ TEST(SwitchedFlowBasedTest, TheErrorFollowsTheModesMatrices) {
   // The plant rests, so holding y_c is exact: ė = (A_q − L_q H) e.
   SwitchedGains gains;
   gains.L_c = {{gain(2.0, 0.5)}, {gain(3.0, -1.0)}};
-  Body body(std::make_shared<const SwitchedObserver>(context(oscillators({kContinuous})), gains));
+  ModalBody body(
+      std::make_shared<const SwitchedObserver>(context(oscillators({kContinuous})), gains));
   Eigen::Vector2d e = body.x() - kRest;
   const double initial = e.norm();
   const Eigen::RowVector2d H(1.0, 0.0);
@@ -113,7 +114,8 @@ TEST(SwitchedFlowBasedTest, TheErrorFollowsTheModesMatrices) {
 TEST(SwitchedFlowBasedTest, FlowsAsThePlantBeforeTheFirstOutput) {
   SwitchedGains gains;
   gains.L_c = {{gain(2.0, 0.5)}, {gain(3.0, -1.0)}};
-  Body body(std::make_shared<const SwitchedObserver>(context(oscillators({kContinuous})), gains));
+  ModalBody body(
+      std::make_shared<const SwitchedObserver>(context(oscillators({kContinuous})), gains));
   body.flow(0.75);
   const double c = std::cos(0.75);
   const double s = std::sin(0.75);
@@ -129,7 +131,7 @@ TEST(SwitchedJumpBasedTest, TheGainIsThatOfTheModeLeftAndOfTheTimeInIt) {
   SwitchedGains gains;
   gains.L_d = {{formulas({"1", "0"}), formulas({"0", "0"})},
                {formulas({"tau", "tau^2"}), formulas({"exp(tau)", "-1"})}};
-  Body body(std::make_shared<const SwitchedObserver>(context(plant), gains));
+  ModalBody body(std::make_shared<const SwitchedObserver>(context(plant), gains));
   body.flow(0.3);
   body.take(EventKind::kJump, 0, {7.0, 7.0}, 2.0);
   EXPECT_NEAR(7.0, body.x()(0), 1e-14);
@@ -149,10 +151,10 @@ TEST(SwitchedJumpBasedTest, OutputsAsSamplesOfEqualStampCountAsThoseInTheEvent) 
                {formulas({"1", "1"}), formulas({"1", "1"})}};
   const auto law =
       std::make_shared<const SwitchedObserver>(context(oscillators({kAtJumps, kAtJumps})), gains);
-  Body together(law);
-  Body apart(law);
-  Body half(law);
-  for (Body* body : {&together, &apart, &half}) body->flow(0.4);
+  ModalBody together(law);
+  ModalBody apart(law);
+  ModalBody half(law);
+  for (ModalBody* body : {&together, &apart, &half}) body->flow(0.4);
   together.take(EventKind::kJump, 0, {0.3, -0.6}, 2.0);
   apart.take(EventKind::kJump, 0, {}, 2.0);
   half.take(EventKind::kJump, 0, {}, 2.0);
@@ -178,7 +180,7 @@ TEST_P(SwitchedProjectionTest, MeetsTheOutputAndDoesNotIncreaseTheMetric) {
   plant.modes[0].outputs[0] = output(0.6, -1.7);
   SwitchedGains gains;
   gains.P = {metric(), std::nullopt};
-  Body body(std::make_shared<const SwitchedObserver>(context(plant), gains));
+  ModalBody body(std::make_shared<const SwitchedObserver>(context(plant), gains));
   const Eigen::RowVector2d H(0.6, -1.7);
   std::mt19937_64 generator(5);
   std::uniform_real_distribution<double> value(-5.0, 5.0);
@@ -219,7 +221,7 @@ std::shared_ptr<const SwitchedObserver> everything() {
                                                   gains);
 }
 
-Estimator::Options options() {
+Estimator::Options options_of_modes() {
   Estimator::Options result;
   result.history = {10 * kNanosecondsPerSecond, 1000};
   result.sampling = {1, 1};
@@ -227,7 +229,7 @@ Estimator::Options options() {
 }
 
 TEST(SwitchedObserverTest, AnUnknownModeIsRejected) {
-  Estimator estimator(everything(), options());
+  Estimator estimator(everything(), options_of_modes());
   const auto jump = [&](Stamp stamp, double label) {
     return estimator.submit({stamp, EventKind::kJump, 0, nullptr, 0, 0, label}, stamp).outcome;
   };
@@ -255,7 +257,7 @@ TEST(SwitchedObserverTest, TheEstimateDependsOnEventsNotOnTheirArrival) {
   const Stamp end = kStart + kNanosecondsPerSecond;
   Eigen::VectorXd first;
   for (int order = 0; order < 6; ++order) {
-    Estimator estimator(everything(), options());
+    Estimator estimator(everything(), options_of_modes());
     Estimate estimate = estimator.make_estimate();
     const std::size_t before = test::allocations();
     for (const OwnedEvent& event : events) {

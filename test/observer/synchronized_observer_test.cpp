@@ -8,15 +8,15 @@
 #include "sampled_data_observers/runtime/estimator.h"
 #include "support/law_runner.h"
 #include "support/random_events.h"
+#include "support/stamps.h"
 
 namespace sampled_data_observers {
 namespace {
 
+using test::kSecond;
+using test::kStart;
 using test::LawRunner;
 using test::OwnedEvent;
-
-constexpr Duration kSecond = kNanosecondsPerSecond;
-constexpr Stamp kStart = 1000 * kSecond;
 
 std::shared_ptr<const VectorMap> map(const Eigen::MatrixXd& M) {
   return std::make_shared<const AffineMap>(M);

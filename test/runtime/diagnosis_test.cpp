@@ -6,10 +6,12 @@
 #include <cmath>
 #include <limits>
 
+#include "support/stamps.h"
+
 namespace sampled_data_observers {
 namespace {
 
-constexpr Duration kSecond = kNanosecondsPerSecond;
+using test::kSecond;
 
 /// Names found in a finding's message, all of which must be there.
 void expect(HealthLevel level, const std::vector<const char*>& parts, const Finding& finding) {

@@ -9,14 +9,14 @@
 #include "sampled_data_observers/observer/plant_observer.h"
 #include "support/allocation_counter.h"
 #include "support/random_events.h"
+#include "support/stamps.h"
 
 namespace sampled_data_observers {
 namespace {
 
+using test::kSecond;
+using test::kStart;
 using test::OwnedEvent;
-
-constexpr Stamp kStart = 1'600'000'000'000'000'000;
-constexpr Duration kSecond = kNanosecondsPerSecond;
 
 class EstimatorTest : public ::testing::Test {
  protected:

@@ -8,7 +8,7 @@
 namespace sampled_data_observers {
 namespace {
 
-constexpr Stamp kStart = 1000 * kNanosecondsPerSecond;
+constexpr Stamp kFirst = 1000 * kNanosecondsPerSecond;
 constexpr double kGravity = 9.81;
 
 /// A ball that falls from 5 m and keeps 0.8 of its speed at each impact.
@@ -41,7 +41,7 @@ TEST_P(BallTest, JumpsAtTheTimesOfTheClosedFormUpToItsZenoLimit) {
   for (long double flight = time; flight >= 1e-6L; ++expected) {
     ASSERT_LT(expected, jumps.size());
     EXPECT_NEAR(static_cast<double>(time * 1e9L),
-                static_cast<double>(jumps[expected].stamp - kStart), 2.0)
+                static_cast<double>(jumps[expected].stamp - kFirst), 2.0)
         << expected;
     ASSERT_EQ(1u, jumps[expected].values.size());
     EXPECT_NEAR(static_cast<double>(-speed), jumps[expected].values[0], 1e-9);
@@ -64,7 +64,7 @@ TEST(JumpSimulationTest, ABallOnTheGroundRisesBeforeItCanJump) {
   Simulator simulator(test::parse_scenario(text));
   const auto jumps = test::on_topic(simulator, test::run(simulator), "jumps");
   ASSERT_FALSE(jumps.empty());
-  EXPECT_NEAR(2.0 * 3.0 / kGravity, to_seconds(jumps[0].stamp - kStart), 2e-9);
+  EXPECT_NEAR(2.0 * 3.0 / kGravity, to_seconds(jumps[0].stamp - kFirst), 2e-9);
 }
 
 TEST(JumpSimulationTest, AJumpEventIsReleasedWhenItArrives) {
@@ -140,7 +140,7 @@ TEST(JumpSimulationTest, AtOneStampComesTheInputThenTheJumpThenTheMeasurements) 
   const auto messages = test::run(simulator);
   const auto jumps = test::on_topic(simulator, messages, "jumps");
   ASSERT_EQ(2u, jumps.size());
-  EXPECT_EQ(kStart + 2 * kNanosecondsPerSecond, jumps[0].stamp);
+  EXPECT_EQ(kFirst + 2 * kNanosecondsPerSecond, jumps[0].stamp);
   EXPECT_EQ(5, jumps[0].mode);
   EXPECT_EQ(1, jumps[1].mode);
   // x(2-) = 1 + 2 = 3; the jump from mode 1 sets 100; then x' = -u: x(4) = 100 - 3 - 4.

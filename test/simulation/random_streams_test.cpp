@@ -6,11 +6,12 @@
 
 #include "simulation/delivery.h"
 #include "simulation/schedule.h"
+#include "support/stamps.h"
 
 namespace sampled_data_observers {
 namespace {
 
-constexpr Duration kSecond = kNanosecondsPerSecond;
+using test::kSecond;
 
 TEST(RandomNumbersTest, StreamsDifferBySeedAndNameAndAreTheSameOtherwise) {
   const auto first = [](std::uint64_t seed, const std::string& name) {
