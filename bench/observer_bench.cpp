@@ -125,6 +125,25 @@ void Rewind(benchmark::State& state) {
   }
 }
 
+/// Takes in the newest sample, whose stamp `state.range(0)` samples share, for n = 4.
+void SharedStamp(benchmark::State& state) {
+  const auto law = example_law(4);
+  Timeline timeline(law, {1000 * kNanosecondsPerSecond, 2000});
+  Stamp stamp = kStart;
+  std::int64_t of_stamp = 0;
+  const auto insert = [&] {
+    if (++of_stamp > state.range(0)) {
+      of_stamp = 1;
+      stamp += kStep;
+    }
+    const auto y = static_cast<double>(of_stamp);
+    benchmark::DoNotOptimize(timeline.insert({stamp, EventKind::kSample, 0, &y, 1}).previous);
+  };
+  for (int i = 0; i < 4000; ++i) insert();
+  const Allocations allocations(state);
+  for (auto _ : state) insert();
+}
+
 void Sizes(benchmark::internal::Benchmark* benchmark) {
   for (const int n : {2, 4, 6, 15}) benchmark->Arg(n);
 }
@@ -141,6 +160,7 @@ BENCHMARK(EigenExponentialFlow)->Apply(Sizes);
 BENCHMARK(BareSample)->Apply(Sizes);
 BENCHMARK(Sample)->Apply(Sizes);
 BENCHMARK(Rewind)->Apply(SizesAndDepths);
+BENCHMARK(SharedStamp)->Arg(1)->Arg(10)->Arg(100)->Arg(1000);
 
 }  // namespace
 }  // namespace sampled_data_observers

@@ -24,6 +24,23 @@ bool is_usable(const Timeline::ConstStateRef& state) {
 
 constexpr Stamp kNever = std::numeric_limits<Stamp>::min();
 
+/// The last position up to `end` where `holds`, which is so at all before it; 0 where it is so at
+/// none. Most are at the end or nearly so: the search begins there, in steps that double.
+template <class Predicate>
+std::size_t last_where(std::size_t end, const Predicate& holds) {
+  std::size_t low = end;
+  std::size_t high = end + 1;
+  for (std::size_t step = 1; low > 0 && !holds(low); step *= 2) {
+    high = low;
+    low -= std::min(low, step);
+  }
+  while (high - low > 1) {
+    const std::size_t middle = low + (high - low) / 2;
+    (holds(middle) ? low : high) = middle;
+  }
+  return low;
+}
+
 }  // namespace
 
 Timeline::Timeline(std::shared_ptr<const HybridSystem> system, Limits limits)
@@ -71,8 +88,8 @@ Timeline::InsertReport Timeline::insert(const Event& event) {
 }
 
 Timeline::Query Timeline::state_at(Stamp at, StateRef state, EventCounts& counts) const {
-  std::size_t position = size_;
-  while (position > 0 && stamp(position) > at) --position;
+  const std::size_t position =
+      last_where(size_, [&](std::size_t candidate) { return stamp(candidate) <= at; });
   if (position == 0) {
     if (base_ == Base::kInitial) return size_ == 0 ? Query::kNoEvent : Query::kBeforeStart;
     if (stamp(0) > at) {
@@ -134,10 +151,9 @@ std::optional<Stamp> Timeline::earliest_insertion() const {
 
 /// The position behind the base and all events that come before `event` or equal it.
 std::size_t Timeline::position_after(const Event& event) const {
-  // Most events are the newest or nearly so: a search from the end beats a bisection.
-  std::size_t position = size_;
-  while (position > 0 && compare(slot(position).event, event) > 0) --position;
-  return position + 1;
+  return 1 + last_where(size_, [&](std::size_t position) {
+           return compare(slot(position).event, event) <= 0;
+         });
 }
 
 bool Timeline::is_before_window(Stamp at) const {
@@ -248,9 +264,9 @@ std::optional<Eigen::Index> Timeline::family_of(const Event& event) const {
 std::optional<Stamp> Timeline::previous(std::size_t position, const Event& event) const {
   const std::optional<Eigen::Index> family = family_of(event);
   if (!family) return std::nullopt;
-  --position;
-  while (position > 0 && stamp(position) == event.stamp) --position;
-  const Stamp newest = newest_(*family, static_cast<Eigen::Index>(order(position)));
+  const std::size_t before = last_where(
+      position - 1, [&](std::size_t candidate) { return stamp(candidate) < event.stamp; });
+  const Stamp newest = newest_(*family, static_cast<Eigen::Index>(order(before)));
   return newest == kNever ? std::nullopt : std::make_optional(newest);
 }
 

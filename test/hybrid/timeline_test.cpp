@@ -300,6 +300,19 @@ TEST_F(TimelineTest, AnOverflowingFlowHoldsTheLastFiniteState) {
   EXPECT_EQ(3.0, recovered.state.front());
 }
 
+TEST_F(TimelineTest, ThePreviousOneIsThatOfAnEarlierStamp) {
+  Timeline timeline = make();
+  for (int i = 0; i < 9; ++i) {
+    EXPECT_FALSE(timeline.insert(sample(kStart, i).view()).previous) << i;
+  }
+  const OwnedEvent jump{kStart + 1, EventKind::kJump, 0, {}};
+  timeline.insert(jump.view());
+  for (const int i : {4, 3, 5, 2, 6, 1, 7}) {
+    EXPECT_EQ(kStart, *timeline.insert(sample(kStart + 2, i).view()).previous) << i;
+  }
+  EXPECT_EQ(kStart + 2, *timeline.insert(sample(kStart + 3).view()).previous);
+}
+
 TEST_F(TimelineTest, NothingIsAllocatedAfterConstruction) {
   if (!test::allocations_are_counted()) GTEST_SKIP() << "a sanitizer owns the allocator";
   std::mt19937_64 generator(3);
