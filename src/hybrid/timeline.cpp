@@ -98,40 +98,44 @@ Timeline::Query Timeline::state_at(Stamp at, StateRef state, EventCounts& counts
   }
   state = state_after(position);
   counts = slot(position).counts;
-  flow_from(position, at - stamp(position), state);
-  if (is_usable(state)) return Query::kOk;
+  const Duration duration = at - stamp(position);
+  flow_from(position, duration, state);
+  if (is_usable(state)) {
+    return duration == 0 && slot(position).held ? Query::kHeld : Query::kOk;
+  }
   state = state_after(position);
-  system_->hold(state.data());
+  system_->hold(duration, state.data());
   return Query::kHeld;
 }
 
-void Timeline::restart(Stamp stamp, ConstStateRef state) {
+void Timeline::restart(Stamp stamp, ConstStateRef state, bool held) {
   size_ = 0;
-  set_base(Base::kRestart, stamp);
+  set_base(Base::kRestart, stamp, held);
   state_after(0) = state;
 }
 
-void Timeline::rebase(Stamp at, ConstStateRef state) {
+void Timeline::rebase(Stamp at, ConstStateRef state, bool held) {
   std::size_t forgotten = 0;
   while (forgotten < size_ && stamp(forgotten + 1) <= at) ++forgotten;
   first_ = ring_index(forgotten);
   size_ -= forgotten;
-  set_base(Base::kRestart, at);
+  set_base(Base::kRestart, at, held);
   state_after(0) = state;
   for (std::size_t position = 1; position <= size_; ++position) apply(position);
 }
 
 void Timeline::clear() {
   size_ = 0;
-  set_base(Base::kInitial, 0);
+  set_base(Base::kInitial, 0, false);
   system_->initialize(state_after(0).data());
 }
 
 /// A base that nothing came before; its state is still to be set.
-void Timeline::set_base(Base base, Stamp stamp) {
+void Timeline::set_base(Base base, Stamp stamp, bool held) {
   base_ = base;
   slot(0).event.stamp = stamp;
   slot(0).counts = EventCounts{};
+  slot(0).held = held;
   newest_.col(static_cast<Eigen::Index>(order(0))).setConstant(kNever);
   cursor_.origin.reset();
 }
@@ -231,11 +235,13 @@ Effect Timeline::reset(std::size_t position) {
   };
   const auto hold = [&] {
     state = state_after(position - 1);
-    system_->hold(state.data());
+    system_->hold(duration, state.data());
   };
   flow();
   const bool flow_is_finite = is_usable(state);
   if (!flow_is_finite) hold();
+  // A flow over no time proves nothing.
+  slot(position).held = duration > 0 ? !flow_is_finite : slot(position - 1).held;
   const Effect effect = system_->reset(event, state.data(), workspace_.data());
   if (!took_effect(effect) || is_usable(state)) return effect;
   if (flow_is_finite) {
@@ -244,7 +250,7 @@ Effect Timeline::reset(std::size_t position) {
     hold();
   }
   // The plant has jumped all the same.
-  if (event.kind == EventKind::kJump) system_->hold(state.data());
+  if (event.kind == EventKind::kJump) system_->distrust(state.data());
   return Effect::kNotFinite;
 }
 

@@ -113,7 +113,7 @@ void GatedSamples::begin_anew(double* state, double* workspace) const {
   observer().keep_held(observer().held_part(before), state);
   observer().keep_mode(observer().mode_of(before), state);
   // Nobody vouches for this start.
-  law().hold(state);
+  law().distrust(state);
 }
 
 }  // namespace sampled_data_observers

@@ -84,7 +84,7 @@ VectorSlot PlantObserver::constants(Eigen::Index entries) {
 
 TimerSlot PlantObserver::timer() {
   assert(!is_built());
-  return timers_.emplace_back(state_layout().timer());
+  return state_layout().timer();
 }
 
 Eigen::Index PlantObserver::event_size(EventKind kind, std::size_t sensor) const {

@@ -91,7 +91,7 @@ void PlantObserver::flow(Duration duration, double* state, double* workspace) co
   } else {
     exact_flows_[regime(now)].apply(duration, state, inputs_.of(state), flowed_.of(workspace));
   }
-  for (const TimerSlot& timer : timers_) timer.advance(duration, state);
+  advance_timers(duration, state);
   complete(now, state, workspace);
 }
 

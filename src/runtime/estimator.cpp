@@ -198,6 +198,7 @@ bool Estimator::prepare_restart(Estimator& from, Stamp stamp) {
   law_->initialize(restart_state_.data());
   Estimate& before = from.before_restart_;
   const Timeline::Query query = from.timeline_.state_at(stamp, before.state, before.counts);
+  before.held = query == Timeline::Query::kHeld;
   if (query != Timeline::Query::kOk && query != Timeline::Query::kHeld) return false;
   const PlantObserver& observer = law_->observer();
   const PlantObserver& previous = from.law_->observer();
@@ -244,7 +245,7 @@ void Estimator::begin_at(const Event& sample) {
 void Estimator::resume(Stamp stamp) {
   const Timeline::Query query = timeline_.state_at(stamp, restart_state_, before_restart_.counts);
   if (query != Timeline::Query::kOk && query != Timeline::Query::kHeld) return;
-  timeline_.restart(stamp, restart_state_);
+  timeline_.restart(stamp, restart_state_, query == Timeline::Query::kHeld);
 }
 
 void Estimator::take_over(Estimator& other, Stamp stamp) {
@@ -256,7 +257,7 @@ void Estimator::take_over(Estimator& other, Stamp stamp) {
   const double* before = other.before_restart_.state.data();
   law_->keep_bound({other.law_->error_bound(before), other.law_->bound_loss(before)},
                    restart_state_.data());
-  timeline_.restart(stamp, restart_state_);
+  timeline_.restart(stamp, restart_state_, other.before_restart_.held);
 }
 
 void Estimator::clear() {

@@ -202,7 +202,7 @@ initial_estimate: {p: 1}
   EXPECT_EQ(Timeline::Query::kHeld, estimator.estimate_at(kStart + 900 * kSecond, estimate));
   EXPECT_EQ(kInfinity, law->error_bound(estimate.state.data()));
   sample(kStart + 1000 * kSecond);
-  EXPECT_EQ(Timeline::Query::kOk, estimator.estimate_at(kStart + 1000 * kSecond, estimate));
+  EXPECT_EQ(Timeline::Query::kOk, estimator.estimate_at(kStart + 1000 * kSecond + 1, estimate));
   EXPECT_EQ(kInfinity, law->error_bound(estimate.state.data()));
 }
 

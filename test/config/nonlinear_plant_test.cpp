@@ -50,8 +50,10 @@ TEST_F(TankTest, AFlowWithoutValueHoldsTheLastEstimateUntilASampleMendsIt) {
   EXPECT_TRUE(estimate_.held);
   EXPECT_EQ(1.0, estimate_.state(0));
   EXPECT_EQ(EventOutcome::kUsed, sample(2.0, std::log(0.5)));
-  EXPECT_EQ(Timeline::Query::kOk, estimate(2.0));
+  EXPECT_EQ(Timeline::Query::kHeld, estimate(2.0));  // nothing was flowed from it yet
   EXPECT_NEAR(1.0 + 0.5 * std::log(0.5), estimate_.state(0), 1e-15);
+  EXPECT_EQ(Timeline::Query::kOk, estimate(2.001));
+  EXPECT_FALSE(estimate_.held);
 }
 
 TEST_F(TankTest, ASampleWhoseOutputHasNoValueHasNoEffectAndIsReported) {

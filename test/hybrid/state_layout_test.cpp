@@ -65,5 +65,18 @@ TEST(StateLayoutTest, ATimerStaysAtItsLimit) {
   EXPECT_TRUE(timer.is_over(&state));
 }
 
+TEST(StateLayoutTest, TimePassesForAllTimers) {
+  StateLayout layout;
+  const TimerSlot free = layout.timer();
+  const NumberSlot number = layout.number();
+  const TimerSlot limited = layout.timer(10.0);
+  const StateLayout copy = layout;
+  double state[] = {1.0, 2.0, 3.0};
+  copy.advance_timers(9, state);
+  EXPECT_EQ(10.0, free.of(state));
+  EXPECT_EQ(2.0, number.of(state));
+  EXPECT_EQ(10.0, limited.of(state));
+}
+
 }  // namespace
 }  // namespace sampled_data_observers

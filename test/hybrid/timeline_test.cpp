@@ -280,24 +280,66 @@ TEST_F(TimelineTest, WhatWouldOverflowIsSkippedAndTheEstimateStaysFinite) {
   EXPECT_LT(after.samples, after.events);  // what had no effect is an event, but no sample
 }
 
-TEST_F(TimelineTest, AnOverflowingFlowHoldsTheLastFiniteState) {
+/// x' = 100 x: a flow of some seconds is not finite.
+std::shared_ptr<const HybridSystem> overflowing_law() {
   LinearPlantDescription plant;
   plant.state_names = {"x"};
   plant.A = Eigen::MatrixXd::Constant(1, 1, 100.0);
   plant.B = Eigen::MatrixXd::Zero(1, 0);
   plant.sensors = {{"s", Eigen::MatrixXd::Identity(1, 1), {false}}};
-  const auto law = std::make_shared<const ConstantGainObserver>(
+  return std::make_shared<const ConstantGainObserver>(
       ObserverContext{make_linear_plant(plant), Eigen::VectorXd::Zero(1), Eigen::VectorXd::Zero(0)},
       std::vector<Eigen::MatrixXd>{Eigen::MatrixXd::Identity(1, 1)});
+}
+
+TEST_F(TimelineTest, AnOverflowingFlowHoldsTheLastFiniteState) {
+  const auto law = overflowing_law();
   Timeline timeline(law, {kSecond, 10});
   timeline.insert(sample(kStart, 2.0).view());
   const Snapshot held = snapshot(timeline, *law, kStart + 100 * kSecond);
   EXPECT_EQ(Timeline::Query::kHeld, held.query);
   EXPECT_EQ(2.0, held.state.front());
   EXPECT_EQ(Effect::kApplied, timeline.insert(sample(kStart + 100 * kSecond, 3.0).view()).effect);
-  const Snapshot recovered = snapshot(timeline, *law, kStart + 100 * kSecond);
-  EXPECT_EQ(Timeline::Query::kOk, recovered.query);
-  EXPECT_EQ(3.0, recovered.state.front());
+  const Snapshot corrected = snapshot(timeline, *law, kStart + 100 * kSecond);
+  EXPECT_EQ(Timeline::Query::kHeld, corrected.query);
+  EXPECT_EQ(3.0, corrected.state.front());
+  EXPECT_EQ(Timeline::Query::kOk, snapshot(timeline, *law, kStart + 100 * kSecond + 1).query);
+}
+
+TEST_F(TimelineTest, AStateIsHeldUntilAFlowOverSomeTimeSucceeds) {
+  const auto law = overflowing_law();
+  const auto query = [&](const Timeline& timeline, Stamp stamp) {
+    return snapshot(timeline, *law, stamp).query;
+  };
+  const Stamp quiet = kStart + 100 * kSecond;
+  for (const std::size_t max_events : {1u, 2u, 10u}) {
+    Timeline timeline(law, {1000 * kSecond, max_events});
+    timeline.insert(sample(kStart).view());
+    EXPECT_EQ(Timeline::Query::kOk, query(timeline, kStart));
+    for (int i = 0; i < 3; ++i) timeline.insert(sample(quiet, i).view());
+    EXPECT_EQ(Timeline::Query::kHeld, query(timeline, quiet)) << max_events;
+    EXPECT_EQ(Timeline::Query::kOk, query(timeline, quiet + 1)) << max_events;
+    timeline.insert(sample(quiet + 1).view());
+    EXPECT_EQ(Timeline::Query::kOk, query(timeline, quiet + 1)) << max_events;
+    timeline.insert(sample(quiet + 100 * kSecond).view());
+    EXPECT_EQ(Timeline::Query::kHeld, query(timeline, quiet + 100 * kSecond)) << max_events;
+  }
+}
+
+TEST_F(TimelineTest, AStartFromAHeldStateIsHeld) {
+  const auto law = overflowing_law();
+  Timeline timeline(law, {1000 * kSecond, 10});
+  timeline.insert(sample(kStart).view());
+  Eigen::VectorXd state(law->state_size());
+  law->initialize(state.data());
+  for (const bool held : {true, false}) {
+    const auto expected = held ? Timeline::Query::kHeld : Timeline::Query::kOk;
+    timeline.restart(kStart, state, held);
+    EXPECT_EQ(expected, snapshot(timeline, *law, kStart).query);
+    timeline.rebase(kStart + 1, state, held);
+    EXPECT_EQ(expected, snapshot(timeline, *law, kStart + 1).query);
+    EXPECT_EQ(Timeline::Query::kOk, snapshot(timeline, *law, kStart + 2).query);
+  }
 }
 
 TEST_F(TimelineTest, ThePreviousOneIsThatOfAnEarlierStamp) {

@@ -66,10 +66,17 @@ class HybridSystem {
   /// Flow map: carries the state over `duration` >= 0.
   virtual void flow(Duration duration, double* state, double* workspace) const = 0;
 
-  /// Told where the state is held instead of flowed, since the flow is not finite, and where a jump
-  /// of the plant had no effect, since its result is not: for systems that keep what must not
+  /// In place of a flow over `duration` >= 0 that is not finite: all timers in the state move, and
+  /// nothing else; nobody vouches for it any more.
+  void hold(Duration duration, double* state) const {
+    advance_timers(duration, state);
+    distrust(state);
+  }
+
+  /// Told where nobody vouches for the state any more, since it was held, or since a jump of the
+  /// plant had no effect because its result is not finite: for systems that keep what must not
   /// outlive that.
-  virtual void hold(double* state) const { static_cast<void>(state); }
+  virtual void distrust(double* state) const { static_cast<void>(state); }
 
   /// Reset map of an event that it accepts. Where the event must not take effect, nothing
   /// changes but what the system remembers of such events. Never returns kNotFinite.
@@ -92,6 +99,10 @@ class HybridSystem {
 
   /// What a system keeps in its state is handed out here while it is built.
   StateLayout& state_layout() { return state_layout_; }
+  /// Lets time pass for all timers that it handed out, those of the system within among them.
+  void advance_timers(Duration duration, double* state) const {
+    state_layout_.advance_timers(duration, state);
+  }
   /// What its maps need beside the state, likewise: a part of the workspace that no other one
   /// shares.
   VectorSlot scratch(Eigen::Index entries) { return workspace_layout_.vector(entries); }

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <vector>
 
 #include "sampled_data_observers/hybrid/time.h"
 
@@ -173,7 +174,12 @@ class StateLayout {
   ModeSlot mode() { return choice<std::size_t>(); }
   /// A timer; without a limit, it goes on for ever.
   TimerSlot timer(double limit = std::numeric_limits<double>::infinity()) {
-    return {take(1), limit};
+    return timers_.emplace_back(take(1), limit);
+  }
+
+  /// Lets time pass for all timers, `duration` >= 0.
+  void advance_timers(Duration duration, double* state) const {
+    for (const TimerSlot& timer : timers_) timer.advance(duration, state);
   }
 
   /// All that was handed out from a size on.
@@ -190,6 +196,7 @@ class StateLayout {
   }
 
   Eigen::Index size_ = 0;
+  std::vector<TimerSlot> timers_;  ///< all that were handed out
 };
 
 }  // namespace sampled_data_observers

@@ -35,8 +35,9 @@ struct EventCounts {
 /// event, or less when more than `max_events` events lie in it.
 ///
 /// A flow or reset whose result is not finite, or beyond 1e150, is skipped: the last good state is
-/// held. That, too, is a function of the events alone. A sample or jump without effect counts as an
-/// event only.
+/// held, and only its timers go on. A state counts as held until a flow over some time succeeds
+/// again, whatever events do to it. That, too, is a function of the events alone. A sample or jump
+/// without effect counts as an event only.
 ///
 /// Everything is allocated by the constructor; afterwards nothing is.
 class Timeline {
@@ -78,7 +79,8 @@ class Timeline {
   /// Whether there is a state at a stamp.
   enum class Query {
     kOk,
-    kHeld,         ///< the flow to this stamp is not finite: the last finite state
+    kHeld,         ///< the flow to this stamp is not finite: the last finite state, with what
+                   ///< events of this stamp made of it
     kNoEvent,      ///< nothing was taken in yet
     kBeforeStart,  ///< before the first event or the restart
     kBeforeWindow  ///< older than the history window
@@ -104,11 +106,12 @@ class Timeline {
   Query state_at(Stamp stamp, StateRef state, EventCounts& counts) const;
 
   /// Forgets all events; `state` holds at `stamp`, and events up to `stamp` are before the window.
-  void restart(Stamp stamp, ConstStateRef state);
+  /// It may be one that was `held`.
+  void restart(Stamp stamp, ConstStateRef state, bool held = false);
 
   /// Forgets the events up to `stamp`, at which `state` holds, and applies the later ones again.
-  /// They are counted from `stamp` on.
-  void rebase(Stamp stamp, ConstStateRef state);
+  /// They are counted from `stamp` on. The state may be one that was `held`.
+  void rebase(Stamp stamp, ConstStateRef state, bool held = false);
 
   /// Forgets everything: as new.
   void clear();
@@ -127,6 +130,8 @@ class Timeline {
     Event event;
     EventCounts counts;
     Effect effect = Effect::kApplied;
+    /// Whether the state was held and not flowed to the event.
+    bool held = false;
   };
 
   /// What the base is.
@@ -152,7 +157,7 @@ class Timeline {
     return states_.col(static_cast<Eigen::Index>(order(position)));
   }
 
-  void set_base(Base base, Stamp stamp);
+  void set_base(Base base, Stamp stamp, bool held);
   std::size_t position_after(const Event& event) const;
   bool is_before_window(Stamp stamp) const;
   void open_position(std::size_t position, const Event& event);

@@ -24,7 +24,7 @@ class StateBound {
   /// Takes over what is known of the error of the estimate of a state that begins.
   virtual void keep_bound(const PublishedBound& bound, double* state) const = 0;
 
-  /// Nobody vouches for the estimate any more: see HybridSystem::hold().
+  /// Nobody vouches for the estimate any more: see HybridSystem::distrust().
   virtual void give_up(double* state) const = 0;
 
  protected:
@@ -70,7 +70,7 @@ class ObserverLaw : public HybridSystem {
     if (bound_ != nullptr) bound_->keep_bound(bound, state);
   }
 
-  void hold(double* state) const final {
+  void distrust(double* state) const final {
     if (bound_ != nullptr) bound_->give_up(state);
   }
 

@@ -232,7 +232,6 @@ class PlantObserver : public ObserverLaw {
   VectorSlot held_part_;  ///< inputs_ and y_c_known_
   ModeSlot mode_;
   TimerSlot since_jump_;
-  std::vector<TimerSlot> timers_;  ///< all
 
   // Where outputs are measured at jumps: those of the last jump, the mode after it, and a snapshot
   // of the state before it.

@@ -32,7 +32,8 @@ struct Estimate {
   Eigen::VectorXd state;
   /// The events with a stamp up to this one.
   EventCounts counts;
-  /// Whether the last finite state is given because the flow to `stamp` is not finite.
+  /// Whether the last finite state is given, with what events of `stamp` made of it, because the
+  /// flow to `stamp` is not finite.
   bool held = false;
 };
 
