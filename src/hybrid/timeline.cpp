@@ -46,9 +46,9 @@ std::size_t last_where(std::size_t end, const Predicate& holds) {
 Timeline::Timeline(std::shared_ptr<const HybridSystem> system, Limits limits)
     : system_(std::move(system)),
       limits_(checked(limits)),
-      // Two slots more than events kept: the base, and a new event, which is put in order before
-      // the oldest goes.
-      slots_(limits.max_events + 2),
+      // Three slots more than events kept: the base, and a new event with its companion, which are
+      // put in order before the oldest go.
+      slots_(limits.max_events + 3),
       values_(system_->max_event_size(), static_cast<Eigen::Index>(slots_.size())),
       states_(system_->state_size(), static_cast<Eigen::Index>(slots_.size())),
       newest_(static_cast<Eigen::Index>(system_->sensors()) + 1,
@@ -63,7 +63,13 @@ Timeline::Timeline(std::shared_ptr<const HybridSystem> system, Limits limits)
   clear();
 }
 
-Timeline::InsertReport Timeline::insert(const Event& event) {
+Timeline::InsertReport Timeline::insert(const Event& event) { return take_in(event, nullptr); }
+
+Timeline::InsertReport Timeline::insert(const Event& event, const Event& companion) {
+  return take_in(event, &companion);
+}
+
+Timeline::InsertReport Timeline::take_in(const Event& event, const Event* companion) {
   InsertReport report;
   const std::size_t position = position_after(event);
   report.previous = previous(position, event);
@@ -78,9 +84,12 @@ Timeline::InsertReport Timeline::insert(const Event& event) {
   open_position(position, event);
   report.rewound = size_ - position;
   report.insertion = report.rewound == 0 ? Insertion::kAppended : Insertion::kRewound;
-  apply(position);
+  if (companion != nullptr) {
+    const std::size_t behind = position_after(*companion);
+    if (compare(slot(behind - 1).event, *companion) != 0) open_position(behind, *companion);
+  }
+  for (std::size_t later = position; later <= size_; ++later) apply(later);
   report.effect = slot(position).effect;
-  for (std::size_t later = position + 1; later <= size_; ++later) apply(later);
 
   const Stamp horizon = stamp(size_) - limits_.history;
   while (size_ > limits_.max_events || stamp(1) < horizon) forget_oldest();

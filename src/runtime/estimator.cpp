@@ -42,6 +42,15 @@ EventOutcome outcome_of(const Timeline::InsertReport& report) {
                                                             : EventOutcome::kUsedLate;
 }
 
+/// Of a jump that came at `now`.
+Event release_of(const Event& jump, Stamp now) {
+  Event event;
+  event.stamp = std::max(jump.stamp, jump.release > 0 ? jump.release : now);
+  event.kind = EventKind::kRelease;
+  event.delay = event.stamp - jump.stamp;
+  return event;
+}
+
 Event rejection(EventKind of, Stamp stamp) {
   Event event;
   event.stamp = stamp;
@@ -104,17 +113,16 @@ EventReport Estimator::submit(const Event& event, Stamp now) {
   if (event.kind == EventKind::kSample || event.kind == EventKind::kOutput) {
     report.innovation = innovation_of(event);
   }
-  const Timeline::InsertReport inserted = timeline_.insert(event);
+  // Even where the jump has no effect now: whether it has is known for sure only when all events
+  // are.
+  const bool is_released = event.kind == EventKind::kJump && law_->delays_jumps();
+  const Timeline::InsertReport inserted =
+      is_released ? timeline_.insert(event, release_of(event, now)) : timeline_.insert(event);
   report.outcome = outcome_of(inserted);
   report.rewound = inserted.rewound;
   report.effect = inserted.effect;
-  // Even where the jump has no effect now: whether it has is known for sure only when all events
-  // are.
   const bool is_in_log = inserted.insertion == Timeline::Insertion::kAppended ||
                          inserted.insertion == Timeline::Insertion::kRewound;
-  if (is_in_log && event.kind == EventKind::kJump && law_->delays_jumps()) {
-    insert_release(event.stamp, std::max(event.stamp, event.release > 0 ? event.release : now));
-  }
   if (report.outcome == EventOutcome::kTooOld) note_rejected(event, now);
   const bool tells_input = is_in_log && event.kind == EventKind::kInput;
   if (tells_input && event.stamp > input_unknown_since_.value_or(event.stamp)) {
@@ -164,14 +172,6 @@ PublishedBound Estimator::bound(const Estimate& estimate, Stamp now) const {
     return {std::numeric_limits<double>::infinity(), BoundLoss::kStillOnTheirWay};
   }
   return {value, law_->bound_loss(state)};
-}
-
-void Estimator::insert_release(Stamp jump, Stamp release) {
-  Event event;
-  event.stamp = release;
-  event.kind = EventKind::kRelease;
-  event.delay = release - jump;
-  timeline_.insert(event);
 }
 
 Timeline::Query Estimator::estimate_at(Stamp stamp, Estimate& estimate) const {
@@ -245,7 +245,7 @@ void Estimator::begin_at(const Event& sample) {
 void Estimator::resume(Stamp stamp) {
   const Timeline::Query query = timeline_.state_at(stamp, restart_state_, before_restart_.counts);
   if (query != Timeline::Query::kOk && query != Timeline::Query::kHeld) return;
-  timeline_.restart(stamp, restart_state_, query == Timeline::Query::kHeld);
+  timeline_.rebase(stamp, restart_state_, query == Timeline::Query::kHeld);
 }
 
 void Estimator::take_over(Estimator& other, Stamp stamp) {

@@ -342,6 +342,22 @@ TEST_F(TimelineTest, AStartFromAHeldStateIsHeld) {
   }
 }
 
+TEST_F(TimelineTest, TwoEventsAreTakenInTogetherOrNotAtAll) {
+  const OwnedEvent first{kStart, EventKind::kJump, 0, {}};
+  Timeline full = make(10 * kSecond, 1);
+  Timeline all = make();
+  for (Timeline* timeline : {&full, &all}) {
+    timeline->insert(sample(kStart + kSecond).view());
+    const Timeline::InsertReport report = timeline->insert(first.view(), sample(kStart).view());
+    EXPECT_EQ(Timeline::Insertion::kRewound, report.insertion);
+    EXPECT_EQ(1u, report.rewound);
+  }
+  EXPECT_EQ(Timeline::Insertion::kBeforeWindow,
+            full.insert(first.view(), sample(kStart + 2 * kSecond).view()).insertion);
+  EXPECT_TRUE(snapshot(all, *law_, kStart + 3 * kSecond) ==
+              snapshot(full, *law_, kStart + 3 * kSecond));
+}
+
 TEST_F(TimelineTest, ThePreviousOneIsThatOfAnEarlierStamp) {
   Timeline timeline = make();
   for (int i = 0; i < 9; ++i) {

@@ -101,6 +101,11 @@ class Timeline {
   /// @pre system.accepts(event); all values finite
   InsertReport insert(const Event& event);
 
+  /// The same for an event and one that is to follow it: both are taken in, or none. The report is
+  /// about the first one.
+  /// @pre as of insert() for both; compare(event, companion) < 0
+  InsertReport insert(const Event& event, const Event& companion);
+
   /// The state at `stamp` from all events with a stamp up to and including it.
   /// `state` (system.state_size() entries) and `counts` are written for kOk and kHeld only.
   Query state_at(Stamp stamp, StateRef state, EventCounts& counts) const;
@@ -157,6 +162,7 @@ class Timeline {
     return states_.col(static_cast<Eigen::Index>(order(position)));
   }
 
+  InsertReport take_in(const Event& event, const Event* companion);
   void set_base(Base base, Stamp stamp, bool held);
   std::size_t position_after(const Event& event) const;
   bool is_before_window(Stamp stamp) const;

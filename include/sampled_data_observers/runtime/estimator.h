@@ -114,7 +114,6 @@ class Estimator {
 
  private:
   std::optional<EventOutcome> objection(const Event& event, Stamp now) const;
-  void insert_release(Stamp jump, Stamp release);
   void insert_rejected(EventKind kind, Stamp stamp);
   bool prepare_restart(Estimator& from, Stamp stamp);
   void begin(Stamp stamp);
