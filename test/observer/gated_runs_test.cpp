@@ -18,30 +18,6 @@ using test::kSecond;
 using test::kStart;
 using test::OwnedEvent;
 
-/// Narrow gates on all samples of an observer type, which recover by turns in both ways.
-std::shared_ptr<const ObserverLaw> with_gates(const ObserverConfig& config) {
-  Eigen::VectorXd state(config.law->state_size());
-  config.law->initialize(state.data());
-  const bool has_covariance = config.law->observer().covariance(state.data()) != nullptr;
-  std::vector<std::optional<Gate>> gates;
-  bool reset = false;
-  for (const Sensor& sensor : config.plant->sensors()) {
-    gates.emplace_back();
-    if (sensor.timing != SensorTiming::kSampled) continue;
-    Gate gate;
-    gate.recover_after = kSecond / 5;
-    gate.recovery = reset ? Gate::Recovery::kReset : Gate::Recovery::kAccept;
-    if (has_covariance) {
-      gate.mahalanobis = 0.5;
-    } else {
-      gate.innovation = Eigen::VectorXd::Constant(sensor.outputs(), 0.3);
-    }
-    gates.back() = gate;
-    reset = !reset;
-  }
-  return std::make_shared<const GatedSamples>(config.law, gates);
-}
-
 std::vector<std::string> sampled_types() {
   std::vector<std::string> result;
   for (const std::string& type : test::type_examples()) {
@@ -52,7 +28,9 @@ std::vector<std::string> sampled_types() {
 
 class GatedTypeTest : public ::testing::TestWithParam<std::string> {
  protected:
-  GatedTypeTest() : config_(test::read_example(GetParam())), law_(with_gates(config_)) {
+  GatedTypeTest()
+      : config_(test::read_example(GetParam())),
+        law_(std::make_shared<const GatedSamples>(config_.law, test::narrow_gates(config_))) {
     config_.options.history = {100 * kSecond, 500};
   }
 

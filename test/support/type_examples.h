@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "observer/gated_samples.h"
 #include "sampled_data_observers/config/observer_config.h"
 #include "sampled_data_observers/observer/plant_observer.h"
 #include "support/random_events.h"
@@ -16,6 +17,7 @@ inline std::vector<std::string> type_examples() {
   return {"constant_gain",
           "constant_gain_delayed",
           "constant_gain_nonlinear",
+          "constant_gain_roots",
           "high_gain_linear",
           "high_gain_original",
           "high_gain_transformed",
@@ -36,6 +38,30 @@ inline ObserverConfig read_example(const std::string& name) {
   return read_observer_config(
       std::vector<std::string>{std::string(SDO_SOURCE_DIR) + "/test/types/" + name + ".yaml"},
       no_plant_plugins);
+}
+
+/// Narrow gates on all samples of an observer, which recover by turns in both ways.
+inline std::vector<std::optional<Gate>> narrow_gates(const ObserverConfig& config) {
+  Eigen::VectorXd state(config.law->state_size());
+  config.law->initialize(state.data());
+  const bool has_covariance = config.law->observer().covariance(state.data()) != nullptr;
+  std::vector<std::optional<Gate>> gates;
+  bool reset = false;
+  for (const Sensor& sensor : config.plant->sensors()) {
+    gates.emplace_back();
+    if (sensor.timing != SensorTiming::kSampled) continue;
+    Gate gate;
+    gate.recover_after = kNanosecondsPerSecond / 5;
+    gate.recovery = reset ? Gate::Recovery::kReset : Gate::Recovery::kAccept;
+    if (has_covariance) {
+      gate.mahalanobis = 0.5;
+    } else {
+      gate.innovation = Eigen::VectorXd::Constant(sensor.outputs(), 0.3);
+    }
+    gates.back() = gate;
+    reset = !reset;
+  }
+  return gates;
 }
 
 /// `size` events of all channels of a law in [start, start + span], some with equal stamps, no two
