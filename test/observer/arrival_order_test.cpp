@@ -15,23 +15,24 @@
 #include "certificate/certified_gains.h"
 #include "observer/delayed_jumps.h"
 #include "observer/limited_jumps.h"
+#include "support/stamps.h"
 #include "support/type_examples.h"
 
 namespace sampled_data_observers {
 namespace {
 
+using test::kSecond;
+using test::kStart;
 using test::OwnedEvent;
 
 constexpr double kEventSets = 500.0;
 /// In which each set comes, to a log with place for all and to one without.
 constexpr int kOrders = 4;
-constexpr Stamp kStart = 1'600'000'000'000'000'000;
-constexpr Duration kSecond = kNanosecondsPerSecond;
 constexpr Duration kSpan = kSecond / 2;
 /// Longer than any flow that is integrated.
-constexpr Duration kQuiet = 2000 * kSecond;
-constexpr Stamp kNow = kStart + 3 * kQuiet;
-const Timeline::Limits kRoomy = {10 * kQuiet, 1000};
+constexpr Duration kBeyondHorizon = 2000 * kSecond;
+constexpr Stamp kNow = kStart + 3 * kBeyondHorizon;
+const Timeline::Limits kRoomy = {10 * kBeyondHorizon, 1000};
 
 /// Observers with a bound on their error.
 const char* const kCertified[] = {
@@ -139,7 +140,7 @@ class ArrivalOrderTest : public ::testing::TestWithParam<std::string> {
         test::random_events_for(*config_.law, generator_, size, kStart, kSpan);
     const Stamp quiet_from = in_one_of(3) ? kStart + any(static_cast<int>(kSpan)) : kNow;
     for (OwnedEvent& event : events) {
-      if (event.stamp > quiet_from) event.stamp += kQuiet;
+      if (event.stamp > quiet_from) event.stamp += kBeyondHorizon;
       for (double& value : event.values) {
         if (in_one_of(6)) value = in_one_of(2) ? 0.0 : -0.0;
         if (in_one_of(60)) value = in_one_of(2) ? 1e99 : -1e60;
@@ -158,7 +159,7 @@ class ArrivalOrderTest : public ::testing::TestWithParam<std::string> {
 
   /// When a jump takes effect where it is delayed: all of one stamp at once.
   static Stamp release_of(const OwnedEvent& jump) {
-    constexpr Duration kDelays[] = {0, kSpan / 20, kSpan / 3, kQuiet};
+    constexpr Duration kDelays[] = {0, kSpan / 20, kSpan / 3, kBeyondHorizon};
     return jump.stamp + kDelays[jump.stamp % 4];
   }
 

@@ -7,15 +7,16 @@
 #include "observer/time_varying_gain_observer.h"
 #include "plant/linear_plant.h"
 #include "sampled_data_observers/config/yaml_file.h"
+#include "support/stamps.h"
 #include "support/type_examples.h"
 
 namespace sampled_data_observers {
 namespace {
 
+using test::kSecond;
+using test::kStart;
 using test::OwnedEvent;
 
-constexpr Stamp kStart = 1'600'000'000'000'000'000;
-constexpr Duration kSecond = kNanosecondsPerSecond;
 constexpr Duration kQuiet = 120 * kSecond;
 
 /// An observer type of test/types with a horizon below kQuiet, and what else is given.

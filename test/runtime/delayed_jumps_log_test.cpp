@@ -6,14 +6,14 @@
 #include "sampled_data_observers/runtime/estimator.h"
 #include "support/allocation_counter.h"
 #include "support/random_events.h"
+#include "support/stamps.h"
 
 namespace sampled_data_observers {
 namespace {
 
+using test::kSecond;
+using test::kStart;
 using test::OwnedEvent;
-
-constexpr Stamp kStart = 1'600'000'000'000'000'000;
-constexpr Duration kSecond = kNanosecondsPerSecond;
 
 class DelayedJumpsLogTest : public ::testing::Test {
  protected:
