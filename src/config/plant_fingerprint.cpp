@@ -17,12 +17,19 @@ using Skipped = std::set<std::string>;
 const Skipped kNotThePlant = {"integration"};
 const Skipped kNotTheMeasurement = {"gate", "source"};
 
+/// In quotes; those within are doubled, so that no name can pass for several.
+std::string quoted(const std::string& text) {
+  std::string result = "'";
+  for (const char c : text) result += c == '\'' ? std::string("''") : std::string(1, c);
+  return result + "'";
+}
+
 /// A number in one way of writing; another text as it is.
 std::string canonical_scalar(const std::string& text) {
   std::istringstream in(text);
   in.imbue(std::locale::classic());
   double value = 0.0;
-  if (!(in >> value) || in.peek() != std::char_traits<char>::eof()) return "'" + text + "'";
+  if (!(in >> value) || in.peek() != std::char_traits<char>::eof()) return quoted(text);
   std::ostringstream out;
   out.imbue(std::locale::classic());
   out << std::setprecision(17) << value + 0.0;  // no negative zero
@@ -51,7 +58,7 @@ void write(const ConfigNode& node, const Skipped& skipped, std::string& text) {
       text += '{';
       for (const auto& [key, value] : sorted) {
         if (skipped.count(key) > 0) continue;
-        text += "'" + key + "':";
+        text += quoted(key) + ":";
         write(*value, {}, text);
         text += ',';
       }
@@ -71,7 +78,7 @@ std::string plant_fingerprint(const ConfigNode& root) {
     for (const auto& [name, sensor] : sensors->entries) sorted[name] = &sensor;
   }
   for (const auto& [name, sensor] : sorted) {
-    text += "'" + name + "':";
+    text += quoted(name) + ":";
     write(*sensor, kNotTheMeasurement, text);
   }
   const boost::uuids::name_generator_sha1 generator(boost::uuids::ns::url());

@@ -7,6 +7,8 @@
 #include <csignal>
 #include <stdexcept>
 
+#include "files/output_file.h"
+
 namespace sampled_data_observers {
 namespace {
 
@@ -29,8 +31,9 @@ std::string quoted(const std::string& text) {
 void run_plot_program(const std::string& program, const std::string& json,
                       const std::string& path) {
   std::signal(SIGPIPE, SIG_IGN);
+  OutputFile picture(path);
   FILE* pipe = popen((quoted(SDO_PYTHON) + " " + quoted(folder_of_this_program() + "/" + program) +
-                      " " + quoted(path))
+                      " " + quoted(picture.path()) + " " + quoted(path))
                          .c_str(),
                      "w");
   if (pipe == nullptr) throw std::runtime_error(path + ": can't start " + program);
@@ -39,6 +42,7 @@ void run_plot_program(const std::string& program, const std::string& json,
     throw std::runtime_error(path + ": " + program +
                              " failed (see above; it needs python3-matplotlib)");
   }
+  picture.finish();
 }
 
 }  // namespace sampled_data_observers

@@ -1,14 +1,31 @@
 #include "console/tool_main.h"
 
+#include <cerrno>
+#include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <exception>
+#include <iostream>
 
 namespace sampled_data_observers {
+namespace {
+
+bool is_all_printed() {
+  errno = 0;
+  std::cout.flush();
+  return std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good();
+}
+
+}  // namespace
 
 int tool_main(const char* name, int (*tool)(int argc, char** argv), int argc,
               char** argv) noexcept {
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit on file sizes is a fault of writing
   try {
-    return tool(argc, argv);
+    const int status = tool(argc, argv);
+    if (is_all_printed()) return status;
+    std::fprintf(stderr, "%s: standard output: can't be written: %s\n", name,
+                 errno != 0 ? std::strerror(errno) : "something is missing in it");
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s: %s\n", name, error.what());
   } catch (...) {

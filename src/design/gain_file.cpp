@@ -7,6 +7,7 @@
 
 #include "certificate/proof_fingerprint.h"
 #include "design/csv.h"
+#include "design/yaml_text.h"
 
 namespace sampled_data_observers {
 namespace {
@@ -50,7 +51,8 @@ void write_claim(const Design& design, const GainFileOrigin& origin, std::ostrea
   const Theorem& theorem = *certificate.theorem;
   out << "  theorem: " << theorem.name() << '\n'
       << "  guarantee: \"" << theorem.guarantee() << "\"\n"
-      << "  plant: {file: \"" << origin.plant_file << "\", hash: " << origin.plant_hash << "}\n"
+      << "  plant: {file: " << yaml_scalar(origin.plant_file) << ", hash: " << origin.plant_hash
+      << "}\n"
       << "  T1: " << shortest_decimal(subject.T1) << "\n"
       << "  T2: " << shortest_decimal(subject.T2) << '\n';
   if (subject.plant.N.cols() > 0) out << "  N: " << nested_lists(subject.plant.N) << '\n';
@@ -119,7 +121,7 @@ void write_gain_file(const Design& design, const GainFileOrigin& origin, std::os
   const Certificate& certificate = design.certificate;
   const CertificateSubject& subject = certificate.subject;
   const Theorem& theorem = *certificate.theorem;
-  out << "# Gains with a certificate, made by\n#   " << origin.command << "\n"
+  out << "# Gains with a certificate, made by\n#   " << yaml_comment(origin.command) << "\n"
       << "observer: " << design.observer_type << "\n\n"
       << "sampling: {T1: " << shortest_decimal(subject.T1)
       << ", T2: " << shortest_decimal(subject.T2) << "}  # s\n\n"

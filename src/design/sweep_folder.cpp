@@ -19,6 +19,7 @@
 #include <utility>
 
 #include "design/csv.h"
+#include "files/output_file.h"
 
 namespace sampled_data_observers {
 namespace {
@@ -64,8 +65,6 @@ std::vector<std::string> parameters_of(const SweepRequest& request) {
   return {names.begin(), names.end()};
 }
 
-std::string system_message() { return std::strerror(errno); }
-
 /// Waits a little for the workers of an interrupted sweep to end: they hold its files open.
 bool lock(int file) {
   for (int i = 0; i < 20; ++i) {
@@ -99,7 +98,7 @@ SweepFolder::SweepFolder(std::string path, const SweepRequest& request,
   if (fault) throw SweepFolderError(path_ + ": can't make this folder: " + fault.message());
   const std::string name = path_ + "/points.csv";
   file_ = ::open(name.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
-  if (file_ < 0) throw SweepFolderError(name + ": can't be written: " + system_message());
+  if (file_ < 0) throw OutputError(name, errno);
   try {
     if (!lock(file_)) throw SweepFolderError(path_ + ": another sweep is writing to this folder");
     read_points(header_of(request, plant_hash));
@@ -116,10 +115,8 @@ void SweepFolder::read_points(const std::string& header) {
   const std::string start = header + '\n' + csv_line(columns()) + '\n';
   const std::string text = text_of(name);
   if (text.size() < start.size() && start.compare(0, text.size(), text) == 0) {
-    if (::ftruncate(file_, 0) != 0 ||
-        ::write(file_, start.data(), start.size()) != static_cast<ssize_t>(start.size())) {
-      throw SweepFolderError(name + ": can't be written: " + system_message());
-    }
+    if (::ftruncate(file_, 0) != 0) throw OutputError(name, errno);
+    append(start);
     return;
   }
   if (text.compare(0, start.size(), start) != 0) {
@@ -142,6 +139,7 @@ void SweepFolder::read_points(const std::string& header) {
       }
       point.seconds = number(fields.at(3 + parameters_.size()));
       point.message = fields.at(4 + parameters_.size());
+      forget(point);
       points_.push_back(std::move(point));
     } catch (const std::logic_error&) {
       throw SweepFolderError(name + ": not a line of a sweep: '" + text.substr(at, end - at) +
@@ -149,8 +147,13 @@ void SweepFolder::read_points(const std::string& header) {
     }
   }
   if (::ftruncate(file_, static_cast<off_t>(at)) != 0) {
-    throw SweepFolderError(name + ": can't be written: " + system_message());
+    throw OutputError(name, errno);
   }
+}
+
+void SweepFolder::append(const std::string& lines) {
+  const int fault = write_fully(file_, lines);
+  if (fault != 0) throw OutputError(path_ + "/points.csv", fault);
 }
 
 std::vector<std::string> SweepFolder::columns() const {
@@ -177,6 +180,13 @@ bool SweepFolder::has(const std::string& method, double T2) const {
   });
 }
 
+void SweepFolder::forget(const SweepPoint& point) {
+  const auto is_same = [method = point.method, T2 = point.T2](const SweepPoint& other) {
+    return other.method == method && other.T2 == T2;
+  };
+  points_.erase(std::remove_if(points_.begin(), points_.end(), is_same), points_.end());
+}
+
 void SweepFolder::add(const SweepPoint& point, const Design* design, const GainFileOrigin& origin) {
   if (design != nullptr) {
     std::ostringstream text;
@@ -187,9 +197,7 @@ void SweepFolder::add(const SweepPoint& point, const Design* design, const GainF
   fields.push_back(shortest_decimal(std::round(1e3 * point.seconds) / 1e3));
   fields.push_back(point.message);
   const std::string line = csv_line(fields) + '\n';
-  if (::write(file_, line.data(), line.size()) != static_cast<ssize_t>(line.size())) {
-    throw SweepFolderError(path_ + "/points.csv: can't be written: " + system_message());
-  }
+  append(line);
   points_.push_back(point);
 }
 
@@ -214,14 +222,7 @@ std::string SweepFolder::gain_file(const SweepPoint& design) {
 }
 
 void SweepFolder::write_whole(const std::string& name, const std::string& text) const {
-  const std::string path = path_ + '/' + name;
-  const std::string unfinished = path + ".unfinished";
-  std::ofstream file(unfinished);
-  file << text;
-  file.close();
-  std::error_code fault;
-  if (file) fs::rename(unfinished, path, fault);
-  if (!file || fault) throw SweepFolderError(path + ": can't be written");
+  write_output(path_ + '/' + name, text);
 }
 
 }  // namespace sampled_data_observers

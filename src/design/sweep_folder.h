@@ -20,11 +20,13 @@ class SweepFolderError : public std::runtime_error {
 ///   curve.csv    the curves (see best_curves()), in the same order whatever came first
 ///   gains/       the design of each point as gain file
 /// A point is added by one write, after its gain file is complete. What an interruption left of a
-/// line is removed when the folder is opened again.
+/// line is removed when the folder is opened again. Of several lines for a point the last one
+/// counts.
 class SweepFolder {
  public:
   /// Makes or opens the folder, for this process alone.
-  /// @throws SweepFolderError where it holds another request, is in use or can't be written.
+  /// @throws SweepFolderError where it holds another request, or is in use.
+  /// @throws OutputError where it can't be written, as add() and write_curve().
   SweepFolder(std::string path, const SweepRequest& request, const std::string& plant_hash);
   ~SweepFolder();
   SweepFolder(const SweepFolder&) = delete;
@@ -33,16 +35,21 @@ class SweepFolder {
   const std::vector<SweepPoint>& points() const { return points_; }
   bool has(const std::string& method, double T2) const;
 
+  /// To have a point tried again, though points.csv has it.
+  void forget(const SweepPoint& point);
+
   /// @param design  null where there is none
   void add(const SweepPoint& point, const Design* design, const GainFileOrigin& origin);
 
   void write_curve() const;
 
-  /// The gain file of a design, as the folder names it.
+  /// The gain file of a design, and what else is written, as the folder names it.
   static std::string gain_file(const SweepPoint& design);
+  static std::vector<std::string> tables() { return {"points.csv", "curve.csv"}; }
 
  private:
   void read_points(const std::string& header);
+  void append(const std::string& lines);
   std::vector<std::string> columns() const;
   std::vector<std::string> fields_of(const SweepPoint& point) const;
   void write_whole(const std::string& name, const std::string& text) const;

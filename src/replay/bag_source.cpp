@@ -38,14 +38,6 @@ void open_for_reading(rosbag::Bag& bag, const std::string& path) {
   }
 }
 
-void open_for_writing(rosbag::Bag& bag, const std::string& path) {
-  try {
-    bag.open(path, rosbag::bagmode::Write);
-  } catch (const std::exception& error) {
-    throw ReplayError(path + ": can't be written: " + error.what());
-  }
-}
-
 std::vector<std::pair<std::string, std::string>> bag_topics(const rosbag::Bag& bag) {
   rosbag::View view(bag);
   std::map<std::string, std::string> topics;

@@ -22,9 +22,6 @@ class ReplayError : public std::runtime_error {
 /// Opens a bag for reading. @throws ReplayError when it can't be read.
 void open_for_reading(rosbag::Bag& bag, const std::string& path);
 
-/// Opens a bag for writing. @throws ReplayError when it can't be written.
-void open_for_writing(rosbag::Bag& bag, const std::string& path);
-
 /// Datatypes by topic, for all topics of a bag.
 std::vector<std::pair<std::string, std::string>> bag_topics(const rosbag::Bag& bag);
 

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "console/json_text.h"
 #include "console/plot_program.h"
 
 namespace sampled_data_observers {
@@ -24,7 +25,7 @@ void draw_plot(const ReplaySummary& summary, const std::string& path) {
                                   {"samples", to_json(plot.samples)},
                                   {"estimate", to_json(plot.estimate)}});
   }
-  run_plot_program("plot_replay", json.dump(), path);
+  run_plot_program("plot_replay", json_text(json), path);
 }
 
 }  // namespace sampled_data_observers

@@ -14,6 +14,7 @@
 #include "messages/runtime_messages.h"
 #include "messages/time_conversion.h"
 #include "replay/bag_source.h"
+#include "replay/bag_writer.h"
 #include "replay/comparison.h"
 #include "replay/summary_recorder.h"
 #include "replay/thinning.h"
@@ -60,7 +61,7 @@ class Replay {
       if (!bound.is_recorded) recorder_->add_missing_topic(bound.channel.name, bound.topic);
     }
     truth_estimate_ = runtime_.estimator().make_estimate();
-    if (!options.output.empty()) open_for_writing(output_, options.output);
+    if (!options.output.empty()) output_.emplace(options.output);
   }
 
   ReplaySummary run() {
@@ -86,7 +87,7 @@ class Replay {
     if (clock_) publish_due(end + std::max(config_.publish_delay, config_.options.latency));
     if (clock_) compare_waiting(*clock_);
     for (EventIntake& intake : intakes_) intake.give_up();
-    output_.close();
+    if (output_) output_->finish();
 
     ReplaySummary summary = recorder_->summary();
     summary.bag = options_.bag;
@@ -162,9 +163,9 @@ class Replay {
       intakes_[i].take(instantiate(*channels_[i].source, instance), now, now);
     }
     if (received) publish_due_at(now);
-    if (received && output_.isOpen()) {
-      output_.write(instance.getTopic(), instance.getTime(), instance,
-                    instance.getConnectionHeader());
+    if (received && output_) {
+      output_->write(instance.getTopic(), instance.getTime(), instance,
+                     instance.getConnectionHeader());
     }
     compare_waiting(now);
     if (instance.getTopic() == truth_.topic) compare(instance);
@@ -180,7 +181,7 @@ class Replay {
                                    ? runtime_.receive(event, *clock_)
                                    : runtime_.reject(event, outcome_of(reading), *clock_);
     write(channel, event, report, missing, *clock_, status_);
-    if (output_.isOpen()) output_.write(resolved("events"), to_ros_time(*clock_), status_);
+    if (output_) output_->write(resolved("events"), to_ros_time(*clock_), status_);
     recorder_->add_event(event, report, status_.reason);
     const bool is_measurement =
         event.kind == EventKind::kSample || event.kind == EventKind::kOutput;
@@ -208,9 +209,9 @@ class Replay {
       write(runtime_, *estimate, estimate_message_);
       final_is_held_ = estimate->held;
       recorder_->add_estimate(*estimate, runtime_.bound(*estimate).loss);
-      if (output_.isOpen()) {
-        output_.write(resolved("estimate"), to_ros_time(estimate->stamp + config_.publish_delay),
-                      estimate_message_);
+      if (output_) {
+        output_->write(resolved("estimate"), to_ros_time(estimate->stamp + config_.publish_delay),
+                       estimate_message_);
       }
     }
   }
@@ -292,7 +293,7 @@ class Replay {
   const ReplayOptions& options_;
   ObserverRuntime runtime_;
   rosbag::Bag bag_;
-  rosbag::Bag output_;
+  std::optional<BagWriter> output_;
   std::shared_ptr<TransformBuffer> transforms_;
   std::vector<std::string> transform_topics_;
   std::vector<BagChannel> channels_;

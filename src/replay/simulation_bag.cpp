@@ -1,13 +1,12 @@
 #include "replay/simulation_bag.h"
 
 #include <ros/names.h>
-#include <rosbag/bag.h>
 
 #include <vector>
 
 #include "console/progress_bar.h"
 #include "messages/simulated_messages.h"
-#include "replay/bag_source.h"
+#include "replay/bag_writer.h"
 
 namespace sampled_data_observers {
 
@@ -19,8 +18,7 @@ SimulationSummary record_simulation(const Scenario& scenario, const std::string&
     topics.push_back(ros::names::resolve(channel.topic));
     summary.messages[topics.back()] = 0;
   }
-  rosbag::Bag bag;
-  open_for_writing(bag, path);
+  BagWriter bag(path);
   ProgressBar progress("simulate", static_cast<std::size_t>(scenario.duration));
   while (const std::optional<SimulatedMessage> simulated = simulator.next()) {
     const std::string& topic = topics[simulated->channel];
@@ -30,7 +28,7 @@ SimulationSummary record_simulation(const Scenario& scenario, const std::string&
     ++summary.messages[topic];
     progress.advance_to(static_cast<std::size_t>(simulator.time()));
   }
-  bag.close();
+  bag.finish();
   summary.jumps = simulator.jumps();
   summary.end = simulator.describe_end();
   return summary;

@@ -1,12 +1,12 @@
 #include "replay/summary.h"
 
 #include <algorithm>
-#include <fstream>
 #include <iomanip>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "replay/bag_source.h"
+#include "console/json_text.h"
+#include "files/output_file.h"
 
 namespace sampled_data_observers {
 namespace {
@@ -154,10 +154,7 @@ void write_json(const ReplaySummary& summary, const std::string& path) {
   json["bag_seconds"] = summary.bag_seconds;
   json["wall_seconds"] = summary.wall_seconds;
 
-  std::ofstream file(path);
-  file << std::setw(2) << json << "\n";
-  file.close();
-  if (!file) throw ReplayError(path + ": can't be written");
+  write_output(path, json_text(json, 2) + "\n");
 }
 
 }  // namespace sampled_data_observers

@@ -4,7 +4,6 @@
 #include <ros/init.h>
 
 #include <array>
-#include <filesystem>
 #include <iostream>
 #include <map>
 #include <optional>
@@ -13,6 +12,7 @@
 
 #include "console/command_line.h"
 #include "console/option_checks.h"
+#include "console/output_checks.h"
 #include "console/tool_main.h"
 #include "console/usage_error.h"
 #include "messages/plant_plugins.h"
@@ -50,11 +50,6 @@ std::map<std::string, std::string> parse_fields(const std::vector<std::string>& 
   return fields;
 }
 
-bool is_same_file(const std::string& a, const std::string& b) {
-  std::error_code none;  // a file that does not exist is no other file
-  return std::filesystem::equivalent(a, b, none);
-}
-
 /// What all arguments together ask for.
 /// @throws UsageError where they contradict each other
 sdo::ReplayOptions options_of(const Arguments& arguments) {
@@ -74,11 +69,11 @@ sdo::ReplayOptions options_of(const Arguments& arguments) {
   options.from = arguments.from.value_or(options.from);
   options.to = arguments.to.value_or(options.to);
   if (options.from > options.to) throw sdo::UsageError("--from", "must not be later than --to");
-  for (const std::string& written : {options.output, arguments.json, arguments.plot}) {
-    if (is_same_file(written, options.bag)) {
-      throw sdo::UsageError(written, "is the bag that is read: it would be lost");
-    }
-  }
+  std::vector<sdo::GivenFile> inputs = sdo::given_files("CONFIG", arguments.config);
+  inputs.push_back({"BAG", options.bag});
+  sdo::refuse_overwriting(
+      inputs,
+      {{"--output", options.output}, {"--json", arguments.json}, {"--plot", arguments.plot}});
   return options;
 }
 

@@ -9,6 +9,7 @@
 
 #include "console/command_line.h"
 #include "console/option_checks.h"
+#include "console/output_checks.h"
 #include "console/tool_main.h"
 #include "messages/plant_plugins.h"
 #include "replay/simulation_bag.h"
@@ -26,6 +27,8 @@ struct Arguments {
 };
 
 int simulate(const Arguments& arguments) {
+  sdo::refuse_overwriting(sdo::given_files("SCENARIO", arguments.scenario),
+                          {{"--output", arguments.output}});
   sdo::Scenario scenario = sdo::read_scenario(arguments.scenario, sdo::load_plant_plugin);
   if (arguments.seed) scenario.seed = *arguments.seed;
   if (arguments.duration) scenario.duration = sdo::from_seconds(*arguments.duration);

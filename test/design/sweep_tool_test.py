@@ -118,6 +118,38 @@ class SweepTest(ToolTest):
         self.assertEqual(self.rows_finished("resumed"), 15)
         self.assertEqual(self.read("resumed/curve.csv"), self.read("whole/curve.csv"))
 
+    def test_computes_anew_what_was_lost_of_finished_points(self):
+        options = ["--T2", "0.2", "0.4", "--points", "5"]
+        self.sweep("out", *options)
+        curve = self.read("out/curve.csv")
+        files = [self.path("out/" + row["gains"]) for row in csv.DictReader(curve.splitlines())]
+        texts = [self.read(file) for file in files]
+        os.remove(files[0])
+        os.truncate(files[1], 0)
+        os.truncate(files[2], len(texts[2]) // 2)
+        with open(files[3], "w") as file:
+            file.write(texts[4])  # that of another T2
+        text = self.sweep("out", *options)
+        self.assertEqual(text.count("it was finished, and is computed anew"), 4)
+        for file in files[:4]:
+            self.assertIn("design: " + file, text)
+        self.assertEqual(self.read("out/curve.csv"), curve)
+        for file in files:
+            self.run_tool([DESIGN, "verify", file])
+        # The last line of a point counts.
+        self.assertEqual(self.rows_finished("out"), 9)
+        self.assertNotIn("anew", self.sweep("out", *options))
+        self.assertEqual(self.rows_finished("out"), 9)
+
+    def test_what_is_added_by_others_to_a_gain_file_stays(self):
+        options = ["--T2", "0.2", "0.2", "--points", "1"]
+        self.sweep("out", *options)
+        name = "out/gains/ferrante2019_proposition2_T2_0.2.yaml"
+        with open(self.path(name), "a") as file:
+            file.write("rate: 50\n")
+        self.assertNotIn("anew", self.sweep("out", *options))
+        self.assertTrue(self.read(name).endswith("rate: 50\n"))
+
     def test_refuses_another_request_in_the_same_folder(self):
         options = ["--T2", "0.2", "0.2", "--points", "1"]
         self.sweep("out", *options)

@@ -9,6 +9,7 @@
 #include "config/design_config.h"
 #include "config/law_config.h"
 #include "console/option_checks.h"
+#include "console/output_checks.h"
 #include "design/analysis.h"
 #include "design/assumed_disturbance.h"
 #include "design/request_error.h"
@@ -151,8 +152,15 @@ void print_result(Objective objective, const Design& design) {
 
 void analyze_command(const AnalyzeArguments& arguments, const std::string& command_line) {
   const std::vector<std::string> files = plant_files_of(arguments.gains, arguments.plant);
+  std::vector<GivenFile> inputs = given_files("PLANT", files);
+  inputs.push_back({"GAINS", arguments.gains});
+  refuse_overwriting(inputs, {{"--output", arguments.output}});
   const DesignConfig config = read_design_config(files, load_plant_plugin);
   AnalysisProblem problem = read_problem(arguments, config);
+  GainFileOrigin origin;
+  if (!arguments.output.empty()) {
+    origin = origin_of(arguments.output, files.front(), config.plant_hash, command_line);
+  }
   std::vector<Objective> objectives = {objective_of(arguments.objective)};
   if (arguments.objective.empty()) {
     objectives = analysis_objectives(*problem.theorem, problem.subject);
@@ -191,7 +199,7 @@ void analyze_command(const AnalyzeArguments& arguments, const std::string& comma
   }
   print_run_time_figures(*main, assumed.assumptions);
   if (arguments.output.empty()) return;
-  save_gain_file(*main, files.front(), config.plant_hash, command_line, arguments.output);
+  save_gain_file(*main, origin, arguments.output);
   std::printf("written to %s\n", arguments.output.c_str());
 }
 

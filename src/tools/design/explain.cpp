@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "config/design_config.h"
+#include "console/json_text.h"
 #include "console/option_checks.h"
+#include "console/output_checks.h"
 #include "console/plot_program.h"
 #include "design/design_method.h"
 #include "design/explanation.h"
@@ -48,10 +50,11 @@ void draw(const CertificateSubject& subject, const ExplainArguments& arguments) 
   if (subject.T2 > 0.0) {
     json["band"] = {{"low", subject.T1}, {"high", subject.T2}, {"label", "[T1, T2]"}};
   }
-  run_plot_program("plot_curves", json.dump(), arguments.plot);
+  run_plot_program("plot_curves", json_text(json), arguments.plot);
 }
 
 void explain_command(const ExplainArguments& arguments) {
+  refuse_overwriting(given_files("PLANT", arguments.files), {{"--plot", arguments.plot}});
   CertificateSubject subject = read_design_config(arguments.files, load_plant_plugin).subject;
   if (arguments.T2) {
     subject.T2 = *arguments.T2;

@@ -3,11 +3,12 @@
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 #include <stdexcept>
 
 #include "console/usage_error.h"
+#include "design/yaml_text.h"
+#include "files/output_file.h"
 #include "sampled_data_observers/config/config_section.h"
 #include "sampled_data_observers/config/yaml_file.h"
 
@@ -65,23 +66,21 @@ Objective objective_of(const std::string& name) {
 GainFileOrigin origin_of(const std::string& output, const std::string& plant_file,
                          const std::string& plant_hash, const std::string& command_line) {
   const fs::path folder = fs::absolute(output).parent_path();
-  return {fs::relative(fs::absolute(plant_file), folder).string(), plant_hash, command_line,
-          today()};
+  const std::string name = fs::relative(fs::absolute(plant_file), folder).string();
+  try {
+    yaml_scalar(name);
+  } catch (const std::invalid_argument& fault) {
+    throw UsageError("PLANT",
+                     std::string(fault.what()) + " in its name, which the gain file gives");
+  }
+  return {name, plant_hash, command_line, today()};
 }
 
-void replace_file(const std::string& path, const std::string& text) {
-  std::ofstream file(path);
-  file << text;
-  file.close();
-  if (!file) throw std::runtime_error("cannot write " + path);
-}
-
-std::string save_gain_file(const Design& design, const std::string& plant_file,
-                           const std::string& plant_hash, const std::string& command_line,
+std::string save_gain_file(const Design& design, const GainFileOrigin& origin,
                            const std::string& output) {
   std::ostringstream text;
-  write_gain_file(design, origin_of(output, plant_file, plant_hash, command_line), text);
-  replace_file(output, text.str());
+  write_gain_file(design, origin, text);
+  write_output(output, text.str());
   return text.str();
 }
 

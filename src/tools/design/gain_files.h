@@ -19,17 +19,14 @@ void assign(const std::string& assignment, Parameters& parameters);
 Objective objective_of(const std::string& name);
 
 /// What a gain file in the folder of `output` says of its plant and of how it was made, today.
+/// @throws UsageError for a plant file whose name YAML can't say.
 GainFileOrigin origin_of(const std::string& output, const std::string& plant_file,
                          const std::string& plant_hash, const std::string& command_line);
 
-/// @throws std::runtime_error where it can't be written
-void replace_file(const std::string& path, const std::string& text);
-
-/// Writes a gain file that names the plant's file as seen from its own folder.
-/// @throws std::runtime_error where it can't be written
+/// Writes a gain file.
+/// @throws OutputError where it can't be written
 /// @return its text
-std::string save_gain_file(const Design& design, const std::string& plant_file,
-                           const std::string& plant_hash, const std::string& command_line,
+std::string save_gain_file(const Design& design, const GainFileOrigin& origin,
                            const std::string& output);
 
 }  // namespace sampled_data_observers

@@ -12,13 +12,16 @@
 #include <vector>
 
 #include "config/design_config.h"
+#include "console/json_text.h"
 #include "console/option_checks.h"
+#include "console/output_checks.h"
 #include "console/plot_program.h"
 #include "console/progress_bar.h"
 #include "design/csv.h"
 #include "design/sweep_folder.h"
 #include "design/workers.h"
 #include "messages/plant_plugins.h"
+#include "tools/design/claims.h"
 #include "tools/design/commands.h"
 #include "tools/design/gain_files.h"
 
@@ -29,6 +32,9 @@ namespace {
 constexpr double kShortest = 0.1;
 /// From this ratio of values on, they are drawn on a logarithmic axis.
 constexpr double kLogarithmicFrom = 8.0;
+
+/// Formats of the curves.
+constexpr std::array<const char*, 2> kPictures = {"png", "svg"};
 
 struct SweepArguments {
   std::vector<std::string> files;
@@ -132,8 +138,8 @@ void draw(const SweepRequest& request, const std::vector<CurvePoint>& curves,
     json["curves"].push_back({{"label", method->name()}, {"x", x}, {"y", y}, {"crosses", crosses}});
   }
   json["logarithmic"] = largest > kLogarithmicFrom * least;
-  for (const char* ending : {"png", "svg"}) {
-    run_plot_program("plot_curves", json.dump(), arguments.output + "/curve." + ending);
+  for (const char* ending : kPictures) {
+    run_plot_program("plot_curves", json_text(json), arguments.output + "/curve." + ending);
   }
 }
 
@@ -159,10 +165,58 @@ void print_summary(const SweepRequest& request, const std::vector<CurvePoint>& c
   }
 }
 
+void refuse_overwriting(const SweepArguments& arguments, const SweepRequest& request) {
+  std::vector<GivenFile> outputs;
+  const auto add = [&](const std::string& name) {
+    outputs.push_back({"--output", arguments.output + "/" + name});
+  };
+  for (const std::string& name : SweepFolder::tables()) add(name);
+  for (const char* ending : kPictures) add(std::string("curve.") + ending);
+  for (const DesignMethod* method : request.methods) {
+    SweepPoint point;
+    point.method = method->name();
+    for (const double T2 : request.T2) {
+      point.T2 = T2;
+      add(SweepFolder::gain_file(point));
+    }
+  }
+  for (const GivenFile& output : outputs) {
+    refuse_overwriting(given_files("PLANT", arguments.files), {output});
+  }
+}
+
+/// Why a gain file is not the one of a point of points.csv; empty where it is.
+std::string what_is_lost(const std::string& gain_file, const SweepPoint& point,
+                         const std::vector<std::string>& plant_files) {
+  try {
+    const Certificate certificate = read_claims(gain_file, plant_files).front().certificate;
+    if (certificate.subject.T2 != point.T2) return gain_file + ": it is for another T2";
+    return all_hold(check(certificate)) ? "" : gain_file + ": its certificate does not hold";
+  } catch (const std::exception& fault) {
+    return fault.what();
+  }
+}
+
+/// What was finished is tried again where its gain file is not what it was.
+void forget_lost_designs(const SweepArguments& arguments, SweepFolder& folder) {
+  const std::vector<SweepPoint> points = folder.points();
+  for (const SweepPoint& point : points) {
+    if (!point.value) continue;
+    const std::string fault = what_is_lost(arguments.output + "/" + SweepFolder::gain_file(point),
+                                           point, arguments.files);
+    if (fault.empty()) continue;
+    std::fprintf(stderr, "design: %s\ndesign: it was finished, and is computed anew\n",
+                 fault.c_str());
+    folder.forget(point);
+  }
+}
+
 void sweep_command(const SweepArguments& arguments, const std::string& command_line) {
   const DesignConfig config = read_design_config(arguments.files, load_plant_plugin);
   const SweepRequest request = request_of(arguments, config);
+  refuse_overwriting(arguments, request);
   SweepFolder folder(arguments.output, request, config.plant_hash);
+  forget_lost_designs(arguments, folder);
   const GainFileOrigin origin = origin_of(arguments.output + "/gains/design.yaml",
                                           arguments.files.front(), config.plant_hash, command_line);
   note_interruptions();

@@ -8,6 +8,7 @@
 
 #include "config/design_config.h"
 #include "console/option_checks.h"
+#include "console/output_checks.h"
 #include "design/analysis.h"
 #include "design/assumed_disturbance.h"
 #include "design/best_design.h"
@@ -166,7 +167,10 @@ void print_how_to_run(const SynthesizeArguments& arguments, const DeclaredAssump
 }
 
 void synthesize_command(const SynthesizeArguments& arguments, const std::string& command_line) {
+  refuse_overwriting(given_files("PLANT", arguments.files), {{"--output", arguments.output}});
   const DesignConfig config = read_design_config(arguments.files, load_plant_plugin);
+  const GainFileOrigin origin =
+      origin_of(arguments.output, arguments.files.front(), config.plant_hash, command_line);
   const DesignMethod* method = find_design_method(arguments.method);
   DesignProblem problem = read_problem(arguments, config, method);
   DesignProblem assumed = problem;
@@ -207,8 +211,7 @@ void synthesize_command(const SynthesizeArguments& arguments, const std::string&
   if (problem.objective != Objective::kMinFinalError) {
     design.for_run_time = prove_for_run_time(design, assumed.assumptions, options);
   }
-  const std::string text = save_gain_file(design, arguments.files.front(), config.plant_hash,
-                                          command_line, arguments.output);
+  const std::string text = save_gain_file(design, origin, arguments.output);
   std::printf("%s\nwritten to %s after %zu attempt%s in %.1f s\n", text.c_str(),
               arguments.output.c_str(), design.attempts, design.attempts == 1 ? "" : "s",
               design.seconds);

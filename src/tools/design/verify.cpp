@@ -7,20 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "config/certificate_config.h"
-#include "config/claim_contradiction.h"
-#include "config/claimed_gains.h"
-#include "config/law_config.h"
-#include "config/plant_fingerprint.h"
 #include "console/option_checks.h"
 #include "console/progress_bar.h"
 #include "design/certificate_proof.h"
 #include "design/gain_file.h"
 #include "design/rigorous_check.h"
-#include "messages/plant_plugins.h"
-#include "sampled_data_observers/config/plant_config.h"
-#include "sampled_data_observers/config/yaml_file.h"
-#include "sampled_data_observers/observer/plant_observer.h"
+#include "files/output_file.h"
+#include "tools/design/claims.h"
 #include "tools/design/commands.h"
 #include "tools/design/gain_files.h"
 
@@ -34,42 +27,6 @@ struct VerifyArguments {
   bool records = false;
   double time_limit = ProofOptions().time_limit;  // [s]
 };
-
-/// The claims of a gain file together with its plant: the one named, or the one given.
-std::vector<CertificateConfig> read_claims(const VerifyArguments& arguments) {
-  const ConfigNode gains = read_yaml_file(arguments.gains);
-  const std::vector<std::string> files = plant_files_of(arguments.gains, arguments.plant);
-  std::vector<ConfigNode> trees;
-  for (const std::string& file : files) trees.push_back(read_yaml_file(file));
-  const ConfigNode plant_tree = merge(trees);
-  ConfigSection plant_root(plant_tree, "");
-  const PlantConfig plant = read_plant(plant_root, load_plant_plugin);
-  ConfigSection root(gains, "");
-  if (!root.has(kCertificate)) {
-    throw root.error(kCertificate, "a gain file with a certificate", "none");
-  }
-  ConfigSection plant_section = plant_root.section("plant");
-  const std::string hash = plant_fingerprint(plant_tree);
-  const LawGains law = read_law(root, plant)->observer().gains();
-  std::vector<CertificateConfig> claims;
-  for (const char* key : {kCertificate, kRunTimeCertificate}) {
-    const auto claim = read_certificate(root, *plant.plant, law, key);
-    if (!claim) continue;
-    if (const auto error = objection_to_gains(root.section("gains"), *claim->certificate.theorem,
-                                              claim->certificate.subject, law)) {
-      throw ConfigError(*error);
-    }
-    ConfigSection section = root.section(key);
-    require_no_contradiction(*plant.plant, claim->certificate.subject.plant.stated, plant_section,
-                             section);
-    if (hash != claim->plant_hash) {
-      throw ConfigError(claim->origin, claim->section + "/plant/hash",
-                        "the fingerprint of " + files.front() + ", " + hash, claim->plant_hash);
-    }
-    claims.push_back(*claim);
-  }
-  return claims;
-}
 
 void verify_in_floating_point(const Certificate& certificate) {
   const auto checks = check(certificate);
@@ -138,12 +95,13 @@ void record_proof(const std::string& file, const CertificateConfig& claim, std::
   } catch (const std::invalid_argument& fault) {
     throw std::runtime_error(file + ": " + claim.section + ": " + fault.what());
   }
-  replace_file(file, recorded);
+  write_output(file, recorded);
   std::printf("recorded in %s\n", file.c_str());
 }
 
 void verify_command(const VerifyArguments& arguments) {
-  for (const CertificateConfig& claim : read_claims(arguments)) {
+  for (const CertificateConfig& claim :
+       read_claims(arguments.gains, plant_files_of(arguments.gains, arguments.plant))) {
     if (claim.section == kRunTimeCertificate) {
       std::printf("for the error bound at run time (%s):\n", kRunTimeCertificate);
     }
