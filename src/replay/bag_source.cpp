@@ -8,6 +8,9 @@
 #include <map>
 
 #include "messages/time_conversion.h"
+#include "replay/bag_check.h"
+#include "replay/bag_records.h"
+#include "replay/message_shape.h"
 
 namespace sampled_data_observers {
 namespace {
@@ -18,21 +21,16 @@ std::string listed(const std::vector<std::pair<std::string, std::string>>& topic
   return text.empty() ? "\n  nothing" : text;
 }
 
-ReplayError other_definition(const rosbag::MessageInstance& instance) {
-  return ReplayError(instance.getTopic() + ": its " + instance.getDataType() +
-                     " was recorded with another definition than this one's");
-}
-
 }  // namespace
 
+BagMessageError::BagMessageError(const rosbag::MessageInstance& instance, const std::string& fault)
+    : ReplayError("the message on " + instance.getTopic() + " received at " +
+                  std::to_string(instance.getTime().toSec()) + " s: " + fault) {}
+
 void open_for_reading(rosbag::Bag& bag, const std::string& path) {
+  require_whole_bag(path);
   try {
     bag.open(path, rosbag::bagmode::Read);
-  } catch (const rosbag::BagUnindexedException&) {
-    throw ReplayError(path +
-                      ": the bag has no index (its recording was cut off, or the file is "
-                      "damaged); try: rosbag reindex " +
-                      path);
   } catch (const std::exception& error) {
     throw ReplayError(path + ": can't be read as a bag: " + error.what());
   }
@@ -47,15 +45,35 @@ std::vector<std::pair<std::string, std::string>> bag_topics(const rosbag::Bag& b
   return {topics.begin(), topics.end()};
 }
 
+std::vector<std::uint8_t> checked_bytes(const rosbag::MessageInstance& instance) {
+  static std::map<std::string, MessageShape> shapes;
+  try {
+    const std::string& type = instance.getDataType();
+    auto shape = shapes.find(type + instance.getMD5Sum());
+    if (shape == shapes.end()) {
+      shape = shapes
+                  .emplace(type + instance.getMD5Sum(),
+                           MessageShape(type, instance.getMessageDefinition()))
+                  .first;
+    }
+    std::vector<std::uint8_t> bytes(instance.size());
+    const auto size = static_cast<std::uint32_t>(bytes.size());
+    ros::serialization::OStream stream(bytes.data(), size);
+    instance.write(stream);
+    shape->second.require(bytes.data(), bytes.size());
+    return bytes;
+  } catch (const std::exception& fault) {
+    throw BagMessageError(instance, fault.what());
+  }
+}
+
 MessagePointer instantiate(const MessageSource& source, const rosbag::MessageInstance& instance) {
   if (instance.getMD5Sum() != source.md5sum()) {
-    throw other_definition(instance);
+    throw BagMessageError(instance, "its " + instance.getDataType() +
+                                        " was recorded with another definition than this one's");
   }
-  std::vector<std::uint8_t> bytes(instance.size());
-  const auto size = static_cast<std::uint32_t>(bytes.size());
-  ros::serialization::OStream stream(bytes.data(), size);
-  instance.write(stream);
-  return source.deserialize(bytes.data(), size);
+  std::vector<std::uint8_t> bytes = checked_bytes(instance);
+  return source.deserialize(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
 }
 
 Reading BagChannel::read(const rosbag::MessageInstance& instance, Event& event) {
@@ -103,8 +121,7 @@ std::vector<std::string> transform_topics() {
 }
 
 void take_transforms(const rosbag::MessageInstance& instance, TransformBuffer& transforms) {
-  const auto message = instance.instantiate<tf2_msgs::TFMessage>();
-  if (!message) throw other_definition(instance);
+  const auto message = instantiate<tf2_msgs::TFMessage>(instance);
   transforms.take(*message, instance.getTopic() == transform_topics().back(),
                   to_stamp(instance.getTime()));
 }

@@ -1,8 +1,12 @@
 #pragma once
 
+#include <ros/message_traits.h>
+#include <ros/serialization.h>
 #include <rosbag/bag.h>
 #include <rosbag/message_instance.h>
 
+#include <boost/make_shared.hpp>
+#include <cstdint>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -19,8 +23,27 @@ class ReplayError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Opens a bag for reading. @throws ReplayError when it can't be read.
+/// A message of a bag that can't be read; the message says which, but not of which bag.
+class BagMessageError : public ReplayError {
+ public:
+  BagMessageError(const rosbag::MessageInstance& instance, const std::string& fault);
+};
+
+/// Opens a bag for reading. @throws ReplayError when it can't be read as a whole.
 void open_for_reading(rosbag::Bag& bag, const std::string& path);
+
+/// Does what reads a bag's messages; the bag's path precedes what faults say of these.
+/// @throws ReplayError
+template <class Action>
+void name_in_faults(const std::string& path, const Action& action) {
+  try {
+    action();
+  } catch (const BagMessageError& fault) {
+    throw ReplayError(path + ": " + fault.what());
+  } catch (const rosbag::BagException& fault) {
+    throw ReplayError(path + ": can't be read as a bag: " + fault.what());
+  }
+}
 
 /// Datatypes by topic, for all topics of a bag.
 std::vector<std::pair<std::string, std::string>> bag_topics(const rosbag::Bag& bag);
@@ -42,6 +65,25 @@ struct BagChannel {
  private:
   MessagePointer message_;
 };
+
+/// The bytes of a message, which are those of its type.
+/// @throws BagMessageError where they are not.
+std::vector<std::uint8_t> checked_bytes(const rosbag::MessageInstance& instance);
+
+/// The message of a bag as a type.
+/// @throws BagMessageError when it can't be read as that.
+template <class M>
+boost::shared_ptr<const M> instantiate(const rosbag::MessageInstance& instance) {
+  if (instance.getMD5Sum() != ros::message_traits::MD5Sum<M>::value()) {
+    throw BagMessageError(instance, std::string("it was recorded as ") + instance.getDataType() +
+                                        " with another definition, or is of another type");
+  }
+  std::vector<std::uint8_t> bytes = checked_bytes(instance);
+  const auto message = boost::make_shared<M>();
+  ros::serialization::IStream stream(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
+  ros::serialization::deserialize(stream, *message);
+  return message;
+}
 
 /// The message of a bag as its source's type.
 /// @throws ReplayError when the message can't be read as that.

@@ -20,11 +20,12 @@ Estimates read(const std::string& path, const std::string& topic, bool& repeated
   open_for_reading(bag, path);
   rosbag::View view(bag, rosbag::TopicQuery(topic));
   Estimates estimates;
-  for (const rosbag::MessageInstance& instance : view) {
-    const StateEstimate::ConstPtr estimate = instance.instantiate<StateEstimate>();
-    if (!estimate) throw ReplayError(path + ": " + topic + " holds no StateEstimate");
-    if (!estimates.emplace(to_stamp(estimate->header.stamp), estimate).second) repeated = true;
-  }
+  name_in_faults(path, [&] {
+    for (const rosbag::MessageInstance& instance : view) {
+      const StateEstimate::ConstPtr estimate = instantiate<StateEstimate>(instance);
+      if (!estimates.emplace(to_stamp(estimate->header.stamp), estimate).second) repeated = true;
+    }
+  });
   if (estimates.empty()) throw ReplayError(path + ": no estimates on " + topic);
   return estimates;
 }

@@ -320,7 +320,9 @@ class Replay {
 }  // namespace
 
 ReplaySummary replay(const ObserverConfig& config, const ReplayOptions& options) {
-  return Replay(config, options).run();
+  ReplaySummary summary;
+  name_in_faults(options.bag, [&] { summary = Replay(config, options).run(); });
+  return summary;
 }
 
 }  // namespace sampled_data_observers

@@ -36,7 +36,7 @@ struct ReplayOptions {
 
 /// Runs the observer over a bag: its messages in the order and at the times in which the bag
 /// received them, without waiting.
-/// @throws ReplayError, ConfigError, rosbag::BagException
+/// @throws ReplayError, ConfigError, OutputError
 ReplaySummary replay(const ObserverConfig& config, const ReplayOptions& options);
 
 }  // namespace sampled_data_observers

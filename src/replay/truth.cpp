@@ -36,15 +36,14 @@ Truth truth_from_states(const Plant& plant, const std::map<std::string, std::str
   }
   truth.read = [sources](const rosbag::MessageInstance& instance, Stamp& stamp,
                          std::vector<double>& values) {
-    const auto message = instance.instantiate<StateEstimate>();
-    if (!message) throw ReplayError(instance.getTopic() + ": StateEstimate of another definition");
+    const auto message = instantiate<StateEstimate>(instance);
     stamp = to_stamp(message->header.stamp);
     values.clear();
     for (const std::string& source : sources) {
       const auto found = std::find(message->names.begin(), message->names.end(), source);
       const auto index = static_cast<std::size_t>(found - message->names.begin());
       if (index >= message->state.size()) {
-        throw ReplayError(instance.getTopic() + ": has no state called '" + source + "'");
+        throw BagMessageError(instance, "it has no state called '" + source + "'");
       }
       values.push_back(message->state[index]);
     }
