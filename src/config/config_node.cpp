@@ -30,6 +30,14 @@ void merge_into(ConfigNode& target, const ConfigNode& source, const std::string&
 
 }  // namespace
 
+std::string shortened(const std::string& text) {
+  constexpr std::size_t kMost = 1000;
+  if (text.size() <= kMost) return text;
+  std::size_t end = kMost;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;  // UTF-8
+  return text.substr(0, end) + "... (" + std::to_string(text.size()) + " characters)";
+}
+
 const ConfigNode* ConfigNode::find(const std::string& key) const {
   const auto found = std::find_if(entries.begin(), entries.end(),
                                   [&](const auto& entry) { return entry.first == key; });

@@ -2,11 +2,15 @@
 
 #include <utility>
 
+#include "config/size_limits.h"
+
 namespace sampled_data_observers {
 
 void ExpressionReader::read_definitions(ConfigSection& section, const std::string& key) {
   if (!section.has(key)) return;
-  for (auto& [name, formula] : section.named_texts(key)) {
+  auto texts = section.named_texts(key);
+  require_at_most(kMostDefinitions, texts.size(), "definitions", section, key);
+  for (auto& [name, formula] : texts) {
     definitions_.push_back({std::move(name), std::move(formula)});
   }
   make(section, key, {});  // reports faults where they stand
@@ -26,6 +30,7 @@ std::shared_ptr<const VectorMap> ExpressionReader::read_list(ConfigSection& sect
                                                              std::size_t size) const {
   const std::vector<std::string> texts = size == 0 ? section.texts(key) : section.texts(key, size);
   if (texts.empty()) throw section.error(key, "at least one formula", "an empty list");
+  require_at_most(kMostFormulas, texts.size(), "formulas", section, key);
   std::vector<NamedExpression> expressions;
   for (const std::string& text : texts) {
     expressions.push_back({std::to_string(expressions.size() + 1), text});
@@ -80,6 +85,7 @@ std::vector<std::pair<std::string, double>> read_constants(ConfigSection& root,
                                                            const std::string& key) {
   std::vector<std::pair<std::string, double>> constants;
   ConfigSection section = root.section_or_empty(key);
+  require_at_most(kMostParameters, section.keys().size(), "parameters", root, key);
   for (const std::string& name : section.keys()) constants.emplace_back(name, section.number(name));
   return constants;
 }

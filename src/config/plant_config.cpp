@@ -7,6 +7,7 @@
 
 #include "config/expression_config.h"
 #include "config/mode_config.h"
+#include "config/size_limits.h"
 #include "plant/bias_states.h"
 
 namespace sampled_data_observers {
@@ -52,6 +53,14 @@ SensorTiming read_timing(ConfigSection& sensor) {
   return timing == "at_jumps" ? SensorTiming::kAtJumps : SensorTiming::kSampled;
 }
 
+std::size_t variables_of(const PlantDescription& plant) {
+  std::size_t variables = plant.state_names.size() + plant.input_names.size();
+  for (const Sensor& sensor : plant.sensors) {
+    variables += static_cast<std::size_t>(sensor.outputs());
+  }
+  return variables;
+}
+
 std::vector<std::string> sorted_keys(const ConfigSection& section) {
   // The parameter server knows no order of keys, so the file's order can't count.
   std::vector<std::string> names = section.keys();
@@ -69,6 +78,7 @@ class PlantReader {
     } else {
       names_.x = read_names(section_, "states");
       if (section_.has("inputs") || section_.has("B")) names_.u = read_names(section_, "inputs");
+      require_bounded(names_.x.size() + names_.u.size(), 1, kMostVariables, section_, "states");
       read_modes();
     }
     plant_.state_names = names_.x;
@@ -78,6 +88,8 @@ class PlantReader {
     if (sensors_.keys().empty()) throw root.error("sensors", "at least one sensor", "none");
     for (const std::string& name : sorted_keys(sensors_)) read_sensor(name);
     check_outputs_of_modes();
+    require_bounded(variables_of(plant_) + biases_.size(), plant_.modes.size(), kMostVariables,
+                    root, "plant");
   }
 
   PlantConfig finish() {
@@ -116,6 +128,7 @@ class PlantReader {
     ConfigSection modes = section_.section("modes");
     std::map<int, std::string> keys;
     for (const std::string& key : modes.keys()) keys.emplace(read_label(modes, key), key);
+    require_at_most(kMostModes, keys.size(), "modes", section_, "modes");
     if (keys.empty()) throw section_.error("modes", "at least one mode", "none");
     for (const auto& [label, key] : keys) {
       PlantMode mode;

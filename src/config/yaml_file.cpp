@@ -3,8 +3,10 @@
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
+#include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <vector>
 
 namespace sampled_data_observers {
 namespace {
@@ -13,50 +15,93 @@ std::string place(const std::string& name, const YAML::Mark& mark) {
   return mark.is_null() ? name : name + ":" + std::to_string(mark.line + 1);
 }
 
-/// Sees a document go by.
-class Bystander : public YAML::EventHandler {
+// More than any configuration has. A file that nests further would exhaust the stack, one of a few
+// aliases of aliases the memory, and one that is larger would take minutes.
+constexpr std::size_t kMostBytes = 4000000;
+constexpr std::size_t kMostLevels = 16;
+constexpr std::size_t kMostNodes = 200000;
+constexpr std::size_t kMostKeys = 1000;
+
+ConfigError too_large(const std::string& name, const std::string& found) {
+  return ConfigError(name, "", "at most " + std::to_string(kMostBytes) + " bytes", found);
+}
+
+ConfigError too_deep(const std::string& origin, const std::string& path) {
+  return ConfigError(origin, path, "at most " + std::to_string(kMostLevels) + " levels", "more");
+}
+
+/// Sees a document go by, and stops it where it is too large: before it takes memory and time.
+class SizeGate : public YAML::EventHandler {
  public:
+  explicit SizeGate(const std::string& name) : name_(name) {}
+
   void OnDocumentStart(const YAML::Mark&) override {}
   void OnDocumentEnd() override {}
-  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
-  void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
-  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t,
-                const std::string&) override {}
-  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
-                       YAML::EmitterStyle::value) override {}
-  void OnSequenceEnd() override {}
-  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
-                  YAML::EmitterStyle::value) override {}
-  void OnMapEnd() override {}
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t) override { count(mark); }
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override { count(mark); }
+  void OnScalar(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+                const std::string&) override {
+    count(mark);
+  }
+  void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+                       YAML::EmitterStyle::value) override {
+    enter(mark, false);
+  }
+  void OnSequenceEnd() override { levels_.pop_back(); }
+  void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+                  YAML::EmitterStyle::value) override {
+    enter(mark, true);
+  }
+  void OnMapEnd() override { levels_.pop_back(); }
+
+ private:
+  struct Level {
+    bool is_map = false;
+    std::size_t nodes = 0;
+  };
+
+  void count(const YAML::Mark& mark) {
+    if (++nodes_ > 2 * kMostNodes) {
+      throw ConfigError(place(name_, mark), "",
+                        "at most " + std::to_string(2 * kMostNodes) + " keys and values", "more");
+    }
+    if (levels_.empty()) return;
+    Level& level = levels_.back();
+    if (++level.nodes <= 2 * kMostKeys || !level.is_map) return;
+    throw ConfigError(place(name_, mark), "",
+                      "at most " + std::to_string(kMostKeys) + " keys in a map", "more");
+  }
+
+  void enter(const YAML::Mark& mark, bool is_map) {
+    count(mark);
+    if (levels_.size() > kMostLevels) throw too_deep(place(name_, mark), "");
+    levels_.push_back({is_map, 0});
+  }
+
+  const std::string& name_;
+  std::size_t nodes_ = 0;
+  std::vector<Level> levels_;
 };
 
 /// YAML::LoadAll() would tell as well, but never ends where a token belongs to no document.
-bool has_several_documents(const std::string& text) {
+bool has_several_documents(const std::string& text, const std::string& name) {
   std::istringstream in(text);
   YAML::Parser parser(in);
-  Bystander bystander;
-  return parser.HandleNextDocument(bystander) && parser.HandleNextDocument(bystander);
+  SizeGate gate(name);
+  return parser.HandleNextDocument(gate) && parser.HandleNextDocument(gate);
 }
-
-// More than any configuration has. A file that nests further would exhaust the stack, and one of a
-// few aliases of aliases the memory.
-constexpr int kMaxDepth = 16;
-constexpr std::size_t kMaxNodes = 200000;
 
 class Converter {
  public:
   explicit Converter(const std::string& name) : name_(name) {}
 
-  ConfigNode convert(const YAML::Node& yaml, const std::string& path, int depth) {
+  ConfigNode convert(const YAML::Node& yaml, const std::string& path, std::size_t depth) {
     ConfigNode node;
     node.origin = place(name_, yaml.Mark());
-    if (depth > kMaxDepth) {
-      throw ConfigError(node.origin, path, "at most " + std::to_string(kMaxDepth) + " levels",
-                        "more");
-    }
-    if (++nodes_ > kMaxNodes) {
+    if (depth > kMostLevels) throw too_deep(node.origin, path);
+    if (++nodes_ > kMostNodes) {
       throw ConfigError(node.origin, path,
-                        "at most " + std::to_string(kMaxNodes) + " values, aliases written out",
+                        "at most " + std::to_string(kMostNodes) + " values, aliases written out",
                         "more");
     }
     switch (yaml.Type()) {
@@ -83,8 +128,8 @@ class Converter {
   }
 
  private:
-  void add_entry(const YAML::Node& key, const YAML::Node& value, const std::string& path, int depth,
-                 ConfigNode& map) {
+  void add_entry(const YAML::Node& key, const YAML::Node& value, const std::string& path,
+                 std::size_t depth, ConfigNode& map) {
     const std::string origin = place(name_, key.Mark());
     if (!key.IsScalar()) throw ConfigError(origin, path, "a name as key", "a structure");
     const std::string& name = key.Scalar();
@@ -102,9 +147,11 @@ class Converter {
 }  // namespace
 
 ConfigNode read_yaml_text(const std::string& text, const std::string& name) {
+  if (text.size() > kMostBytes) throw too_large(name, std::to_string(text.size()));
   ConfigNode root;
   try {
-    if (has_several_documents(text)) throw ConfigError(name, "", "one YAML document", "several");
+    if (has_several_documents(text, name))
+      throw ConfigError(name, "", "one YAML document", "several");
     root = Converter(name).convert(YAML::Load(text), "", 0);
   } catch (const YAML::Exception& error) {
     throw ConfigError(place(name, error.mark), "", "valid YAML", error.msg);
@@ -117,13 +164,20 @@ ConfigNode read_yaml_text(const std::string& text, const std::string& name) {
 
 ConfigNode read_yaml_file(const std::string& path) {
   std::ifstream file(path);
-  std::ostringstream text;
-  text << file.rdbuf();
+  // What has no end, such as a device, is given up after that.
+  std::string text(kMostBytes + 1, '\0');
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
   // A folder opens, but can not be read.
-  if (!file || text.bad()) {
+  if (!file.eof() && file.gcount() <= 0) {
     throw ConfigError(path, "", "a readable YAML file", "none (check path and permissions)");
   }
-  return read_yaml_text(text.str(), path);
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  if (text.size() > kMostBytes) {
+    std::error_code none;
+    const auto size = std::filesystem::file_size(path, none);
+    throw too_large(path, none ? "more" : std::to_string(size));
+  }
+  return read_yaml_text(text, path);
 }
 
 }  // namespace sampled_data_observers

@@ -2,6 +2,7 @@
 
 #include <muParser.h>
 
+#include <algorithm>
 #include <cctype>
 #include <limits>
 
@@ -9,6 +10,17 @@ namespace sampled_data_observers {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
+/// As many as fit on a few lines of a message.
+constexpr std::size_t kNamesShown = 20;
+/// Longer ones take muParser seconds, or are refused by it.
+constexpr std::size_t kLongestFormula = 10000;
+
+/// A formula, or a part of one, in quotes and on less than a line.
+std::string quoted(const std::string& text) {
+  constexpr std::size_t kMost = 60;
+  if (text.size() <= kMost) return "'" + text + "'";
+  return "'" + text.substr(0, kMost) + "...' (" + std::to_string(text.size()) + " characters)";
+}
 
 void check_name(const std::string& name) {
   bool fits = !name.empty() && std::isdigit(static_cast<unsigned char>(name.front())) == 0;
@@ -18,9 +30,16 @@ void check_name(const std::string& name) {
   if (!fits) {
     throw ExpressionError(name,
                           "formulas take names of letters, digits and '_' that start with no "
-                          "digit, not '" +
-                              name + "'");
+                          "digit, not " +
+                              quoted(name));
   }
+}
+
+/// What muParser says, which may quote the formula again.
+std::string fault_of(const mu::ParserError& error) {
+  constexpr std::size_t kMost = 100;
+  const std::string& text = error.GetMsg();
+  return text.size() <= kMost ? text : text.substr(0, kMost) + "...";
 }
 
 /// muParser would let a formula change a variable.
@@ -56,6 +75,10 @@ struct ExpressionMap::Program {
 
   /// A parser that knows the first `known` values.
   mu::Parser parse(const NamedExpression& expression, std::size_t known) {
+    if (expression.text.size() > kLongestFormula) {
+      throw ExpressionError(expression.name, quoted(expression.text) + " is longer than " +
+                                                 std::to_string(kLongestFormula) + " characters");
+    }
     mu::Parser parser;
     try {
       parser.DefineConst("pi", kPi);
@@ -63,24 +86,28 @@ struct ExpressionMap::Program {
       for (std::size_t i = 0; i < known; ++i) parser.DefineVar(names[i], &values[i]);
       if (assigns(expression.text)) {
         throw ExpressionError(expression.name,
-                              "'" + expression.text + "' assigns; use == to compare");
+                              quoted(expression.text) + " assigns; use == to compare");
       }
       parser.SetExpr(expression.text);
       parser.Eval();  // compiles, so that later evaluations allocate nothing
     } catch (const mu::ParserError& error) {
-      throw ExpressionError(expression.name, "'" + expression.text + "': " + error.GetMsg() +
+      throw ExpressionError(expression.name, quoted(expression.text) + ": " + fault_of(error) +
                                                  " (it may use" + known_names(known) + ")");
     }
     if (parser.GetNumResults() != 1) {
-      throw ExpressionError(expression.name, "'" + expression.text + "' has several values");
+      throw ExpressionError(expression.name, quoted(expression.text) + " has several values");
     }
     return parser;
   }
 
   std::string known_names(std::size_t known) const {
     std::string text;
-    for (std::size_t i = 0; i < known; ++i) text += " " + names[i];
-    for (const auto& constant : constants) text += " " + constant.first;
+    const std::size_t all = known + constants.size();
+    const std::size_t shown = std::min(all, kNamesShown);
+    for (std::size_t i = 0; i < shown; ++i) {
+      text += " " + (i < known ? names[i] : constants[i - known].first);
+    }
+    if (shown < all) text += " ... (" + std::to_string(all - shown) + " more)";
     return text + " pi";
   }
 };

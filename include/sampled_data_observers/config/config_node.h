@@ -7,6 +7,9 @@
 
 namespace sampled_data_observers {
 
+/// A text as messages quote it: its first 1000 characters, where it has more.
+std::string shortened(const std::string& text);
+
 /// A fault in the configuration. The message names the file and line or the parameter, the path of
 /// the key, what was expected and what was found.
 class ConfigError : public std::runtime_error {
@@ -19,8 +22,8 @@ class ConfigError : public std::runtime_error {
   /// @param found     completes "found ..."
   ConfigError(const std::string& origin, const std::string& path, const std::string& expected,
               const std::string& found)
-      : std::runtime_error(origin + ": " + (path.empty() ? "" : path + ": ") + "expected " +
-                           expected + ", found " + found) {}
+      : std::runtime_error(origin + ": " + (path.empty() ? "" : shortened(path) + ": ") +
+                           "expected " + shortened(expected) + ", found " + shortened(found)) {}
 };
 
 /// One node of a configuration tree, whether it was read from a YAML file or from the ROS parameter

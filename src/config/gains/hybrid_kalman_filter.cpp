@@ -1,18 +1,32 @@
 #include "config/gains/readers.h"
+#include "config/size_limits.h"
 #include "sampled_data_observers/config/gains_config.h"
 
 namespace sampled_data_observers {
+namespace {
+
+Eigen::Index outputs_of(const Plant& plant) {
+  Eigen::Index outputs = 0;
+  for (const Sensor& sensor : plant.sensors()) outputs += sensor.outputs();
+  return outputs;
+}
+
+}  // namespace
 
 KalmanCovariances read_covariances(ConfigSection& gains, const LawContext& context) {
-  const Eigen::Index n = context.plant().states();
+  const Plant& plant = context.plant();
+  const Eigen::Index n = plant.states();
+  const Eigen::Index variables = n + plant.inputs() + outputs_of(plant);
+  require_bounded(static_cast<std::size_t>(variables), plant.modes().size(), kMostWithCovariance,
+                  gains, "P0");
   const auto matrix_or_zero = [&](const char* key) -> Eigen::MatrixXd {
     if (gains.has(key)) return gains.matrix(key, n, n);
     return Eigen::MatrixXd::Zero(n, n);
   };
   KalmanCovariances covariances;
   covariances.P0 = gains.matrix("P0", n, n);
-  covariances.R = read_square_per_sensor(gains, "R", context.plant(),
-                                         {SensorTiming::kSampled, SensorTiming::kAtJumps});
+  covariances.R =
+      read_square_per_sensor(gains, "R", plant, {SensorTiming::kSampled, SensorTiming::kAtJumps});
   covariances.Q = matrix_or_zero("Q");
   covariances.Q_d = matrix_or_zero("Q_d");
   return covariances;
