@@ -141,17 +141,18 @@ class OutputsTest(FolderTest):
     def test_ctrl_c_leaves_nothing(self):
         self.write("long.yaml", PLANT.replace("duration: 30", "duration: 1000000"))
         before = sorted(os.listdir(self.folder))
-        with subprocess.Popen([TOOLS["simulate"], self.path("long.yaml"), "-o",
-                               self.path("out.bag")], stdout=subprocess.DEVNULL,
-                              stderr=subprocess.DEVNULL,
-                              preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL)
-                              ) as process:
-            deadline = time.time() + 30
-            while sorted(os.listdir(self.folder)) == before and time.time() < deadline:
-                time.sleep(0.01)
-            self.assertNotIn("out.bag", os.listdir(self.folder))
-            process.send_signal(signal.SIGINT)
-            self.assertEqual(process.wait(30), -signal.SIGINT)
+        process = subprocess.Popen(
+            [TOOLS["simulate"], self.path("long.yaml"), "-o", self.path("out.bag")],
+            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        deadline = time.time() + 30
+        while sorted(os.listdir(self.folder)) == before and time.time() < deadline:
+            time.sleep(0.01)
+        self.assertNotIn("out.bag", os.listdir(self.folder))
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(30), -signal.SIGINT)
         self.assertEqual(sorted(os.listdir(self.folder)), before)
 
     def refuse(self, command, *names):

@@ -1,0 +1,25 @@
+#include "config/plant_fingerprint.h"
+
+#include <gtest/gtest.h>
+
+#include "sampled_data_observers/config/yaml_file.h"
+
+namespace sampled_data_observers {
+namespace {
+
+std::string fingerprint(const std::string& sensors) {
+  return plant_fingerprint(
+      read_yaml_text("plant: {A: [[-1]]}\nsensors: " + sensors + "\n", "test.yaml"));
+}
+
+TEST(PlantFingerprintTest, WaysOfWritingDoNotMatter) {
+  EXPECT_EQ(fingerprint("{a: {C: [[1]]}}"), fingerprint("{'a': {C: [[1.0]], gate: {}}}"));
+}
+
+TEST(PlantFingerprintTest, NoNameWithQuotesPassesForSeveral) {
+  EXPECT_NE(fingerprint("{a: {C: [[1]]}, b: {C: [[2]]}}"),
+            fingerprint("{\"a':{'C':[[1,],],}'b\": {C: [[2]]}}"));
+}
+
+}  // namespace
+}  // namespace sampled_data_observers
