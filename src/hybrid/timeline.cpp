@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "sampled_data_observers/hybrid/split_flow.h"
+
 namespace sampled_data_observers {
 namespace {
 
@@ -13,13 +15,6 @@ Timeline::Limits checked(Timeline::Limits limits) {
   if (limits.history <= 0) throw std::invalid_argument("Timeline: history must be positive");
   if (limits.max_events == 0) throw std::invalid_argument("Timeline: max_events must be positive");
   return limits;
-}
-
-/// Finite, and far enough from the largest number that the next flow or reset is finite as well: a
-/// state that could not be corrected any more would be as bad as an infinite one.
-bool is_usable(const Timeline::ConstStateRef& state) {
-  constexpr double kLargest = 1e150;
-  return state.allFinite() && state.cwiseAbs().maxCoeff() <= kLargest;
 }
 
 constexpr Stamp kNever = std::numeric_limits<Stamp>::min();
@@ -96,15 +91,43 @@ Timeline::InsertReport Timeline::take_in(const Event& event, const Event* compan
   return report;
 }
 
+/// Whether there is a state at a stamp, and the position of the newest event up to it.
+Timeline::Query Timeline::find(Stamp at, std::size_t& position) const {
+  position = last_where(size_, [&](std::size_t candidate) { return stamp(candidate) <= at; });
+  if (position > 0) return Query::kOk;
+  if (base_ == Base::kInitial) return size_ == 0 ? Query::kNoEvent : Query::kBeforeStart;
+  if (stamp(0) <= at) return Query::kOk;
+  return base_ == Base::kRestart ? Query::kBeforeStart : Query::kBeforeWindow;
+}
+
+Timeline::Query Timeline::begin_flow(Stamp at, SplitFlow& flow, EventCounts& counts) const {
+  std::size_t position = 0;
+  const Query query = find(at, position);
+  if (query != Query::kOk) return query;
+  flow.begin(system_, at - stamp(position), slot(position).held);
+  flow.state() = state_after(position);
+  counts = slot(position).counts;
+  return query;
+}
+
+std::int64_t Timeline::approach(Stamp at, std::int64_t steps) const {
+  std::size_t position = 0;
+  if (find(at, position) != Query::kOk) return 0;
+  const Duration duration = at - stamp(position);
+  const Duration whole = whole_steps(*system_, duration);
+  if (whole == 0 || duration > system_->flow_horizon()) return 0;
+  const bool is_begun = cursor_.origin == order(position) && cursor_.reached <= whole;
+  Duration reached = is_begun ? cursor_.reached : 0;
+  const Duration step = system_->flow_step();
+  reached += std::min<Duration>(steps, (whole - reached) / step) * step;
+  flow_to(position, reached, state_after(position));
+  return (whole - reached) / step;
+}
+
 Timeline::Query Timeline::state_at(Stamp at, StateRef state, EventCounts& counts) const {
-  const std::size_t position =
-      last_where(size_, [&](std::size_t candidate) { return stamp(candidate) <= at; });
-  if (position == 0) {
-    if (base_ == Base::kInitial) return size_ == 0 ? Query::kNoEvent : Query::kBeforeStart;
-    if (stamp(0) > at) {
-      return base_ == Base::kRestart ? Query::kBeforeStart : Query::kBeforeWindow;
-    }
-  }
+  std::size_t position = 0;
+  const Query query = find(at, position);
+  if (query != Query::kOk) return query;
   state = state_after(position);
   counts = slot(position).counts;
   const Duration duration = at - stamp(position);
@@ -155,6 +178,10 @@ std::optional<Stamp> Timeline::earliest() const {
   return std::nullopt;
 }
 
+std::optional<Stamp> Timeline::newest() const {
+  return size_ > 0 ? std::make_optional(stamp(size_)) : std::nullopt;
+}
+
 std::optional<Stamp> Timeline::earliest_insertion() const {
   std::optional<Stamp> earliest;
   if (base_ != Base::kInitial) earliest = stamp(0) + 1;
@@ -190,16 +217,21 @@ void Timeline::open_position(std::size_t position, const Event& event) {
 
 /// Carries `state`, which holds after the event at `position`, over `duration`.
 void Timeline::flow_from(std::size_t position, Duration duration, StateRef state) const {
-  const Duration step = system_->flow_step();
   if (duration > system_->flow_horizon()) {
     state.setConstant(std::numeric_limits<double>::quiet_NaN());
     return;
   }
-  if (step == 0 || duration < step) {
-    system_->flow(duration, state.data(), workspace_.data());
-    return;
+  const Duration whole = whole_steps(*system_, duration);
+  if (whole > 0) {
+    flow_to(position, whole, state);
+    state = cursor_.state;
   }
-  const Duration whole = duration - duration % step;
+  system_->flow(duration - whole, state.data(), workspace_.data());
+}
+
+/// Moves the cursor over `whole` flow steps from the event at `position`, after which `state`
+/// holds.
+void Timeline::flow_to(std::size_t position, Duration whole, const ConstStateRef& state) const {
   if (cursor_.origin != order(position) || cursor_.reached > whole) {
     cursor_.origin = order(position);
     cursor_.reached = 0;
@@ -207,8 +239,6 @@ void Timeline::flow_from(std::size_t position, Duration duration, StateRef state
   }
   system_->flow(whole - cursor_.reached, cursor_.state.data(), workspace_.data());
   cursor_.reached = whole;
-  state = cursor_.state;
-  system_->flow(duration - whole, state.data(), workspace_.data());
 }
 
 /// Computes the state after the event at `position`, and what it rests on, from what stands before

@@ -61,6 +61,23 @@ Event rejection(EventKind of, Stamp stamp) {
 
 }  // namespace
 
+PublishedBound published_bound(const Estimate& estimate, bool may_change) {
+  const double* state = estimate.state.data();
+  const double value = estimate.law->error_bound(state);
+  if (may_change && std::isfinite(value)) {
+    return {std::numeric_limits<double>::infinity(), BoundLoss::kStillOnTheirWay};
+  }
+  return {value, estimate.law->bound_loss(state)};
+}
+
+bool EstimateQuery::proceed(std::int64_t steps) {
+  if (!flow_.proceed(steps)) return false;
+  estimate_.state = flow_.state();
+  estimate_.held = flow_.is_held();
+  estimate_.law = law_.get();
+  return true;
+}
+
 bool is_admissible(const Eigen::Ref<const Eigen::VectorXd>& values) {
   return values.allFinite() &&
          (values.size() == 0 || values.cwiseAbs().maxCoeff() <= kLargestValue);
@@ -75,7 +92,8 @@ Estimator::Estimator(std::shared_ptr<const ObserverLaw> law, const Options& opti
       workspace_(law_->workspace_size()),
       innovation_(law_->max_event_size()),
       is_sampled_(law_->observer().plant().outputs(SensorTiming::kSampled) > 0),
-      has_other_events_(law_->observer().plant().inputs() > 0 || law_->observer().plant().jumps()) {
+      has_other_events_(law_->observer().plant().inputs() > 0 || law_->observer().plant().jumps()),
+      answer_(make_estimate()) {
   if (options_.sampling.T1 <= 0 || options_.sampling.T1 > options_.sampling.T2) {
     throw std::invalid_argument("Estimator: 0 < T1 <= T2 must hold");
   }
@@ -107,6 +125,10 @@ EventReport Estimator::submit(const Event& event, Stamp now) {
     note_rejected(event, now);
     return report;
   }
+  const bool is_released = event.kind == EventKind::kJump && law_->delays_jumps();
+  const bool is_released_later =
+      is_released && release_of(event, now).stamp > taken_over_at_.value_or(event.stamp);
+  if (is_earlier(event.stamp) && !is_released_later) return submit_earlier(event, now);
   if (awaits_sample_ && event.kind == EventKind::kSample && event.stamp > *timeline_.earliest()) {
     begin_at(event);
   }
@@ -115,7 +137,6 @@ EventReport Estimator::submit(const Event& event, Stamp now) {
   }
   // Even where the jump has no effect now: whether it has is known for sure only when all events
   // are.
-  const bool is_released = event.kind == EventKind::kJump && law_->delays_jumps();
   const Timeline::InsertReport inserted =
       is_released ? timeline_.insert(event, release_of(event, now)) : timeline_.insert(event);
   report.outcome = outcome_of(inserted);
@@ -124,16 +145,43 @@ EventReport Estimator::submit(const Event& event, Stamp now) {
   const bool is_in_log = inserted.insertion == Timeline::Insertion::kAppended ||
                          inserted.insertion == Timeline::Insertion::kRewound;
   if (report.outcome == EventOutcome::kTooOld) note_rejected(event, now);
-  const bool tells_input = is_in_log && event.kind == EventKind::kInput;
-  if (tells_input && event.stamp > input_unknown_since_.value_or(event.stamp)) {
-    input_unknown_since_.reset();
-  }
+  if (is_in_log && event.kind == EventKind::kInput) learn_input(event.stamp);
   if (report.used() && inserted.previous) {
     report.interval = event.stamp - *inserted.previous;
     if (event.kind == EventKind::kSample || !is_sampled_) {
       report.interval_check = check(*report.interval, options_.sampling);
     }
   }
+  return report;
+}
+
+/// Whether what was taken over can still be changed by a late event.
+bool Estimator::has_earlier() const {
+  return taken_over_at_ && timeline_.earliest() == taken_over_at_;
+}
+
+/// Whether an event of that stamp belongs to what was taken over, and inside the window.
+bool Estimator::is_earlier(Stamp stamp) const {
+  if (!has_earlier() || stamp > *taken_over_at_) return false;
+  const std::optional<Stamp> newest = timeline_.newest();
+  return !newest || stamp >= *newest - options_.history.history;
+}
+
+/// Applies an event of before the take-over by the law of its time, and all since then anew.
+EventReport Estimator::submit_earlier(const Event& event, Stamp now) {
+  EventReport report = earlier_->submit(event, now);
+  if (report.outcome == EventOutcome::kDuplicate) return report;
+  if (event.kind == EventKind::kInput) {
+    if (report.used()) {
+      learn_input(event.stamp);
+    } else {
+      miss_input(event.stamp);
+    }
+  }
+  go_on_from_earlier();
+  if (timeline_.size() == 0) return report;
+  report.rewound += timeline_.size();
+  if (report.outcome == EventOutcome::kUsed) report.outcome = EventOutcome::kUsedLate;
   return report;
 }
 
@@ -152,11 +200,24 @@ void Estimator::note_rejected(const Event& event, Stamp now) {
   const Stamp stamp = event.stamp > 0 ? std::min(event.stamp, now) : now;
   if (stamp <= 0) return;
   if (event.kind == EventKind::kInput) {
-    input_unknown_since_ = std::max(stamp, input_unknown_since_.value_or(stamp));
+    miss_input(stamp);
   } else if (stamp <= began_at_.value_or(0)) {
     return;  // Somebody vouches for what came after this jump.
   }
-  insert_rejected(event.kind, stamp);
+  if (is_earlier(stamp)) {
+    earlier_->note_rejected(event, now);
+    go_on_from_earlier();
+  } else {
+    insert_rejected(event.kind, stamp);
+  }
+}
+
+void Estimator::learn_input(Stamp stamp) {
+  if (stamp > input_unknown_since_.value_or(stamp)) input_unknown_since_.reset();
+}
+
+void Estimator::miss_input(Stamp stamp) {
+  input_unknown_since_ = std::max(stamp, input_unknown_since_.value_or(stamp));
 }
 
 void Estimator::insert_rejected(EventKind kind, Stamp stamp) {
@@ -165,30 +226,59 @@ void Estimator::insert_rejected(EventKind kind, Stamp stamp) {
 }
 
 PublishedBound Estimator::bound(const Estimate& estimate, Stamp now) const {
-  const double* state = estimate.state.data();
-  const double value = law_->error_bound(state);
-  const bool may_change = has_other_events_ && now - estimate.stamp < options_.latency;
-  if (may_change && std::isfinite(value)) {
-    return {std::numeric_limits<double>::infinity(), BoundLoss::kStillOnTheirWay};
-  }
-  return {value, law_->bound_loss(state)};
+  return published_bound(estimate, may_change(estimate.stamp, now));
+}
+
+/// Whether inputs or jumps of before an estimate's stamp may still come.
+bool Estimator::may_change(Stamp stamp, Stamp now) const {
+  return has_other_events_ && now - stamp < options_.latency;
+}
+
+const Estimator& Estimator::at(Stamp stamp) const {
+  return has_earlier() && stamp < *taken_over_at_ ? earlier_->at(stamp) : *this;
+}
+
+Estimator& Estimator::responsible_for(Stamp stamp) {
+  return has_earlier() && stamp < *taken_over_at_ ? earlier_->responsible_for(stamp) : *this;
 }
 
 Timeline::Query Estimator::estimate_at(Stamp stamp, Estimate& estimate) const {
   if (awaits_sample_) return Timeline::Query::kNoEvent;
-  const Timeline::Query query = timeline_.state_at(stamp, estimate.state, estimate.counts);
+  const Estimator& from = at(stamp);
+  const Timeline::Query query = from.timeline_.state_at(stamp, estimate.state, estimate.counts);
   estimate.stamp = stamp;
   estimate.held = query == Timeline::Query::kHeld;
   return query;
 }
 
+Timeline::Query Estimator::estimate_at(Stamp stamp, const Estimate*& estimate) {
+  Estimate& answer = responsible_for(stamp).answer_;
+  estimate = &answer;
+  return estimate_at(stamp, answer);
+}
+
+Timeline::Query Estimator::begin_query(Stamp stamp, Stamp now, EstimateQuery& query) const {
+  if (awaits_sample_) return Timeline::Query::kNoEvent;
+  const Estimator& from = at(stamp);
+  query.law_ = from.law_;
+  query.may_change_ = may_change(stamp, now);
+  query.estimate_.stamp = stamp;
+  return from.timeline_.begin_flow(stamp, query.flow_, query.estimate_.counts);
+}
+
+std::int64_t Estimator::approach(Stamp stamp, std::int64_t steps) const {
+  return at(stamp).timeline_.approach(stamp, steps);
+}
+
 std::optional<Stamp> Estimator::earliest() const {
-  return awaits_sample_ ? std::nullopt : timeline_.earliest();
+  if (awaits_sample_) return std::nullopt;
+  return has_earlier() ? earlier_->earliest() : timeline_.earliest();
 }
 
 Estimate Estimator::make_estimate() const {
   Estimate estimate;
   estimate.state = Eigen::VectorXd::Zero(law_->state_size());
+  estimate.law = law_.get();
   return estimate;
 }
 
@@ -208,18 +298,19 @@ bool Estimator::prepare_restart(Estimator& from, Stamp stamp) {
 }
 
 void Estimator::restart(Stamp stamp) {
-  prepare_restart(*this, stamp);
+  prepare_restart(responsible_for(stamp), stamp);
   begin(stamp);
 }
 
 void Estimator::restart(Stamp stamp, Timeline::ConstStateRef estimate) {
-  prepare_restart(*this, stamp);
+  prepare_restart(responsible_for(stamp), stamp);
   law_->observer().start_from(estimate.data(), restart_state_.data());
   begin(stamp);
 }
 
 void Estimator::begin(Stamp stamp) {
   began_at_ = stamp;
+  taken_over_at_.reset();
   timeline_.restart(stamp, restart_state_);
   if (input_unknown_since_) insert_rejected(EventKind::kInput, stamp + 1);
   awaits_sample_ = false;
@@ -237,14 +328,17 @@ void Estimator::begin_at(const Event& sample) {
   prepare_restart(*this, start);
   law_->observer().fit_to(sample, restart_state_.data(), workspace_.data());
   began_at_ = start;
+  taken_over_at_.reset();
   timeline_.rebase(start, restart_state_);
   if (input_unknown_since_) insert_rejected(EventKind::kInput, sample.stamp);
   awaits_sample_ = false;
 }
 
 void Estimator::resume(Stamp stamp) {
+  if (has_earlier()) stamp = std::max(stamp, *taken_over_at_);
   const Timeline::Query query = timeline_.state_at(stamp, restart_state_, before_restart_.counts);
   if (query != Timeline::Query::kOk && query != Timeline::Query::kHeld) return;
+  taken_over_at_.reset();
   timeline_.rebase(stamp, restart_state_, query == Timeline::Query::kHeld);
 }
 
@@ -252,18 +346,45 @@ void Estimator::take_over(Estimator& other, Stamp stamp) {
   awaits_sample_ = other.awaits_sample_;
   input_unknown_since_ = other.input_unknown_since_;
   began_at_ = other.began_at_;
-  if (!prepare_restart(other, stamp)) return;
-  law_->observer().start_from(other.before_restart_.state.data(), restart_state_.data());
-  const double* before = other.before_restart_.state.data();
-  law_->keep_bound({other.law_->error_bound(before), other.law_->bound_loss(before)},
-                   restart_state_.data());
-  timeline_.restart(stamp, restart_state_, other.before_restart_.held);
+  taken_over_at_ = std::max(
+      {stamp, other.timeline_.newest().value_or(stamp), other.taken_over_at_.value_or(stamp)});
+  earlier_ = std::make_unique<Estimator>(std::move(other));
+  const bool begins = prepare_take_over();
+  if (begins) timeline_.restart(*taken_over_at_, restart_state_, earlier_->before_restart_.held);
+  if (!begins || awaits_sample_) {
+    taken_over_at_.reset();
+    other.earlier_ = std::move(earlier_);
+    return;
+  }
+  Estimator* oldest = earlier_.get();
+  for (int kept = 1; kept < kEarlierLaws && oldest->has_earlier(); ++kept) {
+    oldest = oldest->earlier_.get();
+  }
+  oldest->taken_over_at_.reset();
+  other.earlier_ = std::move(oldest->earlier_);
+}
+
+/// After a change of what was taken over.
+void Estimator::go_on_from_earlier() {
+  if (prepare_take_over())
+    timeline_.rebase(*taken_over_at_, restart_state_, earlier_->before_restart_.held);
+}
+
+/// Sets the state to start from where what was taken over ends.
+bool Estimator::prepare_take_over() {
+  if (!prepare_restart(*earlier_, *taken_over_at_)) return false;
+  const double* before = earlier_->before_restart_.state.data();
+  const ObserverLaw& law = *earlier_->law_;
+  law_->observer().start_from(before, restart_state_.data());
+  law_->keep_bound({law.error_bound(before), law.bound_loss(before)}, restart_state_.data());
+  return true;
 }
 
 void Estimator::clear() {
   timeline_.clear();
   input_unknown_since_.reset();
   began_at_.reset();
+  taken_over_at_.reset();
   awaits_sample_ = false;
 }
 

@@ -2,13 +2,32 @@
 
 #include <algorithm>
 #include <cmath>
+
 namespace sampled_data_observers {
+namespace {
+
+/// Null where there is an estimate.
+const char* describe_failure(Timeline::Query query) {
+  switch (query) {
+    case Timeline::Query::kNoEvent:
+      return "no event was received yet";
+    case Timeline::Query::kBeforeStart:
+      return "the stamp is before the first event or the last reset";
+    case Timeline::Query::kBeforeWindow:
+      return "the stamp is before the history window (see history/duration and max_events)";
+    case Timeline::Query::kOk:
+    case Timeline::Query::kHeld:
+      break;
+  }
+  return nullptr;
+}
+
+}  // namespace
 
 ObserverRuntime::ObserverRuntime(const RuntimeSetup& setup)
     : setup_(setup),
       estimator_(setup.law, setup.options),
       grid_(setup.period, setup.publish_delay, setup.options.history.history),
-      estimate_(estimator_.make_estimate()),
       sensors_enabled_(setup.has_topic.size(), true),
       watches_(setup.has_topic.size()) {}
 
@@ -73,37 +92,53 @@ const Estimate* ObserverRuntime::next_due(Stamp now) {
     if (!at_once) return nullptr;
     stamp = now;
   }
-  switch (estimator_.estimate_at(*stamp, estimate_)) {
+  const Estimate* estimate = nullptr;
+  switch (estimator_.estimate_at(*stamp, estimate)) {
     case Timeline::Query::kOk:
     case Timeline::Query::kHeld:
-      if (std::isfinite(bound(estimate_).value)) {
+      if (std::isfinite(bound(*estimate).value)) {
         bounded_until_ = std::max(bounded_until_, *stamp);
       }
-      return &estimate_;
+      return estimate;
     default:
       return nullptr;
   }
 }
 
+std::int64_t ObserverRuntime::approach_next_due(Stamp now, std::int64_t steps) const {
+  const std::optional<Stamp> earliest = estimator_.earliest();
+  if (!enabled_ || !earliest) return 0;
+  std::optional<Stamp> stamp = grid_.peek(now, *earliest);
+  if (!stamp && event_waits_) stamp = now;
+  return stamp ? estimator_.approach(*stamp, steps) : 0;
+}
+
+std::int64_t ObserverRuntime::approach(const Event& event, Stamp now, std::int64_t steps) const {
+  const bool is_in_future = event.stamp - now > setup_.options.future_tolerance;
+  return is_in_future ? 0 : estimator_.approach(event.stamp, steps);
+}
+
 const Estimate* ObserverRuntime::estimate_at(Stamp stamp, std::string& reason) {
-  if (!enabled_ || estimator_.awaits_sample()) {
-    reason = enabled_ ? "the estimate begins with the next sample" : "the observer is switched off";
-    return nullptr;
+  const Estimate* estimate = nullptr;
+  const char* objection = objection_to_queries();
+  if (objection == nullptr) {
+    objection = describe_failure(estimator_.estimate_at(stamp, estimate));
   }
-  switch (estimator_.estimate_at(stamp, estimate_)) {
-    case Timeline::Query::kOk:
-    case Timeline::Query::kHeld:
-      return &estimate_;
-    case Timeline::Query::kNoEvent:
-      reason = "no event was received yet";
-      break;
-    case Timeline::Query::kBeforeStart:
-      reason = "the stamp is before the first event or the last reset";
-      break;
-    case Timeline::Query::kBeforeWindow:
-      reason = "the stamp is before the history window (see history/duration and max_events)";
-      break;
-  }
+  if (objection == nullptr) return estimate;
+  reason = objection;
+  return nullptr;
+}
+
+const char* ObserverRuntime::begin_query(Stamp stamp, Stamp now, EstimateQuery& query) const {
+  const char* objection = objection_to_queries();
+  if (objection != nullptr) return objection;
+  return describe_failure(estimator_.begin_query(stamp, now, query));
+}
+
+/// Null where there is none.
+const char* ObserverRuntime::objection_to_queries() const {
+  if (!enabled_) return "the observer is switched off";
+  if (estimator_.awaits_sample()) return "the estimate begins with the next sample";
   return nullptr;
 }
 

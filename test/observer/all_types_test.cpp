@@ -74,6 +74,125 @@ TEST_P(EveryTypeTest, QueriesChangeNothing) {
   }
 }
 
+TEST_P(EveryTypeTest, QueriesInPartsGiveTheSameBits) {
+  std::mt19937_64 generator(4);
+  const std::vector<OwnedEvent> events =
+      test::random_events_for(*config_.law, generator, 40, kStart, 2 * kSecond);
+  const auto estimator = make();
+  for (const OwnedEvent& event : events) take(*estimator, event);
+  Estimate expected = estimator->make_estimate();
+  EstimateQuery query;
+  std::uniform_int_distribution<Stamp> any(kStart - kSecond / 10, kStart + 4 * kSecond);
+  std::uniform_int_distribution<std::int64_t> steps(1, 200);
+  for (int i = 0; i < 60; ++i) {
+    // The last ones lie beyond the horizon of those that are integrated.
+    const Stamp stamp = any(generator) + (i < 55 ? 0 : 200 * kSecond);
+    const Timeline::Query began = estimator->begin_query(stamp, stamp, query);
+    const bool is_there = began == Timeline::Query::kOk;
+    if (is_there) {
+      while (!query.proceed(steps(generator))) estimator->approach(any(generator), 7);
+    }
+    const Timeline::Query found = estimator->estimate_at(stamp, expected);
+    ASSERT_EQ(found == Timeline::Query::kOk || found == Timeline::Query::kHeld, is_there);
+    if (!is_there) continue;
+    const Eigen::VectorXd& state = query.estimate().state;
+    EXPECT_TRUE(same_bits({state.data(), state.data() + state.size()},
+                          {expected.state.data(), expected.state.data() + expected.state.size()}));
+    EXPECT_EQ(expected.held, query.estimate().held);
+    EXPECT_EQ(expected.counts.events, query.estimate().counts.events);
+    EXPECT_EQ(stamp, query.estimate().stamp);
+  }
+}
+
+/// Arrivals before, between and after changes of the law: no event before the change after which it
+/// is stamped, else in any order.
+class ChangingLaws {
+ public:
+  ChangingLaws(std::vector<Stamp> changes, const std::vector<OwnedEvent>& events,
+               std::mt19937_64& generator)
+      : changes_(std::move(changes)), arrivals_(changes_.size() + 1) {
+    for (const OwnedEvent& event : events) {
+      const auto first = static_cast<std::size_t>(std::count_if(
+          changes_.begin(), changes_.end(), [&](Stamp change) { return change < event.stamp; }));
+      // What the first estimate begins with is there in time.
+      const bool begins = &event == &events.front();
+      std::uniform_int_distribution<std::size_t> when(first, changes_.size());
+      arrivals_[begins ? 0 : when(generator)].push_back(event);
+    }
+    for (std::vector<OwnedEvent>& batch : arrivals_) {
+      std::shuffle(batch.begin(), batch.end(), generator);
+    }
+  }
+
+  template <class Make, class Take>
+  std::unique_ptr<Estimator> run(const Make& make, const Take& take) const {
+    std::unique_ptr<Estimator> estimator = make();
+    for (std::size_t i = 0; i < arrivals_.size(); ++i) {
+      for (const OwnedEvent& event : arrivals_[i]) take(*estimator, event);
+      if (i == changes_.size()) break;
+      std::unique_ptr<Estimator> next = make();
+      next->take_over(*estimator, changes_[i]);
+      estimator = std::move(next);
+    }
+    return estimator;
+  }
+
+ private:
+  std::vector<Stamp> changes_;
+  std::vector<std::vector<OwnedEvent>> arrivals_;
+};
+
+TEST_P(EveryTypeTest, EveryOrderOfArrivalAroundOtherGainsGivesTheSameBits) {
+  const std::vector<Stamp> changes = {kStart + kSecond / 2, kStart + kSecond,
+                                      kStart + 3 * kSecond / 2};
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    std::mt19937_64 generator(seed);
+    std::vector<OwnedEvent> events =
+        test::random_events_for(*config_.law, generator, 40, kStart, 2 * kSecond);
+    // A delayed jump is only taken in late where its release, 50 ms later, lies before the change.
+    events.erase(
+        std::remove_if(events.begin(), events.end(),
+                       [&](const OwnedEvent& event) {
+                         return std::any_of(changes.begin(), changes.end(), [&](Stamp change) {
+                           return event.kind == EventKind::kJump && event.stamp <= change &&
+                                  event.stamp > change - kSecond / 10;
+                         });
+                       }),
+        events.end());
+    std::sort(events.begin(), events.end(),
+              [](const OwnedEvent& a, const OwnedEvent& b) { return a.stamp < b.stamp; });
+    std::vector<double> expected;
+    for (int order = 0; order < 8; ++order) {
+      const ChangingLaws laws(changes, events, generator);
+      const auto estimator = laws.run([&] { return make(); },
+                                      [](Estimator& at, const OwnedEvent& event) {
+                                        EXPECT_NE(EventOutcome::kTooOld, take(at, event).outcome);
+                                      });
+      EXPECT_EQ(events.front().stamp, *estimator->earliest());
+      if (order == 0) expected = history(*estimator);
+      EXPECT_TRUE(same_bits(expected, history(*estimator))) << "seed " << seed;
+    }
+  }
+}
+
+TEST_P(EveryTypeTest, NothingIsAllocatedForEventsOfBeforeOtherGains) {
+  if (!test::allocations_are_counted()) GTEST_SKIP() << "a sanitizer owns the allocator";
+  std::mt19937_64 generator(3);
+  const std::vector<OwnedEvent> events =
+      test::random_events_for(*config_.law, generator, 100, kStart, 2 * kSecond);
+  const auto first = make();
+  take(*first, events.front());
+  const auto second = make();
+  second->take_over(*first, kStart + kSecond);
+  const Estimate* estimate = nullptr;
+  const std::size_t before = test::allocations();
+  for (const OwnedEvent& event : events) {
+    take(*second, event);
+    second->estimate_at(event.stamp, estimate);
+  }
+  EXPECT_EQ(before, test::allocations());
+}
+
 TEST_P(EveryTypeTest, NothingIsAllocatedForEventsAndQueries) {
   if (!test::allocations_are_counted()) GTEST_SKIP() << "a sanitizer owns the allocator";
   std::mt19937_64 generator(3);

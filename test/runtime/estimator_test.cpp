@@ -32,8 +32,8 @@ class EstimatorTest : public ::testing::Test {
     return {stamp, EventKind::kSample, 0, {value}};
   }
 
-  Eigen::Vector2d input_in(const Estimate& estimate) const {
-    return Eigen::Vector2d(estimator_.law().observer().held_part(estimate.state.data()));
+  static Eigen::Vector2d input_in(const Estimate& estimate) {
+    return Eigen::Vector2d(estimate.law->observer().held_part(estimate.state.data()));
   }
 
   Stamp now_ = kStart + 5 * kSecond;
@@ -213,6 +213,105 @@ TEST_F(EstimatorTest, AnotherLawTakesOverTheEstimateAndWhatIsHeld) {
   ASSERT_EQ(Timeline::Query::kOk, other.estimate_at(kStart + kSecond, after));
   EXPECT_EQ(Eigen::Vector3d(before.state.head(3)), Eigen::Vector3d(after.state.head(3)));
   EXPECT_EQ(Eigen::Vector2d(7.0, -3.0), input_in(after));
+}
+
+/// One that corrects nothing, so that it can be told from example_law().
+std::shared_ptr<const ObserverLaw> law_without_gains() {
+  return std::make_shared<const ConstantGainObserver>(
+      ObserverContext{test::example_plant(), Eigen::Vector3d::Zero(), Eigen::Vector2d::Zero()},
+      std::vector<Eigen::MatrixXd>{Eigen::MatrixXd::Zero(3, 1), Eigen::MatrixXd::Zero(3, 2)});
+}
+
+TEST_F(EstimatorTest, EventsOfBeforeATakeOverAreAppliedByTheLawOfTheirTime) {
+  const Stamp change = kStart + kSecond;
+  Estimator expected(test::example_law(), options());
+  expected.submit(sample(kStart).view(), now_);
+  expected.submit(sample(kStart + kSecond / 2, 9.0).view(), now_);
+  Estimate before = expected.make_estimate();
+  expected.estimate_at(change, before);
+
+  submit(sample(kStart));
+  Estimator other(law_without_gains(), options());
+  other.take_over(estimator_, change);
+  EXPECT_EQ(EventOutcome::kUsed, other.submit(sample(change + 1, 5.0).view(), now_).outcome);
+  EXPECT_EQ(kStart, *other.earliest());
+  const EventReport late = other.submit(sample(kStart + kSecond / 2, 9.0).view(), now_);
+  EXPECT_EQ(EventOutcome::kUsedLate, late.outcome);
+  EXPECT_EQ(1u, late.rewound);
+  EXPECT_EQ(kSecond / 2, *late.interval);
+  EXPECT_EQ(EventOutcome::kDuplicate, other.submit(sample(kStart).view(), now_).outcome);
+  for (const Stamp stamp : {change, change + 1, change - 1, kStart + kSecond / 2}) {
+    const Estimate* found = nullptr;
+    ASSERT_EQ(Timeline::Query::kOk, other.estimate_at(stamp, found));
+    EXPECT_EQ(stamp < change ? &other.at(kStart).law() : &other.law(), found->law);
+    expected.estimate_at(stamp, before);
+    if (stamp > change) continue;
+    EXPECT_EQ(before.state.head(3), found->state.head(3));
+  }
+}
+
+TEST_F(EstimatorTest, TheWindowCountsFromTheNewestEventAfterATakeOverToo) {
+  submit(sample(kStart));
+  submit(sample(kStart + kSecond));
+  Estimator other(law_without_gains(), options());
+  other.take_over(estimator_, kStart + 2 * kSecond);
+  const Stamp later = kStart + 10 * kSecond + kSecond / 2;
+  other.submit(sample(later).view(), later);
+  EXPECT_EQ(EventOutcome::kTooOld, other.submit(sample(kStart + 1).view(), later).outcome);
+  EXPECT_EQ(EventOutcome::kUsedLate,
+            other.submit(sample(kStart + 2 * kSecond / 3).view(), later).outcome);
+  // Now the newest event that is forgotten is one of the new law.
+  other.submit(sample(later + 8 * kSecond).view(), later + 20 * kSecond);
+  other.submit(sample(later + 10 * kSecond + 1).view(), later + 20 * kSecond);
+  EXPECT_EQ(EventOutcome::kTooOld,
+            other.submit(sample(kStart + kSecond / 2).view(), later + 20 * kSecond).outcome);
+}
+
+TEST_F(EstimatorTest, ATakeOverBehindAnEventOfTheFutureBeginsThere) {
+  submit(sample(kStart));
+  submit(sample(now_ + kSecond / 4, 3.0));
+  Estimate before = estimator_.make_estimate();
+  estimator_.estimate_at(now_ + kSecond / 4, before);
+  Estimator other(law_without_gains(), options());
+  other.take_over(estimator_, now_);
+  const Estimate* found = nullptr;
+  ASSERT_EQ(Timeline::Query::kOk, other.estimate_at(now_ + kSecond / 4, found));
+  EXPECT_EQ(before.state.head(3), found->state.head(3));
+  // And so does another one.
+  Estimator third(test::example_law(), options());
+  third.take_over(other, now_);
+  EXPECT_EQ(EventOutcome::kUsedLate, third.submit(sample(now_).view(), now_).outcome);
+}
+
+TEST_F(EstimatorTest, ManyTakeOversKeepTheLastOnesOnly) {
+  submit(sample(kStart));
+  std::unique_ptr<Estimator> last = std::make_unique<Estimator>(std::move(estimator_));
+  Stamp stamp = kStart;
+  for (int i = 0; i < 2 * Estimator::kEarlierLaws; ++i) {
+    auto next = std::make_unique<Estimator>(test::example_law(), options());
+    next->take_over(*last, stamp += kSecond / 10);
+    last = std::move(next);
+  }
+  const Stamp oldest = stamp - Estimator::kEarlierLaws * (kSecond / 10);
+  EXPECT_EQ(oldest, *last->earliest());
+  EXPECT_EQ(EventOutcome::kTooOld, last->submit(sample(oldest).view(), now_).outcome);
+  EXPECT_EQ(EventOutcome::kUsed, last->submit(sample(oldest + 1).view(), now_).outcome);
+}
+
+TEST_F(EstimatorTest, WhatIsHeldComesLateThroughATakeOver) {
+  const OwnedEvent input{kStart + kSecond / 2, EventKind::kInput, 0, {7.0, -3.0}};
+  submit(sample(kStart));
+  Estimator other(test::example_law(), options());
+  other.take_over(estimator_, kStart + kSecond);
+  EXPECT_EQ(EventOutcome::kUsed, other.submit(input.view(), now_).outcome);
+  const Estimate* found = nullptr;
+  ASSERT_EQ(Timeline::Query::kOk, other.estimate_at(kStart + kSecond, found));
+  EXPECT_EQ(Eigen::Vector2d(7.0, -3.0), input_in(*found));
+  // A reset keeps what the law of before held.
+  other.restart(kStart + 3 * kSecond / 4);
+  ASSERT_EQ(Timeline::Query::kOk, other.estimate_at(kStart + kSecond, found));
+  EXPECT_EQ(Eigen::Vector2d(7.0, -3.0), input_in(*found));
+  EXPECT_EQ(EventOutcome::kTooOld, other.submit(sample(kStart + kSecond / 2).view(), now_).outcome);
 }
 
 TEST_F(EstimatorTest, ClearedItIsAsNew) {

@@ -136,6 +136,7 @@ TEST_F(LiveRuntimeTest, OtherGainsGoOnWhereTheOldOnesWere) {
   const double before = position(1'100'000'000);
   const double later = position(1'200'000'000);
   auto next = std::make_unique<ObserverRuntime>(cart("", "[[0.5], [0]]"));
+  EXPECT_EQ(9u, due(1'090'000'000).size());
   next->take_over(*runtime_, 1'100'000'000);
   runtime_ = std::move(next);
   EXPECT_NEAR(before, position(1'100'000'000), 1e-12);
@@ -144,6 +145,20 @@ TEST_F(LiveRuntimeTest, OtherGainsGoOnWhereTheOldOnesWere) {
   EXPECT_EQ(EventOutcome::kDisabled, receive(1, 1'150'000'000, 2.0));
   EXPECT_EQ(EventOutcome::kUsed, receive(0, 1'200'000'000, later + 1.0));
   EXPECT_NEAR(later + 0.5, position(1'200'000'000), 1e-12);
+  // A sample of before corrects as it would have then.
+  const double old = position(1'050'000'000);
+  EXPECT_EQ(EventOutcome::kUsedLate, receive(0, 1'050'000'000, old + 1.0));
+  EXPECT_NEAR(old + 1.0, position(1'050'000'000), 1e-12);
+}
+
+TEST_F(LiveRuntimeTest, OtherGainsLeaveNoGapInDelayedEstimates) {
+  make("publish_delay: 0.05");
+  receive(0, 1'000'000'000, 2.0);
+  EXPECT_EQ((Stamps{1'000'000'000}), due(1'051'000'000));
+  auto next = std::make_unique<ObserverRuntime>(cart("publish_delay: 0.05", "[[0.5], [0]]"));
+  next->take_over(*runtime_, 1'055'000'000);
+  runtime_ = std::move(next);
+  EXPECT_EQ((Stamps{1'010'000'000, 1'020'000'000}), due(1'070'000'000));
 }
 
 /// With a bound on its error: the oscillator's gain file, for a plant with an input.

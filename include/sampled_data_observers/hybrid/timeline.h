@@ -11,6 +11,8 @@
 
 namespace sampled_data_observers {
 
+class SplitFlow;
+
 /// What a state rests on, counted since the start (or the last restart).
 struct EventCounts {
   /// Of all kinds, with or without effect.
@@ -110,6 +112,16 @@ class Timeline {
   /// `state` (system.state_size() entries) and `counts` are written for kOk and kHeld only.
   Query state_at(Stamp stamp, StateRef state, EventCounts& counts) const;
 
+  /// Begins a flow that leads to the state of state_at(), and to the same bits, so that it can be
+  /// computed in parts and while the timeline goes on. `flow` and `counts` are written for kOk
+  /// only, which stands for kHeld as well: the flow will tell.
+  Query begin_flow(Stamp stamp, SplitFlow& flow, EventCounts& counts) const;
+
+  /// Goes so many flow_step()s of the system towards the state at `stamp`, which changes no state.
+  /// Returns how many are left then to state_at(), or to an event of that stamp at the end of the
+  /// log. They may become more where other stamps are asked for meanwhile, and events taken in.
+  std::int64_t approach(Stamp stamp, std::int64_t steps) const;
+
   /// Forgets all events; `state` holds at `stamp`, and events up to `stamp` are before the window.
   /// It may be one that was `held`.
   void restart(Stamp stamp, ConstStateRef state, bool held = false);
@@ -123,6 +135,9 @@ class Timeline {
 
   /// The earliest stamp at which there is a state now.
   std::optional<Stamp> earliest() const;
+
+  /// Stamp of the newest event in the log; nothing where it is empty.
+  std::optional<Stamp> newest() const;
 
   /// The earliest stamp at which an event can be taken in now; nothing where any can.
   std::optional<Stamp> earliest_insertion() const;
@@ -169,7 +184,9 @@ class Timeline {
   void open_position(std::size_t position, const Event& event);
   void apply(std::size_t position);
   Effect reset(std::size_t position);
+  Query find(Stamp at, std::size_t& position) const;
   void flow_from(std::size_t position, Duration duration, StateRef state) const;
+  void flow_to(std::size_t position, Duration whole, const ConstStateRef& state) const;
   void forget_oldest();
   /// Where an event of its kind and sensor has its place in newest_; nothing for kinds that have
   /// none.

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <memory>
 #include <optional>
 
+#include "sampled_data_observers/hybrid/split_flow.h"
 #include "sampled_data_observers/hybrid/timeline.h"
 #include "sampled_data_observers/observer/observer_law.h"
 #include "sampled_data_observers/runtime/event_report.h"
@@ -35,11 +37,42 @@ struct Estimate {
   /// Whether the last finite state is given, with what events of `stamp` made of it, because the
   /// flow to `stamp` is not finite.
   bool held = false;
+  /// Whose state it is: another law's where the gains were changed after `stamp`. It lives as long
+  /// as the estimator keeps that part of its history.
+  const ObserverLaw* law = nullptr;
+};
+
+/// The bound on the error of an estimate as it can be given: none where inputs or jumps of before
+/// its stamp `may_change` it yet.
+PublishedBound published_bound(const Estimate& estimate, bool may_change);
+
+/// An estimate that is computed in parts (Estimator::begin_query()), so that others may use the
+/// estimator meanwhile.
+class EstimateQuery {
+ public:
+  /// Goes on by so many steps of the integration. Returns whether the estimate is there.
+  /// @pre no other thread uses the estimator
+  bool proceed(std::int64_t steps);
+
+  /// @pre proceed() returned true. Needs the estimator no more.
+  const Estimate& estimate() const { return estimate_; }
+  /// Its bound, as it could be given when the query began.
+  PublishedBound bound() const { return published_bound(estimate_, may_change_); }
+
+ private:
+  friend class Estimator;
+
+  std::shared_ptr<const ObserverLaw> law_;
+  SplitFlow flow_;
+  Estimate estimate_;
+  bool may_change_ = false;
 };
 
 /// One observer at work: admits events, keeps them in a Timeline and answers for any time in its
-/// window. It knows time only from its arguments, so it does the same live and from a bag.
-/// To be used by one thread at a time. Allocates nothing after construction.
+/// window. Where it took over another one, that one's events, law and timeline go on being part of
+/// its history: late events of before are applied by the law of their time. It knows time only from
+/// its arguments, so it does the same live and from a bag. To be used by one thread at a time.
+/// Allocates nothing after construction.
 class Estimator {
  public:
   /// How events are admitted and kept.
@@ -76,8 +109,22 @@ class Estimator {
   PublishedBound bound(const Estimate& estimate, Stamp now) const;
 
   /// The estimate at `stamp` from all events taken in; `estimate` is written for kOk and kHeld.
-  /// @pre estimate.state.size() == law().state_size()
+  /// @pre `estimate` was made by make_estimate() of at(stamp)
   Timeline::Query estimate_at(Stamp stamp, Estimate& estimate) const;
+
+  /// The same in memory of its own, valid until the next use of any kind.
+  Timeline::Query estimate_at(Stamp stamp, const Estimate*& estimate);
+
+  /// Begins to compute the estimate of estimate_at(), to the same bits, with its bound at `now`.
+  /// kOk stands for kHeld as well.
+  Timeline::Query begin_query(Stamp stamp, Stamp now, EstimateQuery& query) const;
+
+  /// Goes on computing towards the estimate at `stamp` for so many steps of the integration, which
+  /// changes no estimate. Returns how many are left: see Timeline::approach().
+  std::int64_t approach(Stamp stamp, std::int64_t steps) const;
+
+  /// The estimator that answers for `stamp`: this one, or one that it took over.
+  const Estimator& at(Stamp stamp) const;
 
   /// An Estimate of the right size.
   Estimate make_estimate() const;
@@ -101,10 +148,18 @@ class Estimator {
   /// without them, with its bound. Inputs and jumps of that time are to be told as rejected.
   void resume(Stamp stamp);
 
-  /// Goes on at `stamp` from the estimate of `other`, an estimator of the same plant with another
-  /// law: what is held and the mode stay, and what is known of its error; all else of the law's
-  /// state begins.
+  /// Goes on from the estimate of `other`, an estimator of the same plant with another law, at
+  /// `stamp` or, where that is later, at its newest event: what is held and the mode stay, and what
+  /// is known of its error; all else of the law's state begins. Up to there the estimate remains
+  /// that of the other law, and events of before may come as late as ever; but for those before the
+  /// kEarlierLaws last such changes, and jumps whose release lies behind one.
+  ///
+  /// @param other  only to be destroyed afterwards, which frees much memory
+  /// @param stamp  not before that of the take-over before
   void take_over(Estimator& other, Stamp stamp);
+
+  /// How many estimators that were taken over are kept.
+  static constexpr int kEarlierLaws = 3;
 
   /// Forgets everything: as new.
   void clear();
@@ -115,10 +170,19 @@ class Estimator {
  private:
   std::optional<EventOutcome> objection(const Event& event, Stamp now) const;
   void insert_rejected(EventKind kind, Stamp stamp);
+  bool may_change(Stamp stamp, Stamp now) const;
   bool prepare_restart(Estimator& from, Stamp stamp);
   void begin(Stamp stamp);
   void begin_at(const Event& sample);
   double innovation_of(const Event& measured);
+  bool has_earlier() const;
+  bool is_earlier(Stamp stamp) const;
+  EventReport submit_earlier(const Event& event, Stamp now);
+  bool prepare_take_over();
+  void go_on_from_earlier();
+  void learn_input(Stamp stamp);
+  void miss_input(Stamp stamp);
+  Estimator& responsible_for(Stamp stamp);
 
   std::shared_ptr<const ObserverLaw> law_;
   Options options_;
@@ -136,6 +200,11 @@ class Estimator {
   std::optional<Stamp> input_unknown_since_;
   /// Where the estimate began last: jumps of before play no part.
   std::optional<Stamp> began_at_;
+  /// What estimate_at() gives out.
+  Estimate answer_;
+  /// What was taken over last, and when; without a stamp it is of no use any more.
+  std::unique_ptr<Estimator> earlier_;
+  std::optional<Stamp> taken_over_at_;
 };
 
 }  // namespace sampled_data_observers

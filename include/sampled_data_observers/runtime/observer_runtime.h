@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -37,6 +38,22 @@ class ObserverRuntime {
   /// The estimate at any stamp; nothing, and why in `reason`, where there is none.
   const Estimate* estimate_at(Stamp stamp, std::string& reason);
 
+  /// Begins to compute the same at `now`. Returns why there is none, or null.
+  const char* begin_query(Stamp stamp, Stamp now, EstimateQuery& query) const;
+
+  // Where plants are integrated step by step, what comes after a while without events takes many
+  // steps. These go so many of them and change no estimate, so that a caller who shares the runtime
+  // can let others have it in between. They return how many are left: see Timeline::approach().
+
+  /// Towards the estimate that next_due() would give.
+  std::int64_t approach_next_due(Stamp now, std::int64_t steps) const;
+  /// Towards receive() of an event.
+  std::int64_t approach(const Event& event, Stamp now, std::int64_t steps) const;
+  /// Towards take_over() of this runtime at `now`.
+  std::int64_t approach(Stamp now, std::int64_t steps) const {
+    return estimator_.approach(now, steps);
+  }
+
   /// Starts again at `now`: from the configured initial estimate where `estimate` is empty.
   /// Returns why nothing was changed, or an empty text.
   std::string restart(Stamp now, const std::vector<double>& estimate);
@@ -56,7 +73,8 @@ class ObserverRuntime {
   /// an empty text.
   std::string enable_sensor(const std::string& name, bool enabled);
 
-  /// Goes on at `now` where `other` is, a runtime of the same configuration but for its gains.
+  /// Goes on at `now` where `other` is, a runtime of the same configuration but for its gains,
+  /// which is only to be destroyed afterwards; see Estimator::take_over().
   void take_over(ObserverRuntime& other, Stamp now);
 
   /// The bound on the error of an estimate as it can be given now (Estimator::bound()).
@@ -72,6 +90,7 @@ class ObserverRuntime {
 
  private:
   bool is_enabled(const Event& event) const;
+  const char* objection_to_queries() const;
   bool comes_after_bound(const Event& event, const EventReport& report) const;
   void watch_innovation(const Event& event, EventReport& report);
   void forget_innovations();
@@ -79,7 +98,6 @@ class ObserverRuntime {
   const RuntimeSetup setup_;
   Estimator estimator_;
   PublicationGrid grid_;
-  Estimate estimate_;
   /// The time of the last call that told it.
   Stamp now_ = 0;
   /// The newest stamp of an estimate that was given out with a finite bound.

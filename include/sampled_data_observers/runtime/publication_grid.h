@@ -17,13 +17,19 @@ class PublicationGrid {
 
   /// The next stamp due at `now`, none before `earliest`.
   std::optional<Stamp> next(Stamp now, Stamp earliest) {
+    const std::optional<Stamp> stamp = peek(now, earliest);
+    if (stamp) last_ = stamp;
+    return stamp;
+  }
+
+  /// What next() would give.
+  std::optional<Stamp> peek(Stamp now, Stamp earliest) const {
     const Stamp due = now - delay_;
     const Stamp from = earliest > due - backlog_ ? earliest : due - backlog_;
     if (from < 0) return std::nullopt;
     Stamp stamp = first_multiple_from(from, period_);
     if (last_ && stamp <= *last_) stamp = first_multiple_from(*last_ + 1, period_);
     if (stamp > due) return std::nullopt;
-    last_ = stamp;
     return stamp;
   }
 
