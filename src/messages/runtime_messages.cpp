@@ -53,15 +53,20 @@ void write(const EventChannel& channel, const Event& event, const EventReport& r
 }
 
 void write(const ObserverRuntime& runtime, const Estimate& estimate, StateEstimate& message) {
-  const ObserverLaw& law = runtime.estimator().law();
+  write(estimate, runtime.bound(estimate), runtime.setup().frame_id, message);
+}
+
+void write(const Estimate& estimate, const PublishedBound& bound, const std::string& frame_id,
+           StateEstimate& message) {
+  const ObserverLaw& law = *estimate.law;
   const Eigen::Index size = law.estimate_size();
   message.header.stamp = to_ros_time(estimate.stamp);
-  message.header.frame_id = runtime.setup().frame_id;
+  message.header.frame_id = frame_id;
   message.names = law.estimate_names();
   message.state.assign(estimate.state.data(), estimate.state.data() + size);
   const double* covariance = law.observer().covariance(estimate.state.data());
   if (covariance != nullptr) message.covariance.assign(covariance, covariance + size * size);
-  message.error_bound = runtime.bound(estimate).value;
+  message.error_bound = bound.value;
   message.time_since_sample = estimate.counts.last_sample
                                   ? to_seconds(estimate.stamp - *estimate.counts.last_sample)
                                   : kNone;

@@ -20,4 +20,8 @@ void write(const EventChannel& channel, const Event& event, const EventReport& r
 /// An estimate of `runtime`, and its bound as it can be given now.
 void write(const ObserverRuntime& runtime, const Estimate& estimate, StateEstimate& message);
 
+/// An estimate and its bound.
+void write(const Estimate& estimate, const PublishedBound& bound, const std::string& frame_id,
+           StateEstimate& message);
+
 }  // namespace sampled_data_observers

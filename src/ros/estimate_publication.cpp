@@ -1,5 +1,6 @@
 #include "sampled_data_observers/ros/estimate_publication.h"
 
+#include <boost/make_shared.hpp>
 #include <utility>
 
 #include "messages/queue_length.h"
@@ -7,6 +8,7 @@
 #include "real_time/memory_lock.h"
 #include "real_time/steady_deadline.h"
 #include "real_time/thread_cpu_time.h"
+#include "ros/action_callback.h"
 
 namespace sampled_data_observers {
 namespace {
@@ -14,6 +16,8 @@ namespace {
 constexpr std::size_t kEstimatesHeld = 16;
 constexpr double kShortestWait = 1e-3;  // s
 constexpr bool kFromNow = true;
+/// So many estimates are published at most before the events that wait have their turn.
+constexpr int kEstimatesPerTurn = 10;
 
 void apply(const RealTimeOptions& options, DeadlineThread& thread, const NodeLog& log) {
   if (options.lock_memory) {
@@ -68,7 +72,7 @@ void EstimatePublication::start(const ObserverConfig& config, const NodeLog& log
 
 void EstimatePublication::notice_event() {
   if (!thread_) {
-    publish_by_queue();
+    if (!waits_for_turn_) publish_by_queue();
   } else if (publish_on_event_) {
     thread_->wake();
   }
@@ -83,7 +87,7 @@ DeadlineThread::Clock::time_point EstimatePublication::publish_by_thread() {
 }
 
 void EstimatePublication::publish_by_queue() {
-  while (true) {
+  for (int published = 0; published < kEstimatesPerTurn; ++published) {
     const ros::Time now = ros::Time::now();
     const std::optional<Duration> wait = publish_next();
     if (!wait) continue;
@@ -92,21 +96,34 @@ void EstimatePublication::publish_by_queue() {
     // clock now stops.
     if (ros::Time::now() == now) return;
   }
+  wait_for_turn();
+}
+
+/// Goes on behind all that is in the queue now.
+void EstimatePublication::wait_for_turn() {
+  if (waits_for_turn_) return;
+  waits_for_turn_ = true;
+  handle_.getCallbackQueue()->addCallback(boost::make_shared<ActionCallback>([this] {
+    waits_for_turn_ = false;
+    publish_by_queue();
+  }));
 }
 
 /// Publishes the next estimate that is due; where there is none, returns how long until then.
 std::optional<Duration> EstimatePublication::publish_next() {
   const Duration cpu_time = thread_cpu_time();
   const boost::shared_ptr<StateEstimate> message = messages_->take();
-  {
+  SharedRuntime::Parts parts;
+  while (true) {
     const SharedRuntime::Access access = runtime_.access();
+    if (!parts.are_enough(access->approach_next_due(access.now(), SharedRuntime::kSteps))) continue;
     const Estimate* estimate = access->next_due(access.now());
     if (estimate == nullptr) return access->next_due_time(access.now()) - access.now();
     write(*access, *estimate, *message);
-    const ObserverLaw& law = access->estimator().law();
-    if (outputs_) outputs_->take(law, *estimate);
-    runtime_.statistics().record_estimate(law, *estimate, access->bound(*estimate),
+    if (outputs_) outputs_->take(*estimate->law, *estimate);
+    runtime_.statistics().record_estimate(*estimate->law, *estimate, access->bound(*estimate),
                                           access->lateness(estimate->stamp, access.now()));
+    break;
   }
   publisher_.publish(message);
   if (outputs_) outputs_->publish();

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <stdexcept>
+#include <thread>
 #include <utility>
 
 #include "config/confined_path.h"
@@ -10,6 +11,13 @@
 #include "sampled_data_observers/config/yaml_file.h"
 
 namespace sampled_data_observers {
+namespace {
+
+/// Between two changes: so many laws are kept (Estimator::kEarlierLaws) that samples which are late
+/// by less are used however often somebody calls.
+constexpr std::chrono::milliseconds kPause{100};
+
+}  // namespace
 
 GainReloader::GainReloader(ConfigNode tree, const ObserverConfig& config, SharedRuntime& runtime)
     : tree_(std::move(tree)),
@@ -26,11 +34,16 @@ std::string GainReloader::reload(const std::string& file) {
   if (directory_.empty()) {
     throw std::runtime_error("gain files may only be loaded where gains_directory is configured");
   }
-  const std::lock_guard<std::mutex> one_at_a_time(mutex_);
+  const std::unique_lock<std::mutex> one_at_a_time(mutex_, std::try_to_lock);
+  if (!one_at_a_time.owns_lock()) {
+    throw std::runtime_error("busy: the gains of another call are being loaded");
+  }
+  std::this_thread::sleep_until(last_change_ + kPause);
   ConfigNode tree = replace_gains(tree_, read_yaml_file(confined_path(directory_, file)));
   const ObserverConfig next = read_observer_config(tree, load_plant_plugin);
   if (next.type != type_) throw ConfigError(file, "observer", type_, next.type);
   runtime_.replace(std::make_unique<ObserverRuntime>(next));
+  last_change_ = std::chrono::steady_clock::now();
   tree_ = std::move(tree);
   if (!next.guarantee.empty()) return "certified by " + next.guarantee;
   std::string text = next.warning.empty() ? "without certificate" : next.warning;

@@ -38,6 +38,7 @@ void ObserverNodelet::onInit() {
 }
 
 void ObserverNodelet::stop() {
+  if (services_) services_->stop();
   service_threads_.stop();
   event_threads_.stop();
   clock_watch_.reset();

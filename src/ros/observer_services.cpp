@@ -29,6 +29,7 @@ std::vector<std::string> ObserverServices::names() const {
 }
 
 bool ObserverServices::reset(Reset::Request& request, Reset::Response& response) {
+  runtime_.approach_present();
   const SharedRuntime::Access access = runtime_.access();
   if (access.now() == 0) {
     response.message = std::string("there is no time yet: ") + kNoClock;
@@ -45,13 +46,36 @@ bool ObserverServices::reset(Reset::Request& request, Reset::Response& response)
 
 bool ObserverServices::get_estimate(GetEstimate::Request& request,
                                     GetEstimate::Response& response) {
-  const SharedRuntime::Access access = runtime_.access();
-  const Stamp stamp = request.stamp.isZero() ? access.now() : to_stamp(request.stamp);
-  const Estimate* estimate = access->estimate_at(stamp, response.message);
-  if (access.now() == 0) response.message = std::string("there is no time yet: ") + kNoClock;
-  response.success = estimate != nullptr ? 1 : 0;
-  if (estimate != nullptr) write(*access, *estimate, response.estimate);
+  const std::unique_lock<std::mutex> one_at_a_time(query_mutex_, std::try_to_lock);
+  if (one_at_a_time.owns_lock()) {
+    response.message = compute_estimate(request.stamp, response.estimate);
+  } else {
+    response.message = "busy: the estimate of another call is being computed";
+  }
+  response.success = response.message.empty() ? 1 : 0;
   return true;
+}
+
+/// Returns why there is none, or an empty text.
+std::string ObserverServices::compute_estimate(const ros::Time& at, StateEstimate& message) {
+  std::string frame_id;
+  EstimateQuery query;  // outlives each use of the runtime: it may be the last one with its law
+  {
+    const SharedRuntime::Access access = runtime_.access();
+    if (access.now() == 0) return std::string("there is no time yet: ") + kNoClock;
+    const Stamp stamp = at.isZero() ? access.now() : to_stamp(at);
+    const char* objection = access->begin_query(stamp, access.now(), query);
+    if (objection != nullptr) return objection;
+    frame_id = access->setup().frame_id;
+  }
+  while (true) {
+    if (is_stopping_) return "the observer is being stopped";
+    // Others have their turn between two uses.
+    const SharedRuntime::Access access = runtime_.access();
+    if (query.proceed(SharedRuntime::kSteps)) break;
+  }
+  write(query.estimate(), query.bound(), frame_id, message);
+  return "";
 }
 
 bool ObserverServices::reload_gains(ReloadGains::Request& request,
@@ -69,6 +93,7 @@ bool ObserverServices::reload_gains(ReloadGains::Request& request,
 
 bool ObserverServices::set_enabled(std_srvs::SetBool::Request& request,
                                    std_srvs::SetBool::Response& response) {
+  runtime_.approach_present();
   {
     const SharedRuntime::Access access = runtime_.access();
     access->set_enabled(request.data != 0, access.now());

@@ -17,7 +17,16 @@ SharedRuntime::SharedRuntime(const ObserverConfig& config, NodeLog log, std::str
       log_(std::move(log)),
       reset_service_(std::move(reset_service)) {}
 
+void SharedRuntime::approach_present() {
+  Parts parts;
+  while (true) {
+    const Access present = access();
+    if (parts.are_enough(present->approach(present.now(), kSteps))) return;
+  }
+}
+
 void SharedRuntime::replace(std::unique_ptr<ObserverRuntime> next) {
+  approach_present();
   {
     const Access present = access();
     next->take_over(*runtime_, present.now());

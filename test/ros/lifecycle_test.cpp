@@ -115,6 +115,36 @@ TEST_F(LifecycleTest, UnloadingInTheMidstOfEventsLeavesNothingBehind) {
   publisher.join();
 }
 
+TEST_F(LifecycleTest, AQueryThatTakesLongHoldsUpNeitherOthersNorUnloading) {
+  ASSERT_TRUE(load(loader_, "/pendulum"));
+  ros::NodeHandle handle;
+  const ros::Publisher publisher = handle.advertise<Measurement>("position", 10);
+  std::atomic<int> estimates{0};
+  const ros::Subscriber subscriber = handle.subscribe<StateEstimate>(
+      "estimate", 100, [&](const StateEstimate::ConstPtr&) { ++estimates; });
+  ASSERT_TRUE(test::spin_until(
+      [&] { return publisher.getNumSubscribers() > 0 && subscriber.getNumPublishers() > 0; }));
+  publisher.publish(test::ObserverClient::measurement(ros::Time::now(), {1.0}));
+  ASSERT_TRUE(test::spin_until([&] { return estimates > 0; }));
+
+  const auto ask = [] {
+    GetEstimate query;
+    query.request.stamp = ros::Time::now() + ros::Duration(98.0);
+    ros::service::call("/get_estimate", query);
+    return query.response;
+  };
+  GetEstimate::Response long_one;
+  std::thread caller([&] { long_one = ask(); });
+  EXPECT_TRUE(test::spin_until([&] { return ask().message.find("busy") == 0; }));
+  const int before = estimates;
+  EXPECT_TRUE(test::spin_until([&] { return estimates >= before + 25; }, 1.5));
+  const ros::WallTime began = ros::WallTime::now();
+  EXPECT_TRUE(loader_.unload("/pendulum"));
+  EXPECT_LT((ros::WallTime::now() - began).toSec(), 3.0);
+  caller.join();
+  EXPECT_FALSE(long_one.success);
+}
+
 TEST_F(LifecycleTest, PublishersMayDieAndReturn) {
   ASSERT_TRUE(load(loader_, "/observer"));
   test::ObserverClient client;

@@ -7,6 +7,7 @@
 #include <std_srvs/SetBool.h>
 
 #include <string>
+#include <thread>
 
 #include "messages/time_conversion.h"
 #include "ros/observer_client.h"
@@ -97,6 +98,28 @@ TEST_F(ServicesTest, GainsAreChangedWithoutLosingTheEstimate) {
   EXPECT_EQ("without certificate", reloaded.message);
   EXPECT_NEAR(expected, client_.get_estimate(swap).estimate.state[0], 1e-9);
   EXPECT_NEAR(0.4, correction(), 1e-9);
+}
+
+TEST_F(ServicesTest, SamplesOfBeforeOtherGainsAreUsed) {
+  ros::Time before = ros::Time::now();
+  EXPECT_EQ(EventStatus::USED, client_.sample(before, {1.0}).outcome);
+  for (int i = 0; i < 5; ++i) {
+    const ros::Time stamp = ros::Time::now();
+    EXPECT_TRUE(reload("smaller.yaml").success);
+    EXPECT_EQ(EventStatus::USED, client_.sample(stamp, {1.0}).outcome);
+    EXPECT_EQ(EventStatus::USED_LATE, client_.sample(before + ros::Duration(0, 1), {1.0}).outcome);
+    before = stamp;
+  }
+}
+
+TEST_F(ServicesTest, OneReloadAtATimeAndOthersAreToldSo) {
+  EXPECT_TRUE(reload("smaller.yaml").success);
+  ReloadGains::Response first;
+  std::thread waiting([&] { first = reload("smaller.yaml"); });
+  // The first one waits for the pause after the change before.
+  EXPECT_TRUE(test::spin_until([] { return reload("smaller.yaml").message.find("busy") == 0; }));
+  waiting.join();
+  EXPECT_TRUE(first.success || first.message.find("busy") == 0) << first.message;
 }
 
 TEST_F(ServicesTest, SwitchedOffItIsSilentAndRejects) {

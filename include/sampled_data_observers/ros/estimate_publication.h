@@ -42,11 +42,14 @@ class EstimatePublication {
  private:
   DeadlineThread::Clock::time_point publish_by_thread();
   void publish_by_queue();
+  void wait_for_turn();
   std::optional<Duration> publish_next();
 
   ros::NodeHandle handle_;
   SharedRuntime& runtime_;
   bool publish_on_event_ = false;
+  /// Whether the queue holds a callback that goes on publishing.
+  bool waits_for_turn_ = false;
   std::unique_ptr<MessagePool<StateEstimate>> messages_;
   ros::Publisher publisher_;
   std::unique_ptr<EstimateOutputs> outputs_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -20,11 +21,14 @@ class GainReloader {
   GainReloader(ConfigNode tree, const ObserverConfig& config, SharedRuntime& runtime);
 
   /// Returns what is guaranteed with the gains of `file`, which lies below the directory.
-  /// @throws std::runtime_error, after changing nothing, where the file or its gains are no good.
+  /// Waits up to 0.1 s where the last change is not longer ago.
+  /// @throws std::runtime_error, after changing nothing, where the file or its gains are no good,
+  /// and at once where another thread is in here.
   std::string reload(const std::string& file);
 
  private:
   std::mutex mutex_;
+  std::chrono::steady_clock::time_point last_change_;
   ConfigNode tree_;
   const std::string type_;
   const std::string directory_;

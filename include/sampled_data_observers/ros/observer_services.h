@@ -8,6 +8,8 @@
 #include <sampled_data_observers/Reset.h>
 #include <std_srvs/SetBool.h>
 
+#include <atomic>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -31,7 +33,11 @@ class ObserverServices {
   /// Of all services, resolved.
   std::vector<std::string> names() const;
 
+  /// Calls that take long end soon, without success, from now on.
+  void stop() { is_stopping_ = true; }
+
  private:
+  std::string compute_estimate(const ros::Time& at, StateEstimate& message);
   bool reset(Reset::Request& request, Reset::Response& response);
   bool get_estimate(GetEstimate::Request& request, GetEstimate::Response& response);
   bool reload_gains(ReloadGains::Request& request, ReloadGains::Response& response);
@@ -41,6 +47,8 @@ class ObserverServices {
   SharedRuntime& runtime_;
   GainReloader& gains_;
   const NodeLog log_;
+  std::atomic<bool> is_stopping_{false};
+  std::mutex query_mutex_;  ///< one query at a time
   std::vector<ros::ServiceServer> servers_;
 };
 

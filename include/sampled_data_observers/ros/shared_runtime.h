@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -16,9 +18,30 @@
 namespace sampled_data_observers {
 
 /// The runtime of a live observer, which several threads use: one at a time, and each for the
-/// bounded time of one event or one estimate only. It watches the clock for them.
+/// bounded time of one event or one estimate only. What takes longer, an integration over a while
+/// without events, is done in parts of kSteps steps (ObserverRuntime::approach(), EstimateQuery),
+/// each in a use of its own. It watches the clock for them.
 class SharedRuntime {
  public:
+  /// How many steps of an integration one use may take beside what it is for.
+  static constexpr std::int64_t kSteps = 8;
+
+  /// Tells when what is computed in parts is near enough to its end.
+  class Parts {
+   public:
+    /// @param left  how many steps are left after those of this use
+    /// @returns true as well where they do not become fewer, since others undo what was done: then
+    /// it is to be done at once, or it would never be
+    bool are_enough(std::int64_t left) {
+      const bool enough = left == 0 || left >= last_;
+      last_ = left;
+      return enough;
+    }
+
+   private:
+    std::int64_t last_ = std::numeric_limits<std::int64_t>::max();
+  };
+
   /// Exclusive use of the runtime, at one instant of ROS time, as long as it lives.
   class Access {
    public:
@@ -52,6 +75,9 @@ class SharedRuntime {
 
   /// Waits for the thread that uses the runtime now.
   Access access() { return Access(*this); }
+
+  /// Computes in parts what would take the next use long where it asks for the state at present.
+  void approach_present();
 
   /// What to do, on whatever thread notices it, when time went back. To be set before the first
   /// event.
