@@ -22,6 +22,10 @@ MessagePointer DetectedJumps::deserialize(std::uint8_t* data, std::uint32_t size
   return signal_->deserialize(data, size);
 }
 
+Stamp DetectedJumps::stamp_of(const MessagePointer& message, Stamp receipt) const {
+  return signal_->stamp_of(message, receipt);
+}
+
 Reading DetectedJumps::read(const MessagePointer& message, Stamp receipt, Event& event) {
   if (clock_.note(receipt) > 0) detector_.restart();
   event.size = 0;

@@ -26,6 +26,12 @@ void EventIntake::take(const MessagePointer& message, Stamp receipt, Stamp now) 
   handle_(channel_, event, reading, {});
 }
 
+void EventIntake::lose(Stamp stamp, const std::string& note) {
+  Event event = make_event();
+  event.stamp = stamp;
+  handle_(channel_, event, Reading::kDropped, note);
+}
+
 void EventIntake::retry(Stamp now) {
   const auto use = [this](const Waiting& waiting) {
     Event event = make_event();

@@ -33,6 +33,8 @@ EventOutcome outcome_of(Reading reading) {
       return EventOutcome::kInFuture;
     case Reading::kOutOfOrder:
       return EventOutcome::kOutOfOrder;
+    case Reading::kDropped:
+      return EventOutcome::kDropped;
     case Reading::kNotFinite:
       return EventOutcome::kNotFinite;
     case Reading::kEvent:

@@ -33,6 +33,7 @@ static_assert(EventStatus::DISABLED == static_cast<int>(EventOutcome::kDisabled)
 static_assert(EventStatus::NO_TRANSFORM == static_cast<int>(EventOutcome::kNoTransform));
 static_assert(EventStatus::NO_FIELD == static_cast<int>(EventOutcome::kNoField));
 static_assert(EventStatus::OUT_OF_ORDER == static_cast<int>(EventOutcome::kOutOfOrder));
+static_assert(EventStatus::DROPPED == static_cast<int>(EventOutcome::kDropped));
 static_assert(EventStatus::INTERVAL_NONE == static_cast<int>(IntervalCheck::kNone));
 static_assert(EventStatus::INTERVAL_WITHIN == static_cast<int>(IntervalCheck::kWithin));
 static_assert(EventStatus::INTERVAL_SHORT == static_cast<int>(IntervalCheck::kShort));

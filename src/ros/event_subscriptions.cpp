@@ -1,19 +1,29 @@
 #include "sampled_data_observers/ros/event_subscriptions.h"
 
+#include <boost/make_shared.hpp>
 #include <memory>
 #include <utility>
 
 #include "messages/queue_length.h"
 #include "messages/runtime_messages.h"
 #include "messages/time_conversion.h"
+#include "ros/action_callback.h"
 #include "sampled_data_observers/config/event_channels.h"
 #include "sampled_data_observers/runtime/diagnosis.h"
-#include "sampled_data_observers/runtime/no_clock.h"
 
 namespace sampled_data_observers {
 namespace {
 
 constexpr std::size_t kStatusesHeld = 16;
+
+/// In the place of a queue: each callback is called by whoever adds it.
+class AtOnce : public ros::CallbackQueueInterface {
+ public:
+  void addCallback(const ros::CallbackInterfacePtr& callback, std::uint64_t) override {
+    callback->call();
+  }
+  void removeByID(std::uint64_t) override {}
+};
 
 EventStatus status_prototype() {
   EventStatus status;
@@ -34,6 +44,9 @@ EventSubscriptions::EventSubscriptions(const ros::NodeHandle& handle, const Obse
       history_(config.options.history.history),
       statuses_(status_prototype(), kStatusesHeld),
       transforms_(std::make_shared<TransformBuffer>(config.static_transforms)),
+      messages_(event_channels(config).size(), kQueueLength),
+      at_once_(std::make_unique<AtOnce>()),
+      turn_(boost::make_shared<ActionCallback>([this] { use_next(); })),
       clock_(config.jump_back_tolerance) {
   for (const EventChannel& channel : event_channels(config)) add(channel);
   throttles_.resize(intakes_.size() * kEventOutcomes);
@@ -46,7 +59,7 @@ void EventSubscriptions::start() {
   if (!ros::Time::isSimTime()) return;
   const bool once = true;
   clock_timer_ = handle_.createTimer(
-      ros::Duration(1e-3), [this](const ros::TimerEvent&) { run_deferred(); }, once);
+      ros::Duration(1e-3), [this](const ros::TimerEvent&) { ask_for_turn(); }, once);
 }
 
 void EventSubscriptions::add(const EventChannel& channel) {
@@ -55,21 +68,16 @@ void EventSubscriptions::add(const EventChannel& channel) {
       channel, source,
       [this](const EventChannel& from, const Event& event, Reading reading,
              const std::string& missing) { handle(from, event, reading, missing); });
-  const auto deliver = [this, intake](const MessagePointer& message, Stamp receipt) {
-    const Stamp now = to_stamp(ros::Time::now());
-    if (now == 0) {
-      defer([intake, message] {
-        const Stamp first = to_stamp(ros::Time::now());
-        intake->take(message, first, first);
-      });
-      return;
+  const auto deliver = [this, source, index = channel.index](const MessagePointer& message,
+                                                             Stamp receipt) {
+    if (messages_.push({index, message, receipt, source->stamp_of(message, receipt)})) {
+      ask_for_turn();
     }
-    run_deferred();
-    watch_clock(now);
-    intake->take(message, receipt, now);
   };
   subscribe_.push_back([this, source, deliver, channel] {
-    subscribers_.push_back(source->subscribe(handle_, kQueueLength, deliver));
+    ros::NodeHandle handle(handle_);
+    handle.setCallbackQueue(at_once_.get());
+    subscribers_.push_back(source->subscribe(handle, kQueueLength, deliver));
     log_.info("%s from %s (%s)", channel.name.c_str(), subscribers_.back().getTopic().c_str(),
               channel.source.type.c_str());
   });
@@ -109,21 +117,42 @@ void EventSubscriptions::retry_waiting() {
   for (const auto& intake : intakes_) intake->retry(now);
 }
 
-/// Keeps a task until the first message of a simulated clock: before, nobody can tell the past from
-/// the future.
-void EventSubscriptions::defer(std::function<void()> task) {
-  if (deferred_.size() < kQueueLength) {
-    deferred_.push_back(std::move(task));
-  } else if (!has_lost_events_) {  // throttled by ROS time, the warning would never come
-    has_lost_events_ = true;
-    log_.warn("events are lost: %s", kNoClock);
+/// Behind all that is in the callback queue now, so that timers and transforms have their turns.
+void EventSubscriptions::ask_for_turn() { handle_.getCallbackQueue()->addCallback(turn_); }
+
+/// Before the first message of a simulated clock, nobody can tell the past from the future.
+void EventSubscriptions::use_next() {
+  const Stamp now = to_stamp(ros::Time::now());
+  if (now == 0) {
+    messages_.suspend();
+    return;
   }
+  watch_clock(now);
+  const MessageQueue::Next next = messages_.take();
+  if (next.drop) answer(*next.drop);
+  if (next.message) {
+    const MessageQueue::Message& message = *next.message;
+    const Stamp receipt = message.receipt > 0 ? message.receipt : now;
+    intakes_[message.channel]->take(message.message, receipt, now);
+  }
+  if (next.more) ask_for_turn();
 }
 
-void EventSubscriptions::run_deferred() {
-  if (deferred_.empty()) return;
-  for (const std::function<void()>& task : deferred_) task();
-  deferred_.clear();
+/// One status each, and two for many that were dropped together.
+void EventSubscriptions::answer(const MessageQueue::Drop& drop) {
+  EventIntake& intake = *intakes_[drop.channel];
+  if (drop.count == 1) {
+    intake.lose(drop.first, "");
+    return;
+  }
+  const std::string note = "one of " + std::to_string(drop.count);
+  intake.lose(drop.first, note);
+  intake.lose(drop.last, note);
+  EventReport report;
+  report.outcome = EventOutcome::kDropped;
+  for (std::uint64_t i = 2; i < drop.count; ++i) {
+    runtime_.statistics().record_event(drop.channel, {}, report, 0);
+  }
 }
 
 LogThrottle& EventSubscriptions::throttle_of(const EventChannel& channel,
@@ -135,13 +164,17 @@ void EventSubscriptions::handle(const EventChannel& channel, const Event& event,
                                 const std::string& missing) {
   EventReport report;
   Stamp now = 0;
-  {
+  SharedRuntime::Parts parts;
+  while (true) {
     const SharedRuntime::Access access = runtime_.access();
+    if (!parts.are_enough(access->approach(event, access.now(), SharedRuntime::kSteps))) continue;
     report = reading == Reading::kEvent ? access->receive(event, access.now())
                                         : access->reject(event, outcome_of(reading), access.now());
-    if (!missing.empty()) runtime_.statistics().record_missing_transform(channel.index, missing);
+    if (reading == Reading::kNoTransform)
+      runtime_.statistics().record_missing_transform(channel.index, missing);
     now = access.now();
     runtime_.statistics().record_event(channel.index, event, report, now - event.stamp);
+    break;
   }
   const Duration latency = now - event.stamp;
   const boost::shared_ptr<EventStatus> status = statuses_.take();

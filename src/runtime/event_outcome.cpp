@@ -38,6 +38,8 @@ constexpr OutcomeText kTexts[kEventOutcomes] = {
      "compare the messages with source/fields"},
     {EventOutcome::kOutOfOrder, "a detector's signal, stamped not after the one before",
      "its publisher must send the signal in the order of stamps"},
+    {EventOutcome::kDropped, "dropped, since 2000 later ones of its topic waited",
+     "send fewer messages, or give the observer more of the machine"},
 };
 
 constexpr bool is_in_order() {

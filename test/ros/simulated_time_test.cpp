@@ -86,6 +86,29 @@ TEST_F(SimulatedTimeTest, EventsWaitForTheClockAndEstimatesFollowItForthAndBack)
   EXPECT_EQ(EventStatus::USED, client_.sample(ros::Time(50.5), {1.0}).outcome);
 }
 
+// 100,000 estimates a second are asked for, and no machine is so fast.
+TEST_F(SimulatedTimeTest, EveryEventIsAnsweredWhereEstimatesCannotKeepUp) {
+  constexpr std::uint32_t kQueue = 10000;
+  std::size_t answered = 0;
+  const boost::function<void(const EventStatus::ConstPtr&)> count =
+      [&](const EventStatus::ConstPtr&) { ++answered; };
+  const ros::Subscriber statuses = handle_.subscribe<EventStatus>("fast/events", kQueue, count);
+  const ros::Publisher samples = handle_.advertise<Measurement>("fast/position", kQueue);
+  ASSERT_TRUE(test::spin_until(
+      [&] { return samples.getNumSubscribers() > 0 && statuses.getNumPublishers() > 0; }));
+  double now = 1000.0;
+  for (int i = 0; i < 3000; ++i, now += 0.1) {
+    set_clock(now);
+    for (const double stamp : {now - 0.05, now}) {
+      samples.publish(test::ObserverClient::measurement(ros::Time(stamp), {1.0}));
+    }
+    ros::WallDuration(0.001).sleep();
+    ros::spinOnce();
+  }
+  EXPECT_TRUE(test::spin_until([&] { return answered >= 6000; }, 60.0)) << answered;
+  EXPECT_EQ(6000u, answered);
+}
+
 }  // namespace
 }  // namespace sampled_data_observers
 

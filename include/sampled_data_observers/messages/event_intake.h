@@ -15,8 +15,8 @@ namespace sampled_data_observers {
 class EventIntake {
  public:
   /// Takes what became of a message. The event has a stamp and, where it is one, values that live
-  /// until the handler returns. The text says which transform is missing, for kNoTransform, and is
-  /// empty otherwise.
+  /// until the handler returns. The text says which transform is missing, for kNoTransform, is the
+  /// note of lose(), for kDropped, and is empty otherwise.
   using Handler =
       std::function<void(const EventChannel&, const Event&, Reading, const std::string&)>;
 
@@ -27,6 +27,11 @@ class EventIntake {
 
   /// Takes a message of the channel's source that arrived at `now`.
   void take(const MessagePointer& message, Stamp receipt, Stamp now);
+
+  /// Passes on that a message was dropped.
+  /// @param stamp  of the event that it would have been
+  /// @param note   what is to be said of it beside; may be empty
+  void lose(Stamp stamp, const std::string& note);
 
   /// Tries again those that wait: to be called when transforms came, and now and then so that those
   /// which have waited in vain are reported.

@@ -23,6 +23,7 @@ enum class Reading : std::uint8_t {
   kInFuture,    ///< nothing: a detector's signal from beyond the tolerated future
   kOutOfOrder,  ///< nothing: a detector's signal whose stamp is not after the one before
   kNotFinite,   ///< nothing: a detector's signal that is NaN or infinite
+  kDropped,     ///< nothing: it was not read, since too many came
   kNoTransform  ///< nothing yet: the transform into a configured frame is not known; stamp is set
 };
 
@@ -52,6 +53,11 @@ class MessageSource {
   /// The message that these bytes are, as roscpp sends it.
   /// @throws ros::Exception, std::bad_alloc for bytes that are none
   virtual MessagePointer deserialize(std::uint8_t* data, std::uint32_t size) const = 0;
+
+  /// The stamp of the event that a message is, or of what a detector reads; for any thread.
+  /// @param message  one that this source gave
+  /// @param receipt  the event's stamp where the source is configured so
+  virtual Stamp stamp_of(const MessagePointer& message, Stamp receipt) const = 0;
 
   /// Sets stamp, values and size of an event whose kind is set, and what else the message says. The
   /// values live until the next call, or as long as the message.

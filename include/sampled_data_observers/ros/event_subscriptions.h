@@ -1,5 +1,6 @@
 #pragma once
 
+#include <ros/callback_queue_interface.h>
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
 #include <ros/subscriber.h>
@@ -14,6 +15,7 @@
 
 #include "sampled_data_observers/messages/event_intake.h"
 #include "sampled_data_observers/messages/message_pool.h"
+#include "sampled_data_observers/messages/message_queue.h"
 #include "sampled_data_observers/messages/message_source.h"
 #include "sampled_data_observers/ros/estimate_publication.h"
 #include "sampled_data_observers/ros/log_throttle.h"
@@ -24,7 +26,8 @@
 namespace sampled_data_observers {
 
 /// Subscribes to the topics of all channels, gives their messages as events to the runtime, and
-/// publishes what became of each. To be used on one callback queue of one thread.
+/// publishes what became of each. To be used on one callback queue of one thread. Messages wait for
+/// it in a MessageQueue, so that roscpp drops none unseen.
 class EventSubscriptions {
  public:
   /// Finds all faults of the channels' sources; subscribes to nothing before start().
@@ -43,8 +46,9 @@ class EventSubscriptions {
  private:
   void add(const EventChannel& channel);
   void listen_to_transforms();
-  void defer(std::function<void()> task);
-  void run_deferred();
+  void ask_for_turn();
+  void use_next();
+  void answer(const MessageQueue::Drop& drop);
   void watch_clock(Stamp now);
   void retry_waiting();
   void handle(const EventChannel& channel, const Event& event, Reading reading,
@@ -63,15 +67,20 @@ class EventSubscriptions {
   MessagePool<EventStatus> statuses_;
   ros::Publisher status_publisher_;
   std::shared_ptr<TransformBuffer> transforms_;
+  /// One for each channel, in its order.
   std::vector<std::shared_ptr<EventIntake>> intakes_;
   std::vector<std::function<void()>> subscribe_;
-  std::vector<ros::Subscriber> subscribers_;
+  MessageQueue messages_;
+  /// Has a message received at once, by roscpp's thread that got it.
+  std::unique_ptr<ros::CallbackQueueInterface> at_once_;
+  /// A callback that uses the next message.
+  const ros::CallbackInterfacePtr turn_;
   ClockJumps clock_;
   ros::WallTimer retry_timer_;
-  /// What came before the first time of a simulated clock, and what ends the wait for it.
-  std::vector<std::function<void()>> deferred_;
-  bool has_lost_events_ = false;
+  /// Ends the wait for the first time of a simulated clock.
   ros::Timer clock_timer_;
+  /// Gone before all that they use.
+  std::vector<ros::Subscriber> subscribers_;
 };
 
 }  // namespace sampled_data_observers

@@ -22,11 +22,12 @@ enum class EventOutcome : std::uint8_t {
   kDisabled = 12,      ///< the observer or the sensor is switched off
   kNoTransform = 13,   ///< no transform into a configured frame came in time, so there is no event
   kNoField = 14,       ///< the message does not hold what is configured, so there is no event
-  kOutOfOrder = 15     ///< a detector's signal, stamped not after the one before: no event
+  kOutOfOrder = 15,    ///< a detector's signal, stamped not after the one before: no event
+  kDropped = 16        ///< more messages came than could be taken in: never looked at
 };
 
 /// How many outcomes there are: their codes lie below.
-constexpr std::size_t kEventOutcomes = static_cast<std::size_t>(EventOutcome::kOutOfOrder) + 1;
+constexpr std::size_t kEventOutcomes = static_cast<std::size_t>(EventOutcome::kDropped) + 1;
 
 /// The outcome in a few words.
 const char* describe(EventOutcome outcome);

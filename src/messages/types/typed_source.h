@@ -23,11 +23,11 @@ namespace sampled_data_observers {
 
 /// The stamp that a message carries; null for a type without.
 template <class M>
-const ros::Time* stamp_of(const M& message) {
+const ros::Time* header_stamp(const M& message) {
   return ros::message_traits::TimeStamp<M>::pointer(message);
 }
-inline const ros::Time* stamp_of(const std_msgs::Header& message) { return &message.stamp; }
-inline const ros::Time* stamp_of(const std_msgs::Time& message) { return &message.data; }
+inline const ros::Time* header_stamp(const std_msgs::Header& message) { return &message.stamp; }
+inline const ros::Time* header_stamp(const std_msgs::Time& message) { return &message.data; }
 
 template <class M>
 class TypedSource : public MessageSource {
@@ -39,7 +39,7 @@ class TypedSource : public MessageSource {
         transformer_(source),
         thinned_(source.min_interval),
         reader_(source) {
-    if (!by_receipt_ && stamp_of(M()) == nullptr) {
+    if (!by_receipt_ && header_stamp(M()) == nullptr) {
       throw ConfigError(source.origin, source.path + "/stamp",
                         "receipt (" + source.type + " carries no stamp)", "none");
     }
@@ -65,9 +65,13 @@ class TypedSource : public MessageSource {
     return message;
   }
 
+  Stamp stamp_of(const MessagePointer& message, Stamp receipt) const override {
+    return by_receipt_ ? receipt : to_stamp(*header_stamp(typed_message(message)));
+  }
+
   Reading read(const MessagePointer& message, Stamp receipt, Event& event) override {
-    const M& typed = *static_cast<const M*>(message.get());
-    event.stamp = by_receipt_ ? receipt : to_stamp(*stamp_of(typed));
+    const M& typed = typed_message(message);
+    event.stamp = stamp_of(message, receipt);
     const bool has_stamp = event.stamp > 0;
     const M* wanted =
         has_stamp ? transformer_.transform(typed, event.stamp, transforms_.get()) : &typed;
@@ -80,10 +84,14 @@ class TypedSource : public MessageSource {
 
   void name_missing_transform(const MessagePointer& message, Stamp stamp,
                               std::string& text) const override {
-    transformer_.name_missing(*static_cast<const M*>(message.get()), stamp, *transforms_, text);
+    transformer_.name_missing(typed_message(message), stamp, *transforms_, text);
   }
 
  private:
+  static const M& typed_message(const MessagePointer& message) {
+    return *static_cast<const M*>(message.get());
+  }
+
   std::string topic_;
   bool by_receipt_;
   std::shared_ptr<const TransformBuffer> transforms_;
