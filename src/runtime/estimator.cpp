@@ -248,6 +248,7 @@ Timeline::Query Estimator::estimate_at(Stamp stamp, Estimate& estimate) const {
   const Timeline::Query query = from.timeline_.state_at(stamp, estimate.state, estimate.counts);
   estimate.stamp = stamp;
   estimate.held = query == Timeline::Query::kHeld;
+  estimate.law = from.law_.get();
   return query;
 }
 

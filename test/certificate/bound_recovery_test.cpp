@@ -251,6 +251,33 @@ TEST(BoundRecoveryTest, OtherGainsGoOnFromWhatIsKnownOfTheError) {
   EXPECT_EQ(BoundLoss::kNotVouched, second.law->bound_loss(estimate.state.data()));
 }
 
+TEST(BoundRecoveryTest, TheBoundHoldsWhenASampleOfBeforeOtherGainsComesLate) {
+  const char kAssumed[] = "{initial_error: 10, noise: 0.01, disturbance: 0}";
+  const ObserverConfig first = CertifiedGains(kOscillator).assuming(kAssumed).config();
+  const ObserverConfig second = CertifiedGains(kOscillatorSlow).assuming(kAssumed).config();
+  TrueRun run(first, Eigen::Vector2d(6.0, -8.0));
+  for (int i = 1; i <= 20; ++i) {
+    run.sample(0.15 * i, i % 2 == 0 ? 0.01 : -0.01);
+    if (i < 20) run.tell(0.15 * i);
+  }
+  Estimator next(second.law, second.options);
+  next.take_over(run.estimator(), TrueRun::stamp_of(3.05));
+  run.estimator() = std::move(next);
+  const auto before = run.compare(3.06);
+  EXPECT_TRUE(before.holds());
+  run.tell(3.1);
+  EXPECT_EQ(EventOutcome::kUsed, run.reports().back().outcome);
+  const auto after = run.compare(3.06);
+  EXPECT_TRUE(after.holds());
+  EXPECT_NE(after.bound.value, before.bound.value);
+  for (int i = 21; i <= 200; ++i) {
+    run.sample(0.15 * i, i % 2 == 0 ? 0.01 : -0.01);
+    run.tell(0.15 * i);
+    EXPECT_TRUE(run.compare(0.15 * i).holds());
+    EXPECT_TRUE(run.compare(0.15 * i + 0.149).holds());
+  }
+}
+
 TEST(BoundRecoveryTest, AnInputThatIsUnknownStaysSoWithOtherGains) {
   const auto config = with_plant(kOscillator, "plant: {inputs: [u], B: [[0], [1]]}")
                           .assuming("{initial_error: 1, noise: 0, disturbance: 0}")
