@@ -5,12 +5,14 @@
 
 #include <Eigen/Dense>
 #include <memory>
+#include <string>
 #include <unsupported/Eigen/MatrixFunctions>
 
 #include "allocations.h"
 #include "observer/constant_gain_observer.h"
 #include "plant/linear_plant.h"
 #include "sampled_data_observers/hybrid/timeline.h"
+#include "sampled_data_observers/plant/expression_map.h"
 
 namespace sampled_data_observers {
 namespace {
@@ -144,6 +146,43 @@ void SharedStamp(benchmark::State& state) {
   for (auto _ : state) insert();
 }
 
+/// ẋ_i = −x_i/10 + 0.3 sin x_{i+1} + 0.2 x_{i+2} cos x_{i+3}
+std::shared_ptr<const ConstantGainObserver> law_by_formulas(Eigen::Index n) {
+  PlantDescription plant;
+  std::vector<NamedExpression> formulas;
+  for (Eigen::Index i = 0; i < n; ++i) plant.state_names.push_back("x" + std::to_string(i));
+  const auto name = [&](Eigen::Index i) { return "x" + std::to_string(i % n); };
+  for (Eigen::Index i = 0; i < n; ++i) {
+    formulas.push_back({name(i), "-0.1*" + name(i) + " + 0.3*sin(" + name(i + 1) + ") + 0.2*" +
+                                     name(i + 2) + "*cos(" + name(i + 3) + ")"});
+  }
+  plant.sensors = {{"s", SensorTiming::kSampled, {false}}};
+  PlantMode mode;
+  mode.flow = std::make_shared<const ExpressionMap>(ExpressionNames{plant.state_names, {}, {}},
+                                                    std::vector<NamedExpression>{}, formulas);
+  mode.outputs = {std::make_shared<const AffineMap>(Eigen::MatrixXd::Identity(1, n))};
+  plant.modes = {mode};
+  plant.integration.horizon = 1000000 * plant.integration.step;
+  return std::make_shared<const ConstantGainObserver>(
+      ObserverContext{std::make_shared<const Plant>(plant), Eigen::VectorXd::Ones(n),
+                      Eigen::VectorXd::Zero(0)},
+      std::vector<Eigen::MatrixXd>{Eigen::MatrixXd::Constant(n, 1, 0.1)});
+}
+
+/// As many steps of an integration as a live observer does at a time (SharedRuntime::kSteps).
+void EightSteps(benchmark::State& state) {
+  const auto law = law_by_formulas(state.range(0));
+  Timeline timeline(law, {kNanosecondsPerSecond, 10});
+  const double value = 1.0;
+  timeline.insert({kStart, EventKind::kSample, 0, &value, 1});
+  const Stamp end = kStart + law->flow_horizon();
+  const Allocations allocations(state);
+  for (auto _ : state) {
+    if (timeline.approach(end, 8) > 0) continue;
+    timeline.approach(kStart + law->flow_step(), 8);  // begins anew
+  }
+}
+
 void Sizes(benchmark::internal::Benchmark* benchmark) {
   for (const int n : {2, 4, 6, 15}) benchmark->Arg(n);
 }
@@ -161,6 +200,7 @@ BENCHMARK(BareSample)->Apply(Sizes);
 BENCHMARK(Sample)->Apply(Sizes);
 BENCHMARK(Rewind)->Apply(SizesAndDepths);
 BENCHMARK(SharedStamp)->Arg(1)->Arg(10)->Arg(100)->Arg(1000);
+BENCHMARK(EightSteps)->Apply(Sizes);
 
 }  // namespace
 }  // namespace sampled_data_observers
