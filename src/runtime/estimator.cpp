@@ -354,7 +354,7 @@ void Estimator::take_over(Estimator& other, Stamp stamp) {
   if (begins) timeline_.restart(*taken_over_at_, restart_state_, earlier_->before_restart_.held);
   if (!begins || awaits_sample_) {
     taken_over_at_.reset();
-    other.earlier_ = std::move(earlier_);
+    other.earlier_ = std::move(earlier_);  // NOLINT(bugprone-use-after-move): it is assigned to
     return;
   }
   Estimator* oldest = earlier_.get();
@@ -362,6 +362,7 @@ void Estimator::take_over(Estimator& other, Stamp stamp) {
     oldest = oldest->earlier_.get();
   }
   oldest->taken_over_at_.reset();
+  // Whoever destroys it frees that, too. NOLINTNEXTLINE(bugprone-use-after-move)
   other.earlier_ = std::move(oldest->earlier_);
 }
 
