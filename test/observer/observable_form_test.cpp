@@ -15,9 +15,10 @@ namespace {
 
 std::vector<double> sorted_real_eigenvalues(const Eigen::MatrixXd& M) {
   std::vector<double> result;
-  for (const std::complex<double>& value : test::eigenvalues(M)) {
-    EXPECT_NEAR(0.0, value.imag(), 1e-6);
-    result.push_back(value.real());
+  const Eigen::VectorXcd values = test::eigenvalues(M);
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    EXPECT_NEAR(0.0, values(i).imag(), 1e-6);
+    result.push_back(values(i).real());
   }
   std::sort(result.begin(), result.end());
   return result;

@@ -145,15 +145,15 @@ TEST_F(QuietTimesTest, WhoGoesOnFromAHeldEstimateHoldsIt) {
   take(estimator, {kStart, EventKind::kSample, 0, {2.0}});
   EXPECT_FALSE(at(estimator, kStart).held);
   const Stamp quiet = kStart + kQuiet;
+  estimator.resume(quiet);
+  EXPECT_TRUE(at(estimator, quiet).held);
+  EXPECT_FALSE(at(estimator, quiet + 1).held);
   Estimator successor(law, long_history());
   successor.take_over(estimator, quiet);
   EXPECT_TRUE(at(successor, quiet).held);
   EXPECT_FALSE(at(successor, quiet + 1).held);
-  estimator.resume(quiet);
-  EXPECT_TRUE(at(estimator, quiet).held);
-  EXPECT_FALSE(at(estimator, quiet + 1).held);
-  estimator.restart(quiet);
-  EXPECT_FALSE(at(estimator, quiet).held);
+  successor.restart(quiet);
+  EXPECT_FALSE(at(successor, quiet).held);
 }
 
 TEST_F(QuietTimesTest, TimersMoveByHoldingAsTheyDoByAFlow) {

@@ -17,7 +17,6 @@ inline std::vector<std::string> type_examples() {
   return {"constant_gain",
           "constant_gain_delayed",
           "constant_gain_nonlinear",
-          "constant_gain_roots",
           "high_gain_linear",
           "high_gain_original",
           "high_gain_transformed",
