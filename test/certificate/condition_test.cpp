@@ -36,7 +36,9 @@ Eigen::MatrixXd gaussian(Random& random, Eigen::Index rows, Eigen::Index cols) {
 /// A diagonal of powers of two.
 Eigen::MatrixXd scales(Random& random, Eigen::Index n, int exponent) {
   Eigen::VectorXd diagonal(n);
-  for (double& entry : diagonal) entry = std::ldexp(1.0, whole(random, -exponent, exponent));
+  for (Eigen::Index i = 0; i < n; ++i) {
+    diagonal(i) = std::ldexp(1.0, whole(random, -exponent, exponent));
+  }
   return diagonal.asDiagonal();
 }
 
