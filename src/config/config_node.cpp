@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "config/tree_limits.h"
+
 namespace sampled_data_observers {
 namespace {
 
@@ -23,6 +25,7 @@ void merge_into(ConfigNode& target, const ConfigNode& source, const std::string&
     if (ConfigNode* present = find_in(target, key)) {
       merge_into(*present, node, path.empty() ? key : path + "/" + key);
     } else {
+      if (target.entries.size() >= kMostKeys) throw too_many_keys(source.origin, path);
       target.entries.emplace_back(key, node);
     }
   }

@@ -8,6 +8,8 @@
 #include <sstream>
 #include <vector>
 
+#include "config/tree_limits.h"
+
 namespace sampled_data_observers {
 namespace {
 
@@ -15,19 +17,8 @@ std::string place(const std::string& name, const YAML::Mark& mark) {
   return mark.is_null() ? name : name + ":" + std::to_string(mark.line + 1);
 }
 
-// More than any configuration has. A file that nests further would exhaust the stack, one of a few
-// aliases of aliases the memory, and one that is larger would take minutes.
-constexpr std::size_t kMostBytes = 4000000;
-constexpr std::size_t kMostLevels = 16;
-constexpr std::size_t kMostNodes = 200000;
-constexpr std::size_t kMostKeys = 1000;
-
 ConfigError too_large(const std::string& name, const std::string& found) {
   return ConfigError(name, "", "at most " + std::to_string(kMostBytes) + " bytes", found);
-}
-
-ConfigError too_deep(const std::string& origin, const std::string& path) {
-  return ConfigError(origin, path, "at most " + std::to_string(kMostLevels) + " levels", "more");
 }
 
 /// Sees a document go by, and stops it where it is too large: before it takes memory and time.
@@ -68,13 +59,13 @@ class SizeGate : public YAML::EventHandler {
     if (levels_.empty()) return;
     Level& level = levels_.back();
     if (++level.nodes <= 2 * kMostKeys || !level.is_map) return;
-    throw ConfigError(place(name_, mark), "",
-                      "at most " + std::to_string(kMostKeys) + " keys in a map", "more");
+    throw too_many_keys(place(name_, mark), "");
   }
 
   void enter(const YAML::Mark& mark, bool is_map) {
     count(mark);
-    if (levels_.size() > kMostLevels) throw too_deep(place(name_, mark), "");
+    if (levels_.size() > static_cast<std::size_t>(kMostLevels))
+      throw too_deep(place(name_, mark), "");
     levels_.push_back({is_map, 0});
   }
 
@@ -95,7 +86,7 @@ class Converter {
  public:
   explicit Converter(const std::string& name) : name_(name) {}
 
-  ConfigNode convert(const YAML::Node& yaml, const std::string& path, std::size_t depth) {
+  ConfigNode convert(const YAML::Node& yaml, const std::string& path, int depth) {
     ConfigNode node;
     node.origin = place(name_, yaml.Mark());
     if (depth > kMostLevels) throw too_deep(node.origin, path);
@@ -128,8 +119,8 @@ class Converter {
   }
 
  private:
-  void add_entry(const YAML::Node& key, const YAML::Node& value, const std::string& path,
-                 std::size_t depth, ConfigNode& map) {
+  void add_entry(const YAML::Node& key, const YAML::Node& value, const std::string& path, int depth,
+                 ConfigNode& map) {
     const std::string origin = place(name_, key.Mark());
     if (!key.IsScalar()) throw ConfigError(origin, path, "a name as key", "a structure");
     const std::string& name = key.Scalar();

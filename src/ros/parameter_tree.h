@@ -13,7 +13,8 @@ class XmlRpcValue;
 namespace sampled_data_observers {
 
 /// The configuration tree of a value of the parameter server. `name` stands for it in messages.
-/// @throws ConfigError for a value that no configuration holds (binary data, times).
+/// @throws ConfigError for a value that no configuration holds (binary data, times), and for more
+/// than a file may hold.
 ConfigNode to_config_node(const XmlRpc::XmlRpcValue& value, const std::string& name);
 
 /// The configuration in the private parameters of a node. Files are loaded below `~config`, each

@@ -198,6 +198,21 @@ TEST(ConfigFilesTest, AKeyInTwoOfThemIsAFault) {
   }
 }
 
+TEST(ConfigFilesTest, TogetherHaveNoMoreKeysThanOne) {
+  const auto numbered = [](char prefix, int count) {
+    std::string text = "plant: {";
+    for (int i = 0; i < count; ++i) text += prefix + std::to_string(i) + ": 1, ";
+    return read_yaml_text(text + "}", std::string(1, prefix));
+  };
+  EXPECT_NO_THROW(merge({numbered('a', 500), numbered('b', 500)}));
+  try {
+    merge({numbered('a', 500), numbered('b', 501)});
+    FAIL();
+  } catch (const ConfigError& error) {
+    EXPECT_STREQ("b:1: plant: expected at most 1000 keys in a map, found more", error.what());
+  }
+}
+
 TEST(ConfigFilesTest, OverridesReplaceSingleKeys) {
   const ConfigNode base = read_yaml_text("rate: 1\nhistory: {duration: 2, max_events: 3}", "a");
   const ConfigNode over = read_yaml_text("rate: 7\nhistory: {duration: 8}", "b");

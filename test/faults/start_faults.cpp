@@ -44,6 +44,27 @@ XmlRpc::XmlRpcValue binary_data() {
   return {bytes, sizeof(bytes)};
 }
 
+/// As parameters that were not loaded as the text of a file.
+XmlRpc::XmlRpcValue deep_list() {
+  XmlRpc::XmlRpcValue list;
+  XmlRpc::XmlRpcValue* inner = &list;
+  for (int level = 0; level < 100; ++level) inner = &(*inner)[0];
+  *inner = 1;
+  return list;
+}
+
+XmlRpc::XmlRpcValue wide_map() {
+  XmlRpc::XmlRpcValue map;
+  for (int i = 0; i < 2000; ++i) map["k" + std::to_string(i)] = i;
+  return map;
+}
+
+std::string deep_name() {
+  std::string name;
+  for (int level = 0; level < 5000; ++level) name += "k/";
+  return name + "k";
+}
+
 StartFault key_of_wrong_type(const std::string& key) {
   return {"TypeOf_" + key,
           "`" + key + "` is a list in a list, or binary data",
@@ -83,6 +104,15 @@ std::vector<StartFault> start_faults() {
        "a number in place of a configuration file",
        {parameter("config/file_1", 3)},
        "config/file_1"},
+      {"TreeTooDeep",
+       "parameters that nest 100 lists",
+       {parameter("plant", deep_list())},
+       "plant[0]"},
+      {"TreeTooWide", "2000 parameters in a map", {parameter("plant", wide_map())}, "plant"},
+      {"TreeUnreadable",
+       "parameters of 5000 levels, which the master takes and can not send",
+       {parameter(deep_name(), 1)},
+       "levels"},
       {"UnknownKey", "a key that does not exist", {parameter("rte", 10)}, "rte"},
       {"BadRate",
        "a rate of -1 Hz, 0 Hz, 1e9 Hz, NaN",
