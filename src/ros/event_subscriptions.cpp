@@ -16,15 +16,6 @@ namespace {
 
 constexpr std::size_t kStatusesHeld = 16;
 
-/// In the place of a queue: each callback is called by whoever adds it.
-class AtOnce : public ros::CallbackQueueInterface {
- public:
-  void addCallback(const ros::CallbackInterfacePtr& callback, std::uint64_t) override {
-    callback->call();
-  }
-  void removeByID(std::uint64_t) override {}
-};
-
 EventStatus status_prototype() {
   EventStatus status;
   status.source = status.reason =
@@ -45,7 +36,6 @@ EventSubscriptions::EventSubscriptions(const ros::NodeHandle& handle, const Obse
       statuses_(status_prototype(), kStatusesHeld),
       transforms_(std::make_shared<TransformBuffer>(config.static_transforms)),
       messages_(event_channels(config).size(), kQueueLength),
-      at_once_(std::make_unique<AtOnce>()),
       turn_(boost::make_shared<ActionCallback>([this] { use_next(); })),
       clock_(config.jump_back_tolerance) {
   for (const EventChannel& channel : event_channels(config)) add(channel);
@@ -76,7 +66,7 @@ void EventSubscriptions::add(const EventChannel& channel) {
   };
   subscribe_.push_back([this, source, deliver, channel] {
     ros::NodeHandle handle(handle_);
-    handle.setCallbackQueue(at_once_.get());
+    handle.setCallbackQueue(&at_once_);
     subscribers_.push_back(source->subscribe(handle, kQueueLength, deliver));
     log_.info("%s from %s (%s)", channel.name.c_str(), subscribers_.back().getTopic().c_str(),
               channel.source.type.c_str());
@@ -87,17 +77,27 @@ void EventSubscriptions::add(const EventChannel& channel) {
 /// On the same callback queue as everything else: what waits is tried again as transforms come, and
 /// nothing needs a lock.
 void EventSubscriptions::listen_to_transforms() {
-  for (const bool is_static : {false, true}) {
-    const boost::function<void(const tf2_msgs::TFMessageConstPtr&)> take =
-        [this, is_static](const tf2_msgs::TFMessageConstPtr& message) {
-          const Stamp now = to_stamp(ros::Time::now());
-          watch_clock(now);
-          transforms_->take(*message, is_static, now);
-          retry_waiting();
+  const std::vector<std::string> topics = {"/tf", "/tf_static"};
+  const auto use = [this](const MessageQueue::Message& message) {
+    const Stamp now = to_stamp(ros::Time::now());
+    watch_clock(now);
+    const bool is_static = message.channel == 1;
+    transforms_->take(*boost::static_pointer_cast<const tf2_msgs::TFMessage>(message.message),
+                      is_static, now);
+    retry_waiting();
+  };
+  transform_messages_.emplace(topics, kQueueLength, *handle_.getCallbackQueue(), log_, use);
+  ros::NodeHandle handle(handle_);
+  handle.setCallbackQueue(&transform_messages_->at_once());
+  for (std::size_t i = 0; i < topics.size(); ++i) {
+    const boost::function<void(const tf2_msgs::TFMessageConstPtr&)> receive =
+        [this, i](const tf2_msgs::TFMessageConstPtr& message) {
+          const bool is_empty = message->transforms.empty();
+          const Stamp stamp = is_empty ? 0 : to_stamp(message->transforms[0].header.stamp);
+          transform_messages_->push({i, message, 0, stamp});
         };
-    subscribers_.push_back(handle_.subscribe<tf2_msgs::TFMessage>(
-        is_static ? "/tf_static" : "/tf", kQueueLength, take, ros::VoidConstPtr(),
-        ros::TransportHints().tcpNoDelay()));
+    subscribers_.push_back(handle.subscribe<tf2_msgs::TFMessage>(
+        topics[i], kQueueLength, receive, ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay()));
   }
   retry_timer_ = handle_.createWallTimer(ros::WallDuration(0.1),
                                          [this](const ros::WallTimerEvent&) { retry_waiting(); });

@@ -3,6 +3,8 @@
 #include <sampled_data_observers/JumpEvent.h>
 
 #include <boost/make_shared.hpp>
+#include <string>
+#include <vector>
 
 #include "messages/queue_length.h"
 #include "messages/time_conversion.h"
@@ -26,9 +28,17 @@ void JumpDetectorNodelet::onInit() {
     source_ = make_message_source(config);
     ros::NodeHandle handle = threads_.handle(getNodeHandle());
     publisher_ = handle.advertise<JumpEvent>("jumps", kQueueLength);
+    const std::vector<std::string> topics = {handle.resolveName(config.topic)};
+    messages_.emplace(topics, kQueueLength, *handle.getCallbackQueue(), *log_,
+                      [this](const MessageQueue::Message& message) {
+                        receive(message.message, message.receipt);
+                      });
+    ros::NodeHandle receiving(handle);
+    receiving.setCallbackQueue(&messages_->at_once());
     subscriber_ = source_->subscribe(
-        handle, kQueueLength,
-        [this](const MessagePointer& message, Stamp receipt) { receive(message, receipt); });
+        receiving, kQueueLength, [this](const MessagePointer& message, Stamp receipt) {
+          messages_->push({0, message, receipt, source_->stamp_of(message, receipt)});
+        });
     signal_topic_ = subscriber_.getTopic();
     log_->info("jumps on %s, detected in %s (%s)", publisher_.getTopic().c_str(),
                signal_topic_.c_str(), config.type.c_str());

@@ -11,6 +11,7 @@
 #include "sampled_data_observers/messages/message_source.h"
 #include "sampled_data_observers/ros/callback_threads.h"
 #include "sampled_data_observers/ros/log_throttle.h"
+#include "sampled_data_observers/ros/message_inbox.h"
 #include "sampled_data_observers/ros/node_log.h"
 #include "sampled_data_observers/runtime/event_outcome.h"
 
@@ -36,6 +37,7 @@ class JumpDetectorNodelet : public nodelet::Nodelet {
   CallbackThreads threads_;
   std::unique_ptr<MessageSource> source_;
   std::string signal_topic_;
+  std::optional<MessageInbox> messages_;
   ros::Publisher publisher_;
   ros::Subscriber subscriber_;
 };

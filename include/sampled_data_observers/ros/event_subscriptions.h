@@ -10,6 +10,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,7 @@
 #include "sampled_data_observers/messages/message_source.h"
 #include "sampled_data_observers/ros/estimate_publication.h"
 #include "sampled_data_observers/ros/log_throttle.h"
+#include "sampled_data_observers/ros/message_inbox.h"
 #include "sampled_data_observers/ros/node_log.h"
 #include "sampled_data_observers/ros/shared_runtime.h"
 #include "sampled_data_observers/runtime/clock_jumps.h"
@@ -71,10 +73,11 @@ class EventSubscriptions {
   std::vector<std::shared_ptr<EventIntake>> intakes_;
   std::vector<std::function<void()>> subscribe_;
   MessageQueue messages_;
-  /// Has a message received at once, by roscpp's thread that got it.
-  std::unique_ptr<ros::CallbackQueueInterface> at_once_;
+  AtOnce at_once_;
   /// A callback that uses the next message.
   const ros::CallbackInterfacePtr turn_;
+  /// Where a channel has frames.
+  std::optional<MessageInbox> transform_messages_;
   ClockJumps clock_;
   ros::WallTimer retry_timer_;
   /// Ends the wait for the first time of a simulated clock.
