@@ -50,14 +50,21 @@ class RestartsTest(unittest.TestCase):
         self.run_tool("rosservice", "call", "/reset", "{}")
         self.assertIn("state", self.run_tool("rostopic", "echo", "-n", "1", "/estimate"))
 
-    def test_after_a_restart_of_the_master_the_observer_is_found_again(self):
-        core = ["rosmaster", "--core", "-p", str(self.port)]
+    def core(self):
+        return ["rosmaster", "--core", "-p", str(self.port)]
+
+    def configure(self):
+        """Sets the parameters of an observer as soon as there is a master."""
         with open(os.path.join(HERE, "position.yaml"), encoding="utf-8") as config:
             text = config.read()
+        self.eventually(lambda: self.master.getPid(CALLER))
+        self.master.setParam(CALLER, "/observer/config/file_1",
+                             {"text": text, "path": "position.yaml"})
+
+    def test_after_a_restart_of_the_master_the_observer_is_found_again(self):
+        core = self.core()
         with RosProcess(core, self.port):
-            self.eventually(lambda: self.master.getPid(CALLER))
-            self.master.setParam(CALLER, "/observer/config/file_1",
-                                 {"text": text, "path": "position.yaml"})
+            self.configure()
             observer = RosProcess([find_tool("constant_gain_observer"), "__name:=observer"],
                                   self.port)
             self.addCleanup(observer.__exit__)
@@ -76,6 +83,21 @@ class RestartsTest(unittest.TestCase):
             self.addCleanup(sensor.__exit__)
             self.assertIn("outcome: 0", self.run_tool("rostopic", "echo", "-n", "1", "/events"))
             self.require_estimates()
+
+    def test_estimates_go_on_where_no_file_can_be_written(self):
+        # What writes to the log or any file fails, as on a full disk, and ROS has no home.
+        script = "ulimit -f 0; trap '' XFSZ; ROS_HOME=/proc/none exec %s __name:=observer"
+        script = (script + " >/dev/full 2>&1") % find_tool("constant_gain_observer")
+        with RosProcess(self.core(), self.port):
+            self.configure()
+            with RosProcess(["sh", "-c", script], self.port) as observer:
+                self.eventually(lambda: self.service("/get_estimate"))
+                self.require_estimates()
+                bad = ["rostopic", "pub", "-1", "/position", "sampled_data_observers/Measurement",
+                       "{values: [1.0]}"]
+                self.run_tool(*bad)  # has no stamp: the log would say so
+                self.require_estimates()
+                self.assertIsNone(observer.poll())
 
     def test_a_manager_that_crashes_comes_back_with_the_observer(self):
         launch = ["roslaunch", "--port", str(self.port), os.path.join(HERE, "respawning.launch")]
