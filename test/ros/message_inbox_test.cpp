@@ -5,8 +5,11 @@
 #include <ros/callback_queue.h>
 #include <ros/console.h>
 
+#include <boost/make_shared.hpp>
 #include <string>
 #include <vector>
+
+#include "support/stamps.h"
 
 namespace sampled_data_observers {
 namespace {
@@ -27,7 +30,7 @@ Warnings& warnings() {
   return all;
 }
 
-constexpr Stamp kSecond = 1000000000;
+using test::kSecond;
 
 class MessageInboxTest : public testing::Test {
  protected:
@@ -63,6 +66,20 @@ TEST_F(MessageInboxTest, TheLogTellsOfThoseThatMakeRoom) {
   EXPECT_EQ(
       "messages on /signal come faster than they are used: 1 dropped (up to stamp 1.000000000 s)",
       warnings_.texts[0]);
+}
+
+/// As a subscriber whose callback runs in another thread now.
+class Busy : public ros::CallbackInterface {
+ public:
+  CallResult call() override { return ++calls < 3 ? TryAgain : Success; }
+  int calls = 0;
+};
+
+TEST(AtOnceTest, WhatIsPutOffIsCalledAgain) {
+  const auto busy = boost::make_shared<Busy>();
+  AtOnce queue;
+  queue.addCallback(busy, 0);
+  EXPECT_EQ(3, busy->calls);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "sampled_data_observers/messages/message_queue.h"
@@ -18,9 +19,10 @@ namespace sampled_data_observers {
 /// once, by roscpp's thread that got it.
 class AtOnce : public ros::CallbackQueueInterface {
  public:
-  /// Calls it.
+  /// Calls it, when another thread that calls one of the same subscriber is done: roscpp allows one
+  /// at a time, and what is put off would wait for the next message.
   void addCallback(const ros::CallbackInterfacePtr& callback, std::uint64_t) override {
-    callback->call();
+    while (callback->call() == ros::CallbackInterface::TryAgain) std::this_thread::yield();
   }
   /// Nothing waits here.
   void removeByID(std::uint64_t) override {}
