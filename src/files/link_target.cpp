@@ -40,8 +40,10 @@ bool is_same_file(const std::string& first, const std::string& second) {
   if (is_shared(a) || is_shared(b)) return false;
   std::error_code none;
   if (fs::equivalent(a.path, b.path, none)) return true;
-  return fs::weakly_canonical(fs::absolute(a.path), none) ==
-         fs::weakly_canonical(fs::absolute(b.path), none);
+  const fs::path canonical_a = fs::weakly_canonical(fs::absolute(a.path), none);
+  const fs::path canonical_b = fs::weakly_canonical(fs::absolute(b.path), none);
+  if (canonical_a.empty() || canonical_b.empty()) return a.path == b.path;  // out of reach
+  return canonical_a == canonical_b;
 }
 
 }  // namespace sampled_data_observers

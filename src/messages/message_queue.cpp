@@ -25,7 +25,8 @@ void MessageQueue::note_drop(const Message& message) {
   Ring<Drop>& drops = channels_[message.channel].drops;
   if (drops.full()) {
     Drop& all = drops.back();
-    all.first = std::min(all.first, message.stamp);
+    const bool is_first = message.stamp > 0 && (all.first <= 0 || message.stamp < all.first);
+    if (is_first) all.first = message.stamp;
     all.last = std::max(all.last, message.stamp);
     ++all.count;
   } else {

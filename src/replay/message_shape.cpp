@@ -12,7 +12,7 @@ namespace {
 constexpr int kDeepest = 20;
 
 /// Larger than any message.
-constexpr std::size_t kLargest = std::size_t{1} << 32U;
+constexpr std::size_t kLargest = std::size_t{1} << 30U;
 
 /// Bytes of a number; nothing for another type.
 std::optional<std::size_t> number_size(const std::string& type) {
@@ -137,14 +137,16 @@ MessageShape::Size MessageShape::find_size(const std::string& type, int depth) {
   if (found == types_.end() || depth > kDeepest) {
     throw BagDamage("the definition of " + type_ + " does not say what " + type + " is");
   }
+  const auto too_large = [this] {
+    return BagDamage("the definition of " + type_ + " is of a message too large");
+  };
   Size total = 0;
   for (const Field& field : found->second) {
     const Size size = field.type.empty() ? field.size : find_size(field.type, depth + 1);
-    if (size && *size * field.length > kLargest) {
-      throw BagDamage("the definition of " + type_ + " is of a message too large");
-    }
+    if (size.value_or(0) > 0 && field.length > kLargest / *size) throw too_large();
     const bool is_fixed = total && size && !field.is_list;
     total = is_fixed ? Size(*total + *size * field.length) : std::nullopt;
+    if (total.value_or(0) > kLargest) throw too_large();
   }
   sizes_[type] = total;
   return total;

@@ -125,8 +125,12 @@ void EventSubscriptions::use_next() {
   const Stamp now = to_stamp(ros::Time::now());
   if (now == 0) {
     messages_.suspend();
+    clock_timer_.stop();
+    clock_timer_.start();  // as one that fired: the clock may have gone back to 0
     return;
   }
+  // They may have come before the event that takes them.
+  if (transform_messages_) transform_messages_->use_waiting();
   watch_clock(now);
   const MessageQueue::Next next = messages_.take();
   if (next.drop) answer(*next.drop);

@@ -12,18 +12,27 @@ namespace sampled_data_observers {
 MessageInbox::MessageInbox(std::vector<std::string> topics, std::size_t capacity,
                            ros::CallbackQueueInterface& queue, NodeLog log, Use use)
     : topics_(std::move(topics)),
+      capacity_(capacity),
       queue_(queue),
       log_(std::move(log)),
       use_(std::move(use)),
       messages_(topics_.size(), capacity),
       losses_(topics_.size()),
-      turn_(boost::make_shared<ActionCallback>([this] { use_next(); })) {}
+      turn_(boost::make_shared<ActionCallback>([this] {
+        if (use_next()) queue_.addCallback(turn_);
+      })) {}
 
 void MessageInbox::push(const MessageQueue::Message& message) {
   if (messages_.push(message)) queue_.addCallback(turn_);
 }
 
-void MessageInbox::use_next() {
+void MessageInbox::use_waiting() {
+  std::size_t left = topics_.size() * capacity_;  // more may come all the time
+  while (left > 0 && use_next()) --left;
+}
+
+/// Returns whether more wait.
+bool MessageInbox::use_next() {
   const MessageQueue::Next next = messages_.take();
   if (next.drop) {
     Loss& loss = losses_[next.drop->channel];
@@ -32,7 +41,7 @@ void MessageInbox::use_next() {
   }
   tell_losses();
   if (next.message) use_(*next.message);
-  if (next.more) queue_.addCallback(turn_);
+  return next.more;
 }
 
 /// Now and then, those of meanwhile together.

@@ -178,6 +178,7 @@ EventReport Estimator::submit_earlier(const Event& event, Stamp now) {
       miss_input(event.stamp);
     }
   }
+  if (report.outcome == EventOutcome::kTooOld) mark_what_is_unseen(event.kind, event.stamp);
   go_on_from_earlier();
   if (timeline_.size() == 0) return report;
   report.rewound += timeline_.size();
@@ -196,7 +197,7 @@ double Estimator::innovation_of(const Event& measured) {
 }
 
 void Estimator::note_rejected(const Event& event, Stamp now) {
-  if (!law_->accepts(rejection(event.kind, event.stamp))) return;
+  if (event.kind != EventKind::kInput && event.kind != EventKind::kJump) return;
   const Stamp stamp = event.stamp > 0 ? std::min(event.stamp, now) : now;
   if (stamp <= 0) return;
   if (event.kind == EventKind::kInput) {
@@ -204,11 +205,20 @@ void Estimator::note_rejected(const Event& event, Stamp now) {
   } else if (stamp <= began_at_.value_or(0)) {
     return;  // Somebody vouches for what came after this jump.
   }
-  if (is_earlier(stamp)) {
+  // Whether the law of that time minds is its own matter.
+  if (has_earlier() && stamp <= *taken_over_at_) {
     earlier_->note_rejected(event, now);
+    mark_what_is_unseen(event.kind, stamp);
     go_on_from_earlier();
   } else {
     insert_rejected(event.kind, stamp);
+  }
+}
+
+/// What was taken over may be able to mark something only behind its end.
+void Estimator::mark_what_is_unseen(EventKind kind, Stamp stamp) {
+  if (earlier_->timeline_.earliest_insertion().value_or(0) > *taken_over_at_) {
+    insert_rejected(kind, stamp);
   }
 }
 
@@ -220,7 +230,9 @@ void Estimator::miss_input(Stamp stamp) {
   input_unknown_since_ = std::max(stamp, input_unknown_since_.value_or(stamp));
 }
 
+/// Where the law minds.
 void Estimator::insert_rejected(EventKind kind, Stamp stamp) {
+  if (!law_->accepts(rejection(kind, stamp))) return;
   stamp = std::max(stamp, timeline_.earliest_insertion().value_or(stamp));
   timeline_.insert(rejection(kind, stamp));
 }
@@ -284,10 +296,12 @@ Estimate Estimator::make_estimate() const {
 }
 
 /// Sets the state to start from: the configured one, with what is held and the mode of `from` at
-/// `stamp`. Returns whether that has a state there, which it leaves in from.before_restart_.
+/// `stamp`, or where its states begin. Returns whether it has any, and leaves that one in
+/// from.before_restart_.
 bool Estimator::prepare_restart(Estimator& from, Stamp stamp) {
   law_->initialize(restart_state_.data());
   Estimate& before = from.before_restart_;
+  stamp = std::max(stamp, from.timeline_.earliest().value_or(stamp));
   const Timeline::Query query = from.timeline_.state_at(stamp, before.state, before.counts);
   before.held = query == Timeline::Query::kHeld;
   if (query != Timeline::Query::kOk && query != Timeline::Query::kHeld) return false;
@@ -347,8 +361,8 @@ void Estimator::take_over(Estimator& other, Stamp stamp) {
   awaits_sample_ = other.awaits_sample_;
   input_unknown_since_ = other.input_unknown_since_;
   began_at_ = other.began_at_;
-  taken_over_at_ = std::max(
-      {stamp, other.timeline_.newest().value_or(stamp), other.taken_over_at_.value_or(stamp)});
+  taken_over_at_ = std::max({stamp, other.timeline_.earliest().value_or(stamp),
+                             other.timeline_.newest().value_or(stamp)});
   earlier_ = std::make_unique<Estimator>(std::move(other));
   const bool begins = prepare_take_over();
   if (begins) timeline_.restart(*taken_over_at_, restart_state_, earlier_->before_restart_.held);

@@ -57,6 +57,18 @@ TEST_F(MessageInboxTest, TheyAreUsedInTheOrderOfTheirArrival) {
   EXPECT_TRUE(warnings_.texts.empty());
 }
 
+TEST_F(MessageInboxTest, WhatWaitsCanBeUsedBeforeItsTurn) {
+  push(0, 1 * kSecond);
+  push(1, 2 * kSecond);
+  push(0, 3 * kSecond);
+  inbox_.use_waiting();
+  EXPECT_EQ((std::vector<Stamp>{1 * kSecond, 2 * kSecond, 3 * kSecond}), used_);
+  push(1, 4 * kSecond);
+  while (!queue_.isEmpty()) queue_.callAvailable();
+  EXPECT_EQ(4 * kSecond, used_.back());
+  EXPECT_EQ(4u, used_.size());
+}
+
 TEST_F(MessageInboxTest, TheLogTellsOfThoseThatMakeRoom) {
   for (Stamp stamp = 1; stamp <= 7; ++stamp) push(0, stamp * kSecond);
   push(1, 9 * kSecond);

@@ -283,6 +283,26 @@ TEST_F(EstimatorTest, ATakeOverBehindAnEventOfTheFutureBeginsThere) {
   EXPECT_EQ(EventOutcome::kUsedLate, third.submit(sample(now_).view(), now_).outcome);
 }
 
+TEST_F(EstimatorTest, WhereTheClockIsSetBackALittleAResetIsNotLost) {
+  submit(sample(kStart));
+  submit({kStart + 1, EventKind::kInput, 0, {7.0, -3.0}});
+  const Stamp reset = kStart + kSecond;
+  const Stamp now = reset - kSecond / 200;
+  const Eigen::Vector3d given(1.0, 2.0, 3.0);
+  estimator_.restart(reset, given);
+  estimator_.restart(now, given);
+  const Estimate* found = nullptr;
+  ASSERT_EQ(Timeline::Query::kOk, estimator_.estimate_at(now, found));
+  EXPECT_EQ(Eigen::Vector2d(7.0, -3.0), input_in(*found));
+
+  estimator_.restart(reset, given);
+  Estimator other(law_without_gains(), options());
+  other.take_over(estimator_, now);
+  ASSERT_EQ(Timeline::Query::kOk, other.estimate_at(reset, found));
+  EXPECT_EQ(given, Eigen::Vector3d(found->state.head(3)));
+  EXPECT_EQ(Eigen::Vector2d(7.0, -3.0), input_in(*found));
+}
+
 TEST_F(EstimatorTest, ManyTakeOversKeepTheLastOnesOnly) {
   submit(sample(kStart));
   std::unique_ptr<Estimator> last = std::make_unique<Estimator>(std::move(estimator_));

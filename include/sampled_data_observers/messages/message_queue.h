@@ -27,7 +27,7 @@ class MessageQueue {
   /// Messages of a channel that were dropped; in general one.
   struct Drop {
     std::size_t channel = 0;  ///< its number
-    Stamp first = 0;          ///< the earliest of the stamps
+    Stamp first = 0;          ///< the earliest of the stamps; 0 where none has one
     Stamp last = 0;           ///< the latest of them
     std::uint64_t count = 0;  ///< how many there are
   };

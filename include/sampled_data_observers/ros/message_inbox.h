@@ -47,6 +47,9 @@ class MessageInbox {
   /// For subscribers that push(); to be gone before this is.
   ros::CallbackQueueInterface& at_once() { return at_once_; }
 
+  /// Uses what waits now, before `queue` would have its turn; on the thread of that.
+  void use_waiting();
+
   /// Takes in a message; for any thread.
   void push(const MessageQueue::Message& message);
 
@@ -58,10 +61,11 @@ class MessageInbox {
     LogThrottle throttle;
   };
 
-  void use_next();
+  bool use_next();
   void tell_losses();
 
   const std::vector<std::string> topics_;
+  const std::size_t capacity_;
   ros::CallbackQueueInterface& queue_;
   const NodeLog log_;
   const Use use_;

@@ -169,6 +169,7 @@ class Estimator {
 
  private:
   std::optional<EventOutcome> objection(const Event& event, Stamp now) const;
+  void mark_what_is_unseen(EventKind kind, Stamp stamp);
   void insert_rejected(EventKind kind, Stamp stamp);
   bool may_change(Stamp stamp, Stamp now) const;
   bool prepare_restart(Estimator& from, Stamp stamp);
