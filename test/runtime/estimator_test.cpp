@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
+#include <vector>
 
 #include "observer/delayed_jumps.h"
 #include "sampled_data_observers/observer/plant_observer.h"
@@ -247,6 +250,32 @@ TEST_F(EstimatorTest, EventsOfBeforeATakeOverAreAppliedByTheLawOfTheirTime) {
     expected.estimate_at(stamp, before);
     if (stamp > change) continue;
     EXPECT_EQ(before.state.head(3), found->state.head(3));
+  }
+}
+
+TEST_F(EstimatorTest, AnyOrderOfArrivalAfterATakeOverGivesTheSameBits) {
+  const Stamp change = kStart + kSecond;
+  std::mt19937_64 generator(7);
+  std::vector<OwnedEvent> events =
+      test::random_events(generator, 40, kStart + 1, 2 * kSecond);  // of before it and after it
+  const auto states = [&] {
+    Estimator before(test::example_law(), options());
+    before.submit(sample(kStart).view(), now_);
+    Estimator after(law_without_gains(), options());
+    after.take_over(before, change);
+    for (const OwnedEvent& event : events) after.submit(event.view(), now_);
+    std::vector<double> result;
+    for (Stamp stamp = kStart + 1; stamp < kStart + 3 * kSecond; stamp += kSecond / 30) {
+      const Estimate* found = nullptr;
+      EXPECT_EQ(Timeline::Query::kOk, after.estimate_at(stamp, found));
+      result.insert(result.end(), found->state.data(), found->state.data() + found->state.size());
+    }
+    return result;
+  };
+  const std::vector<double> expected = states();
+  for (int permutation = 0; permutation < 20; ++permutation) {
+    std::shuffle(events.begin(), events.end(), generator);
+    EXPECT_TRUE(expected == states());
   }
 }
 
