@@ -13,11 +13,14 @@
 namespace sampled_data_observers {
 namespace {
 
-/// Between two changes: so many laws are kept (Estimator::kEarlierLaws) that samples which are late
+/// Between two calls: so many laws are kept (Estimator::kEarlierLaws) that samples which are late
 /// by less are used however often somebody calls.
 constexpr std::chrono::milliseconds kPause{100};
 
 }  // namespace
+
+GainReloader::Busy::Busy()
+    : std::runtime_error("busy: the gains of another call are being loaded") {}
 
 GainReloader::GainReloader(ConfigNode tree, const ObserverConfig& config, SharedRuntime& runtime)
     : tree_(std::move(tree)),
@@ -34,16 +37,15 @@ std::string GainReloader::reload(const std::string& file) {
   if (directory_.empty()) {
     throw std::runtime_error("gain files may only be loaded where gains_directory is configured");
   }
-  const std::unique_lock<std::mutex> one_at_a_time(mutex_, std::try_to_lock);
-  if (!one_at_a_time.owns_lock()) {
-    throw std::runtime_error("busy: the gains of another call are being loaded");
-  }
-  std::this_thread::sleep_until(last_change_ + kPause);
+  const OneAtATime::Turn turn = calls_.enter();
+  if (!turn.owns_lock()) throw Busy();
+  std::this_thread::sleep_until(last_call_ + kPause);
+  last_call_ = std::chrono::steady_clock::now();  // one that fails counts, too
   ConfigNode tree = replace_gains(tree_, read_yaml_file(confined_path(directory_, file)));
   const ObserverConfig next = read_observer_config(tree, load_plant_plugin);
   if (next.type != type_) throw ConfigError(file, "observer", type_, next.type);
   runtime_.replace(std::make_unique<ObserverRuntime>(next));
-  last_change_ = std::chrono::steady_clock::now();
+  last_call_ = std::chrono::steady_clock::now();
   tree_ = std::move(tree);
   if (!next.guarantee.empty()) return "certified by " + next.guarantee;
   std::string text = next.warning.empty() ? "without certificate" : next.warning;

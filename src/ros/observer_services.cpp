@@ -79,8 +79,8 @@ bool ObserverServices::reset(Reset::Request& request, Reset::Response& response)
 
 bool ObserverServices::get_estimate(GetEstimate::Request& request,
                                     GetEstimate::Response& response) {
-  const std::unique_lock<std::mutex> one_at_a_time(query_mutex_, std::try_to_lock);
-  if (one_at_a_time.owns_lock()) {
+  const OneAtATime::Turn turn = queries_.enter();
+  if (turn.owns_lock()) {
     response.message = compute_estimate(request.stamp, response.estimate);
   } else {
     response.message = "busy: the estimate of another call is being computed";
@@ -118,6 +118,8 @@ bool ObserverServices::reload_gains(ReloadGains::Request& request,
     response.message = gains_.reload(request.file);
     response.success = 1;
     log_.info("gains of '%s' loaded: %s", request.file.c_str(), response.message.c_str());
+  } catch (const GainReloader::Busy& busy) {  // nothing for the log: it says whom to ask again
+    response.message = busy.what();
   } catch (const std::exception& fault) {
     response.message = fault.what();
     log_.warn("gains of '%s' not loaded: %s", request.file.c_str(), fault.what());

@@ -77,6 +77,60 @@ TEST_F(LifecycleTest, MessagesPassByPointerInOneProcess) {
   EXPECT_TRUE(test::spin_until([&] { return marked_again > 10; }));
 }
 
+/// What comes from an observer in the namespace `ns`.
+struct Received {
+  explicit Received(const std::string& ns)
+      : statuses(handle.subscribe(ns + "/events", kAll, &Received::take_status, this)),
+        estimates(handle.subscribe(ns + "/estimate", kAll, &Received::take_estimate, this)) {}
+  void take_status(const EventStatus::ConstPtr& status) {
+    ++outcomes;
+    used += status->outcome == EventStatus::USED || status->outcome == EventStatus::USED_LATE;
+  }
+  void take_estimate(const StateEstimate::ConstPtr& estimate) {
+    in_order = in_order && newest < estimate->header.stamp;
+    newest = estimate->header.stamp;
+  }
+
+  static constexpr std::uint32_t kAll = 100000;
+  ros::NodeHandle handle;
+  int outcomes = 0;
+  int used = 0;
+  bool in_order = true;
+  ros::Time newest;
+  ros::Subscriber statuses;
+  ros::Subscriber estimates;
+};
+
+TEST_F(LifecycleTest, TwoThatShareAFloodedTopicLoseNothing) {
+  ASSERT_TRUE(load(loader_, "/observer"));
+  ASSERT_TRUE(loader_.load("/rear/observer", kType, {{"/rear/position", "/position"}}, {}));
+  const Received front("");
+  const Received rear("/rear");
+  ros::Publisher publisher = ros::NodeHandle().advertise<Measurement>("position", 10);
+  ASSERT_TRUE(test::spin_until([&] {
+    return front.estimates.getNumPublishers() > 0 && rear.estimates.getNumPublishers() > 0 &&
+           publisher.getNumSubscribers() > 0;
+  }));
+  constexpr int kBursts = 200;
+  constexpr int kBurst = 100;
+  ros::Time last;
+  for (int burst = 0; burst < kBursts; ++burst) {  // 10,000 samples a second
+    last = ros::Time::now();
+    for (int i = 0; i < kBurst; ++i) {
+      publisher.publish(test::ObserverClient::measurement(last + ros::Duration(0, i), {1.0}));
+    }
+    ros::spinOnce();
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  for (const Received* received : {&front, &rear}) {
+    EXPECT_TRUE(test::spin_until([&] { return received->outcomes == kBursts * kBurst; }))
+        << received->outcomes;
+    EXPECT_GT(received->used, 0);
+    EXPECT_TRUE(test::spin_until([&] { return received->newest > last; }));
+    EXPECT_TRUE(received->in_order);
+  }
+}
+
 TEST_F(LifecycleTest, UnloadingAndReloadingLeaksNothing) {
   test::ObserverClient client;
   const auto cycle = [&] {

@@ -2,10 +2,11 @@
 
 #include <chrono>
 #include <memory>
-#include <mutex>
+#include <stdexcept>
 #include <string>
 
 #include "sampled_data_observers/config/config_node.h"
+#include "sampled_data_observers/ros/one_at_a_time.h"
 #include "sampled_data_observers/ros/shared_runtime.h"
 
 namespace sampled_data_observers {
@@ -20,15 +21,22 @@ class GainReloader {
   /// @throws ConfigError where there is no directory config.gains_directory.
   GainReloader(ConfigNode tree, const ObserverConfig& config, SharedRuntime& runtime);
 
+  /// Another thread stays in reload().
+  class Busy : public std::runtime_error {
+   public:
+    /// Says so.
+    Busy();
+  };
+
   /// Returns what is guaranteed with the gains of `file`, which lies below the directory.
-  /// Waits up to 0.1 s where the last change is not longer ago.
-  /// @throws std::runtime_error, after changing nothing, where the file or its gains are no good,
-  /// and at once where another thread is in here.
+  /// Waits up to 0.1 s where the last call is not longer ago.
+  /// @throws std::runtime_error, after changing nothing, where the file or its gains are no good
+  /// @throws Busy after a while
   std::string reload(const std::string& file);
 
  private:
-  std::mutex mutex_;
-  std::chrono::steady_clock::time_point last_change_;
+  OneAtATime calls_;
+  std::chrono::steady_clock::time_point last_call_;
   ConfigNode tree_;
   const std::string type_;
   const std::string directory_;

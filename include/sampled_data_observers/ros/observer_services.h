@@ -9,12 +9,12 @@
 #include <std_srvs/SetBool.h>
 
 #include <atomic>
-#include <mutex>
 #include <string>
 #include <vector>
 
 #include "sampled_data_observers/ros/gain_reloader.h"
 #include "sampled_data_observers/ros/node_log.h"
+#include "sampled_data_observers/ros/one_at_a_time.h"
 #include "sampled_data_observers/ros/shared_runtime.h"
 
 namespace sampled_data_observers {
@@ -48,7 +48,7 @@ class ObserverServices {
   GainReloader& gains_;
   const NodeLog log_;
   std::atomic<bool> is_stopping_{false};
-  std::mutex query_mutex_;  ///< one query at a time
+  OneAtATime queries_;
   std::vector<ros::ServiceServer> servers_;
 };
 
