@@ -152,9 +152,16 @@ Effect GuaranteedBound::reset(const Event& event, double* state, double* workspa
     sample(state, workspace, is_wrapped);
   } else if (is_jump) {
     begin_interval(state);
-    jump(event, state);
+    const bool is_whole = effect != Effect::kWithoutOutputs;
+    if (jumps_are_measured_ && (event.size == 0 || !is_whole)) {
+      await_outputs(state);
+    } else if (is_whole) {
+      take_jump(state);
+    } else {
+      give_up(state);
+    }
   } else if (comes_to_jump) {
-    take_jump(state);
+    if (effect != Effect::kWithoutOutputs) take_jump(state);
   } else if (is_output && moved_since_before(state) > 0.0) {
     go_on_from_moved(state);
   }
@@ -181,11 +188,7 @@ void GuaranteedBound::go_on_from_moved(double* state) const {
   go_on_from_then(state);
 }
 
-void GuaranteedBound::jump(const Event& event, double* state) const {
-  if (!jumps_are_measured_ || event.size > 0) {
-    take_jump(state);
-    return;
-  }
+void GuaranteedBound::await_outputs(double* state) const {
   // The part stays as before the jump, to which the outputs of the same stamp belong.
   awaiting_.set(true, state);
   moved_.set(moved_since_before(state), state);

@@ -64,7 +64,7 @@ class GuaranteedBound : public LawDecorator, public StateBound {
   bool may_be_wrapped(double error, std::size_t sensor, const double* innovation) const;
   bool may_be_wrapped(const Event& event, double* state, double* workspace) const;
   void sample(double* state, double* workspace, bool is_wrapped) const;
-  void jump(const Event& event, double* state) const;
+  void await_outputs(double* state) const;
   void take_jump(double* state) const;
   void refuse_jump(double* state) const;
   void go_on_from_moved(double* state) const;

@@ -5,6 +5,7 @@
 
 #include "certificate/guaranteed_bound.h"
 #include "observer/delayed_jumps.h"
+#include "observer/numbered_jumps.h"
 #include "sampled_data_observers/config/law_registry.h"
 
 namespace sampled_data_observers {
@@ -42,11 +43,14 @@ std::shared_ptr<const ObserverLaw> assemble(std::shared_ptr<const ObserverLaw> l
   if (layers.delays_jumps) law = std::make_shared<const DelayedJumps>(law);
   if (layers.jump_limits) {
     law = std::make_shared<const LimitedJumps>(law, *layers.jump_limits);
+    if (layers.jump_gate) law = std::make_shared<const PossibleJumps>(law, *layers.jump_gate);
+    law = std::make_shared<const NumberedJumps>(law);
   }
   if (layers.bound) {
     law =
         std::make_shared<const GuaranteedBound>(law, std::move(layers.bound), plant, layers.noise);
   }
+  if (layers.missing) law = std::make_shared<const MissingJumpsWatch>(law, *layers.missing);
   const bool is_gated =
       std::any_of(layers.gates.begin(), layers.gates.end(),
                   [](const std::optional<Gate>& gate) { return gate.has_value(); });

@@ -7,6 +7,8 @@
 #include "certificate/error_bound.h"
 #include "observer/gated_samples.h"
 #include "observer/limited_jumps.h"
+#include "observer/missing_jumps.h"
+#include "observer/possible_jumps.h"
 #include "sampled_data_observers/config/config_section.h"
 #include "sampled_data_observers/config/plant_config.h"
 
@@ -21,14 +23,17 @@ std::shared_ptr<const ObserverLaw> read_law(ConfigSection& root, const PlantConf
 struct LawLayers {
   bool delays_jumps = false;
   std::optional<JumpLimits> jump_limits;    ///< nothing where the plant does not jump
+  std::optional<JumpGate> jump_gate;        ///< nothing where all jumps are believed
+  std::optional<MissingJumps> missing;      ///< nothing where nobody looks for missing jumps
   std::unique_ptr<const ErrorBound> bound;  ///< null where none is asked for
   double noise = 0.0;                       ///< that the bound rests on
   std::vector<std::optional<Gate>> gates;   ///< one per sensor
 };
 
-/// GatedSamples( GuaranteedBound( LimitedJumps( DelayedJumps( law ) ) ) ), each where it is asked
-/// for. Limits count jumps when they happen, whether delayed or not. The bound sees which of them
-/// were refused, and must not see the samples that a gate keeps out.
+/// GatedSamples( MissingJumpsWatch( GuaranteedBound( NumberedJumps( PossibleJumps( LimitedJumps(
+/// DelayedJumps( law ) ) ) ) ) ) ), each where it is asked for. Limits count jumps when they
+/// happen, whether delayed or not. The bound sees which of them were refused, and must not see the
+/// samples that a gate keeps out. A jump that is made up is one for all within.
 std::shared_ptr<const ObserverLaw> assemble(std::shared_ptr<const ObserverLaw> law,
                                             const std::shared_ptr<const Plant>& plant,
                                             LawLayers layers);

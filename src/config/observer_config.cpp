@@ -7,6 +7,7 @@
 #include "config/gate_config.h"
 #include "config/guarantee_config.h"
 #include "config/integration_check.h"
+#include "config/jump_config.h"
 #include "config/law_config.h"
 #include "sampled_data_observers/config/config_section.h"
 #include "sampled_data_observers/config/law_registry.h"
@@ -41,20 +42,6 @@ Timeline::Limits read_history(ConfigSection& root) {
   limits.max_events = section.count("max_events", 1, 1000000, 2000);
   section.finish();
   return limits;
-}
-
-/// The source of jumps, and how the law takes them.
-TopicSource read_jumps(ConfigSection& root, const Plant& plant, LawLayers& layers) {
-  ConfigSection section = root.section_or_empty("jumps");
-  TopicSource source = read_jump_source(root, section, plant);
-  layers.delays_jumps =
-      section.has("late") && section.choice("late", {"rewind", "delayed"}) == "delayed";
-  JumpLimits limits;
-  limits.min_separation = from_seconds(section.number_in("min_separation", 0.0, kLongest, 1e-6));
-  limits.max_per_second = section.number_in("max_per_second", 1.0, 1e6, 1000.0);
-  layers.jump_limits = limits;
-  section.finish();
-  return source;
 }
 
 RealTimeOptions read_real_time(ConfigSection& root) {

@@ -84,6 +84,8 @@ class PlantReader {
     plant_.state_names = names_.x;
     plant_.input_names = names_.u;
     plant_.integration = read_integration(section_);
+    plant_.jump_set = read_set("jump_set");
+    plant_.flow_set = read_set("flow_set");
     section_.finish();
     if (sensors_.keys().empty()) throw root.error("sensors", "at least one sensor", "none");
     for (const std::string& name : sorted_keys(sensors_)) read_sensor(name);
@@ -115,6 +117,11 @@ class PlantReader {
     mode.flow = compiled_.flow;
     mode.jump = compiled_.jump;
     plant_.modes.push_back(std::move(mode));
+  }
+
+  std::shared_ptr<const VectorMap> read_set(const std::string& key) {
+    if (!section_.has(key)) return nullptr;
+    return ExpressionReader(names_).read_list(section_, key, 0);
   }
 
   void read_modes() {

@@ -15,6 +15,7 @@ int compare(const Event& a, const Event& b) {
   if (const int order = three_way(a.kind, b.kind)) return order;
   if (const int order = three_way(a.sensor, b.sensor)) return order;
   if (const int order = three_way(a.rejected, b.rejected)) return order;
+  if (const int order = three_way(a.index, b.index)) return order;
   if (const int order = three_way(a.size, b.size)) return order;
   if (const int order = three_way(a.mode, b.mode)) return order;
   if (const int order = three_way(a.delay, b.delay)) return order;

@@ -34,6 +34,9 @@ static_assert(EventStatus::NO_TRANSFORM == static_cast<int>(EventOutcome::kNoTra
 static_assert(EventStatus::NO_FIELD == static_cast<int>(EventOutcome::kNoField));
 static_assert(EventStatus::OUT_OF_ORDER == static_cast<int>(EventOutcome::kOutOfOrder));
 static_assert(EventStatus::DROPPED == static_cast<int>(EventOutcome::kDropped));
+static_assert(EventStatus::NOT_POSSIBLE == static_cast<int>(EventOutcome::kNotPossible));
+static_assert(EventStatus::REPEATED == static_cast<int>(EventOutcome::kRepeated));
+static_assert(EventStatus::JUMP_ALONE == static_cast<int>(EventOutcome::kJumpAlone));
 static_assert(EventStatus::INTERVAL_NONE == static_cast<int>(IntervalCheck::kNone));
 static_assert(EventStatus::INTERVAL_WITHIN == static_cast<int>(IntervalCheck::kWithin));
 static_assert(EventStatus::INTERVAL_SHORT == static_cast<int>(IntervalCheck::kShort));
@@ -74,6 +77,7 @@ void write(const Estimate& estimate, const PublishedBound& bound, const std::str
   message.events = estimate.counts.events;
   message.samples = estimate.counts.samples;
   message.jumps = estimate.counts.jumps;
+  message.missing_jumps = static_cast<std::uint64_t>(law.missing_jumps(estimate.state.data()));
   message.held = estimate.held ? 1 : 0;
 }
 

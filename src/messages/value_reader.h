@@ -114,6 +114,7 @@ class ValueReader<JumpEvent> {
 
   bool read(const JumpEvent& message, Event& event) {
     event.release = to_stamp(message.release);
+    event.index = message.index;
     if (has_mode_) event.mode = static_cast<double>(message.mode);
     event.values = message.values.data();
     event.size = static_cast<Eigen::Index>(message.values.size());

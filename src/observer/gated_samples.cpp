@@ -44,24 +44,21 @@ GatedSamples::GatedSamples(const std::shared_ptr<const ObserverLaw>& inner,
   for (std::size_t i = 0; i < gates.size(); ++i) {
     if (!gates[i]) continue;
     check(*gates[i], observer().event_size(EventKind::kSample, i), *inner);
-    const auto limit = static_cast<double>(gates[i]->recover_after);
-    gates_[i] = {*gates[i], state_layout().choice<Standing>(), state_layout().timer(limit)};
+    gates_[i] = {*gates[i], GateState(state_layout(), gates[i]->recover_after)};
   }
 }
 
 void GatedSamples::initialize(double* state) const {
   law().initialize(state);
   for (const std::optional<GateInUse>& gate : gates_) {
-    if (!gate) continue;
-    gate->standing.set(Standing::kOpen, state);
-    gate->since_rejected.restart(state);
+    if (gate) gate->kept.initialize(state);
   }
 }
 
 void GatedSamples::flow(Duration duration, double* state, double* workspace) const {
   law().flow(duration, state, workspace);
   for (const std::optional<GateInUse>& gate : gates_) {
-    if (gate) gate->since_rejected.advance(duration, state);
+    if (gate) gate->kept.advance(duration, state);
   }
 }
 
@@ -75,17 +72,15 @@ Effect GatedSamples::reset(const Event& event, double* state, double* workspace)
 
 Effect GatedSamples::reset(const GateInUse& of_sensor, const Event& sample, double* state,
                            double* workspace) const {
-  const auto& [gate, standing, since_rejected] = of_sensor;
-  if (!is_outside(gate, sample, state, workspace)) {
-    standing.set(Standing::kClosed, state);
-    return law().reset(sample, state, workspace);
+  const auto& [gate, kept] = of_sensor;
+  switch (kept.judge(is_outside(gate, sample, state, workspace), state)) {
+    case GateState::Verdict::kPass:
+      return law().reset(sample, state, workspace);
+    case GateState::Verdict::kReject:
+      return Effect::kGated;
+    case GateState::Verdict::kRecover:
+      break;
   }
-  if (standing.of(state) == Standing::kOpen) return law().reset(sample, state, workspace);
-  if (standing.of(state) == Standing::kClosed) {
-    standing.set(Standing::kRejecting, state);
-    since_rejected.restart(state);
-  }
-  if (!since_rejected.is_over(state)) return Effect::kGated;
   const bool anew = gate.recovery == Gate::Recovery::kReset;
   if (anew) begin_anew(state, workspace);
   const Effect effect = law().reset(sample, state, workspace);

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "observer/gate_state.h"
 #include "observer/law_decorator.h"
 #include "sampled_data_observers/hybrid/time.h"
 
@@ -30,12 +31,9 @@ struct Gate {
 /// A law that takes no samples whose innovation lies outside the gate of their sensor. Which ones
 /// it takes is a function of the events, not of their arrival.
 ///
-/// A gate is open, and lets everything pass, from the start until a sample lies inside it: an
-/// initial estimate is no measure of outliers. When every sample for recover_after, counted from
-/// the first one rejected, was rejected, the next one outside opens the gate again: it is used, and
-/// so are all others until one lies inside. With Recovery::kReset the estimate begins anew before,
-/// as configured (the input, the continuous outputs and the mode go on holding); then all gates are
-/// open, and a guaranteed error bound is lost.
+/// When a gate is open, and when it recovers: see GateState. With Recovery::kReset the estimate
+/// begins anew before a sample is used, as configured (the input, the continuous outputs and the
+/// mode go on holding); then all gates are open, and a guaranteed error bound is lost.
 ///
 /// An innovation that has no value passes: the law's own reset will have none either.
 class GatedSamples : public LawDecorator {
@@ -51,16 +49,10 @@ class GatedSamples : public LawDecorator {
   Effect reset(const Event& event, double* state, double* workspace) const override;
 
  private:
-  enum class Standing : std::uint8_t {
-    kOpen,      ///< nothing was inside since the start
-    kClosed,    ///< the last sample was inside
-    kRejecting  ///< it was not, and was not used
-  };
   /// A gate and what the state holds of it.
   struct GateInUse {
     Gate gate;
-    ChoiceSlot<Standing> standing;
-    TimerSlot since_rejected;  ///< the first of the samples rejected one after another
+    GateState kept;
   };
 
   Effect reset(const GateInUse& of_sensor, const Event& sample, double* state,

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "sampled_data_observers/hybrid/split_flow.h"
 #include "sampled_data_observers/linear_algebra/ordered_product.h"
 
 namespace sampled_data_observers {
@@ -139,6 +140,7 @@ PlantObserver::Held PlantObserver::held(const double* state) const {
 
 Effect PlantObserver::reset(const Event& event, double* state, double* workspace) const {
   const auto sensor = static_cast<std::size_t>(event.sensor);
+  Effect effect = Effect::kApplied;
   switch (event.kind) {
     case EventKind::kInput:
       u_.set(event.values, state);
@@ -148,10 +150,10 @@ Effect PlantObserver::reset(const Event& event, double* state, double* workspace
       y_c_known_[sensor].set(true, state);
       break;
     case EventKind::kJump:
-      begin_jump(event, state, workspace);
+      effect = begin_jump(event, state, workspace);
       break;
     case EventKind::kJumpOutput:
-      pair_with_jump(event, state, workspace);
+      effect = pair_with_jump(event, state, workspace);
       break;
     case EventKind::kSample: {
       const Held now = held(state);
@@ -164,10 +166,10 @@ Effect PlantObserver::reset(const Event& event, double* state, double* workspace
       return Effect::kRefused;
   }
   complete(held(state), state, workspace);
-  return Effect::kApplied;
+  return effect;
 }
 
-void PlantObserver::begin_jump(const Event& event, double* state, double* workspace) const {
+Effect PlantObserver::begin_jump(const Event& event, double* state, double* workspace) const {
   std::size_t next = 0;
   if (plant_->switches()) next = *plant_->find_mode(*event.mode);
   if (takes_jump_outputs()) {
@@ -179,27 +181,49 @@ void PlantObserver::begin_jump(const Event& event, double* state, double* worksp
     if (measured) y_d_.set(event.values, state);
     y_d_known_.fill(measured, state);
   }
-  apply_jump(next, state, workspace);
+  const Effect effect = apply_jump(next, state, workspace);
   // What was measured before the jump says nothing of the state after it.
   y_c_known_.fill(false, state);
+  return effect;
 }
 
-void PlantObserver::apply_jump(std::size_t next, double* state, double* workspace) const {
-  jump(held(state), next, JumpOutputs(*this, state), state, workspace);
+Effect PlantObserver::apply_jump(std::size_t next, double* state, double* workspace) const {
+  Effect effect = Effect::kApplied;
+  const Held now = held(state);
+  const bool is_attempt = s_attempted_.size() > 0;
+  if (is_attempt) {
+    s_attempted_.set(s_.of(state), workspace);
+    kept_attempted_.set(kept_.of(state), workspace);
+  }
+  jump(now, next, JumpOutputs(*this, state), state, workspace);
+  if (is_attempt && !is_usable_after_jump(state)) {
+    s_.set(s_attempted_.of(workspace), state);
+    kept_.set(kept_attempted_.of(workspace), state);
+    jump({now.mode, now.u, nullptr}, next, JumpOutputs(), state, workspace);
+    effect = Effect::kWithoutOutputs;
+  }
   since_jump_.restart(state);
   mode_.set(next, state);
+  return effect;
+}
+
+bool PlantObserver::is_usable_after_jump(const double* state) const {
+  const auto usable = [state](const VectorSlot& slot) {
+    return is_usable(Eigen::Map<const Eigen::VectorXd>(slot.of(state), slot.size()));
+  };
+  return usable(s_) && usable(kept_);
 }
 
 /// Applies the jump of equal stamp again, now with these of its outputs. Outputs without such a
 /// jump say nothing.
-void PlantObserver::pair_with_jump(const Event& output, double* state, double* workspace) const {
-  if (!has_jumped_.of(state) || since_jump(state) != 0.0) return;
+Effect PlantObserver::pair_with_jump(const Event& output, double* state, double* workspace) const {
+  if (!has_jumped_.of(state) || since_jump(state) != 0.0) return Effect::kApplied;
   const auto sensor = static_cast<std::size_t>(output.sensor);
   y_d_.part(output_offset(sensor), output.size).set(output.values, state);
   y_d_known_[sensor].set(true, state);
   s_.set(s_before_jump_.of(state), state);
   kept_.set(kept_before_jump_.of(state), state);
-  apply_jump(mode_after_jump_.of(state), state, workspace);
+  return apply_jump(mode_after_jump_.of(state), state, workspace);
 }
 
 bool PlantObserver::knows_mode(const Event& event) const {

@@ -27,6 +27,10 @@ void PlantObserver::build_flow() {
   StateLayout& layout = state_layout();
   kept_ = layout.since(s_.size() + held_part_.size());
   y_d_ = layout.vector(plant_->outputs(SensorTiming::kAtJumps));
+  if (y_d_.size() + y_c_.size() > 0) {
+    s_attempted_ = scratch(s_.size());
+    kept_attempted_ = scratch(kept_.size());
+  }
   if (takes_jump_outputs()) {
     y_d_known_ = layout.flags(sensors());
     has_jumped_ = layout.flag();

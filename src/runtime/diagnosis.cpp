@@ -90,6 +90,9 @@ void Diagnosis::update(const RunStatistics& window, Stamp now, Duration elapsed)
     restored_ = 0;
   }
   window_ = window;
+  newly_missing_ = window.missing_jumps > totals_.missing_jumps
+                       ? window.missing_jumps - totals_.missing_jumps
+                       : 0;
   totals_.add(window);
   now_ = now;
   elapsed_ = elapsed;
@@ -256,6 +259,10 @@ Finding Diagnosis::estimates() const {
                std::to_string(window_.saturated) + " of " + std::to_string(window_.lateness.count) +
                    " estimates stand at a bound of saturations, or beyond: is the model right?",
                {}};
+  } else if (newly_missing_ > 0) {
+    finding = {HealthLevel::kWarn,
+               std::to_string(newly_missing_) + " jumps that no event told of (jumps/missing)",
+               {}};
   } else if (!growing.empty()) {
     finding = {HealthLevel::kWarn, growing, {}};
   } else if (published < kLowestRate * expected - 1.0) {
@@ -280,6 +287,7 @@ Finding Diagnosis::estimates() const {
       {"published in all", std::to_string(totals_.lateness.count)},
       {"held", std::to_string(window_.held)},
       {"saturated", std::to_string(window_.saturated)},
+      {"missing jumps in all", std::to_string(totals_.missing_jumps)},
       {"CPU time per tick, mean", in_milliseconds(cpu.mean())},
       {"CPU time per tick, most", in_milliseconds(cpu.count > 0 ? cpu.largest : 0)},
   };

@@ -31,8 +31,14 @@ EventOutcome outcome_of(const Timeline::InsertReport& report) {
       return EventOutcome::kWouldOverflow;
     case Effect::kRefused:
       return EventOutcome::kTooFrequent;
+    case Effect::kNotPossible:
+      return EventOutcome::kNotPossible;
+    case Effect::kRepeated:
+      return EventOutcome::kRepeated;
     case Effect::kGated:
       return EventOutcome::kGated;
+    case Effect::kWithoutOutputs:
+      return EventOutcome::kJumpAlone;
     case Effect::kApplied:
     case Effect::kPastGate:
     case Effect::kRestarted:

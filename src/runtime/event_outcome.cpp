@@ -40,6 +40,14 @@ constexpr OutcomeText kTexts[kEventOutcomes] = {
      "its publisher must send the signal in the order of stamps"},
     {EventOutcome::kDropped, "dropped, since 2000 later ones of its topic waited",
      "send fewer messages, or give the observer more of the machine"},
+    {EventOutcome::kNotPossible,
+     "the estimate lies outside plant/jump_set, by more than jumps/gate",
+     "the detector of jumps erred, or the estimate did: see jumps/gate/recovery"},
+    {EventOutcome::kRepeated, "a jump with the number of the one before",
+     "one jump was told twice, with different stamps"},
+    {EventOutcome::kJumpAlone,
+     "jumped, but what was measured at the jump gives no finite correction and was skipped",
+     "the value is far off, or the estimate diverged: reset it"},
 };
 
 constexpr bool is_in_order() {

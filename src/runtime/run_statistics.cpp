@@ -44,6 +44,7 @@ void RunStatistics::add(const RunStatistics& later) {
   lateness.add(later.lateness);
   held += later.held;
   saturated += later.saturated;
+  missing_jumps = later.missing_jumps;
   tick_cpu_time.add(later.tick_cpu_time);
   newest_estimate = later.newest_estimate;
   error_bound = later.error_bound;
@@ -85,6 +86,8 @@ void StatisticsRecorder::record_estimate(const ObserverLaw& law, const Estimate&
   lateness_.record(lateness);
   if (estimate.held) increment(held_);
   if (law.observer().is_saturated(estimate.state.data())) increment(saturated_);
+  missing_jumps_.store(static_cast<std::uint64_t>(law.missing_jumps(estimate.state.data())),
+                       kRelaxed);
   newest_estimate_.store(estimate.stamp, kRelaxed);
   error_bound_.store(bound.value, kRelaxed);
   bound_loss_.store(bound.loss, kRelaxed);
@@ -117,6 +120,7 @@ void StatisticsRecorder::take(RunStatistics& statistics) noexcept {
   statistics.lateness = lateness_.take();
   statistics.held = held_.exchange(0, kRelaxed);
   statistics.saturated = saturated_.exchange(0, kRelaxed);
+  statistics.missing_jumps = missing_jumps_.load(kRelaxed);
   statistics.tick_cpu_time = tick_cpu_time_.take();
   statistics.newest_estimate = as_stamp(newest_estimate_.load(kRelaxed));
   statistics.error_bound = error_bound_.load(kRelaxed);

@@ -62,6 +62,20 @@ sampling: {T1: 0.1, T2: 1}
 gains: {L_d: [[0.25]]}
 )";
 
+const char kJumpSets[] = R"(
+observer: SynchronizedObserver
+plant:
+  states: [x, v]
+  jump_map: {A_d: [[1, 0], [0, -0.8]]}
+  A: [[0, 1], [0, 0]]
+  jump_set: [x, v]
+  flow_set: [-x]
+sensors: {d: {C: [[1, 0]], measured: at_jumps}}
+jumps: {gate: {margin: [0.1, 1], recovery: {after: 2}}, missing: {margin: 0.2, action: predict}}
+sampling: {T1: 0.1, T2: 1}
+gains: {L_d: [[0.25], [0]]}
+)";
+
 Eigen::VectorXd evaluate(const VectorMap& map, const Eigen::VectorXd& x, const Eigen::VectorXd& u) {
   Eigen::VectorXd out(map.size());
   map.evaluate(x.data(), u.data(), out.data());
@@ -171,6 +185,22 @@ INSTANTIATE_TEST_SUITE_P(
         BadPlant{kSwitched, {"late: delayed", "late: never", {"jumps/late", "rewind, delayed"}}},
         BadPlant{kSwitched, {"max_per_second: 20", "max_per_second: 0", {"jumps/max_per_second"}}},
         BadPlant{kSwitched, {"jumps: {", "jumps: {topc: x, ", {"jumps/topc", "unknown"}}},
+        BadPlant{kSwitched,
+                 {"jumps: {",
+                  "jumps: {gate: {margin: 1, recovery: {after: 1}}, ",
+                  {"jumps/gate/margin", "plant/jump_set"}}},
+        BadPlant{kFormulas, {"flow: {", "jump_set: [x3]\n  flow: {", {"plant/jump_set", "x3"}}},
+        BadPlant{kJumpSets, {"[0.1, 1]", "[0.1]", {"jumps/gate/margin", "2 numbers"}}},
+        BadPlant{kJumpSets, {"[0.1, 1]", "[0.1, -1]", {"jumps/gate/margin", "negative"}}},
+        BadPlant{kJumpSets, {", recovery: {after: 2}", "", {"jumps/gate/recovery"}}},
+        BadPlant{kJumpSets, {"flow_set: [-x]\n", "\n", {"jumps/missing/margin", "plant/flow_set"}}},
+        BadPlant{kJumpSets, {"predict", "guess", {"jumps/missing/action", "report, predict"}}},
+        BadPlant{kJumpSets,
+                 {"jumps: {", "jumps: {late: delayed, ", {"jumps/missing/action", "delayed"}}},
+        BadPlant{kJumpSets,
+                 {"jump_map: {A_d: [[1, 0], [0, -0.8]]}\n  A: [[0, 1], [0, 0]]",
+                  "modes: {1: {A: [[0, 1], [0, 0]]}, 2: {A: [[0, 0], [0, 0]]}}",
+                  {"jumps/missing/action", "switches"}}},
         BadPlant{kSwitched, {"gains: {L_d: [[0.25]]}", "gains: {}", {"gains", "L_c, L_d or both"}}},
         BadPlant{kSwitched,
                  {"measured: at_jumps", "measured: continuous", {"sensors/d/source", "missing"}}}));

@@ -16,6 +16,13 @@ TEST(PlantFingerprintTest, WaysOfWritingDoNotMatter) {
   EXPECT_EQ(fingerprint("{a: {C: [[1]]}}"), fingerprint("{'a': {C: [[1.0]], gate: {}}}"));
 }
 
+TEST(PlantFingerprintTest, WhereThePlantJumpsIsNoPartOfWhatIsProved) {
+  const auto of_plant = [](const std::string& plant) {
+    return plant_fingerprint(read_yaml_text("plant: " + plant + "\nsensors: {}\n", "test.yaml"));
+  };
+  EXPECT_EQ(of_plant("{A: [[-1]]}"), of_plant("{A: [[-1]], jump_set: [x], flow_set: [-x]}"));
+}
+
 TEST(PlantFingerprintTest, NoNameWithQuotesPassesForSeveral) {
   EXPECT_NE(fingerprint("{a: {C: [[1]]}, b: {C: [[2]]}}"),
             fingerprint("{\"a':{'C':[[1,],],}'b\": {C: [[2]]}}"));

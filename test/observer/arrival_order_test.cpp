@@ -15,6 +15,9 @@
 #include "certificate/certified_gains.h"
 #include "observer/delayed_jumps.h"
 #include "observer/limited_jumps.h"
+#include "observer/missing_jumps.h"
+#include "observer/numbered_jumps.h"
+#include "observer/possible_jumps.h"
 #include "support/stamps.h"
 #include "support/type_examples.h"
 
@@ -66,6 +69,9 @@ struct Tally {
   std::size_t not_finite = 0;
   std::size_t gated = 0;
   std::size_t too_frequent = 0;
+  std::size_t not_possible = 0;
+  std::size_t repeated = 0;
+  std::size_t made_up = 0;
   std::size_t overflowing = 0;
   std::size_t held = 0;
   std::size_t bounded = 0;
@@ -76,6 +82,8 @@ struct Tally {
     if (outcome == EventOutcome::kNotFinite) ++not_finite;
     if (outcome == EventOutcome::kGated) ++gated;
     if (outcome == EventOutcome::kTooFrequent) ++too_frequent;
+    if (outcome == EventOutcome::kNotPossible) ++not_possible;
+    if (outcome == EventOutcome::kRepeated) ++repeated;
     if (outcome == EventOutcome::kWouldOverflow) ++overflowing;
   }
 };
@@ -114,10 +122,31 @@ class ArrivalOrderTest : public ::testing::TestWithParam<std::string> {
         const double most = any(3) == 0 ? 2.0 : 100.0;
         const JumpLimits limits{in_one_of(2) ? 0 : kSpan / 5, most};
         if (in_one_of(2)) law = std::make_shared<const LimitedJumps>(law, limits);
+        if (in_one_of(2)) {
+          law = std::make_shared<const PossibleJumps>(law, JumpGate{any_set(), kSpan / 4});
+        }
+        if (in_one_of(2)) law = std::make_shared<const NumberedJumps>(law);
+        if (in_one_of(2)) law = std::make_shared<const MissingJumpsWatch>(law, any_watch(*law));
       }
     }
     if (in_one_of(2)) law = std::make_shared<const GatedSamples>(law, test::narrow_gates(config_));
     return law;
+  }
+
+  /// Where the first state, or the negative one, is at most as large as a margin.
+  StateSet any_set() {
+    Eigen::MatrixXd first = Eigen::MatrixXd::Zero(1, config_.plant->states());
+    first(0, 0) = in_one_of(2) ? 1.0 : -1.0;
+    return {std::make_shared<const AffineMap>(first), Eigen::VectorXd::Constant(1, 0.1 * any(5))};
+  }
+
+  MissingJumps any_watch(const ObserverLaw& law) {
+    const bool may_predict = !law.delays_jumps() && !config_.plant->switches();
+    const Duration step = law.flow_step() == 0 ? kSpan / 500 : 2 * law.flow_step();
+    return {any_set(),
+            may_predict && !in_one_of(4) ? MissingJumps::Action::kPredict
+                                         : MissingJumps::Action::kReport,
+            step};
   }
 
   std::unique_ptr<Estimator> make(const Timeline::Limits& history) const {
@@ -191,6 +220,7 @@ class ArrivalOrderTest : public ::testing::TestWithParam<std::string> {
       if (query != Timeline::Query::kOk && query != Timeline::Query::kHeld) continue;
       if (query == Timeline::Query::kHeld) ++tally_.held;
       if (std::isfinite(law_->error_bound(found.state.data()))) ++tally_.bounded;
+      if (law_->missing_jumps(found.state.data()) > 0.0) ++tally_.made_up;
       if (!same_bits(expected.state, found.state) ||
           expected.counts.events != found.counts.events ||
           expected.counts.samples != found.counts.samples ||
@@ -294,10 +324,11 @@ TEST_P(ArrivalOrderTest, GivesTheSameBits) {
   }
   std::printf(
       "%s: %zu sets of events in %zu orders; %zu events used, %zu too old, %zu not finite, "
-      "%zu gated, %zu too frequent, %zu would overflow; of the estimates compared %zu held, "
-      "%zu with a bound\n",
+      "%zu gated, %zu too frequent, %zu not possible, %zu repeated, %zu would overflow; of the "
+      "estimates compared %zu held, %zu with a bound, %zu with missing jumps\n",
       GetParam().c_str(), sets, tally_.orders, tally_.used, tally_.too_old, tally_.not_finite,
-      tally_.gated, tally_.too_frequent, tally_.overflowing, tally_.held, tally_.bounded);
+      tally_.gated, tally_.too_frequent, tally_.not_possible, tally_.repeated, tally_.overflowing,
+      tally_.held, tally_.bounded, tally_.made_up);
 }
 
 INSTANTIATE_TEST_SUITE_P(EverySubject, ArrivalOrderTest, ::testing::ValuesIn(subjects()),

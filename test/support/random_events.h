@@ -20,9 +20,11 @@ struct OwnedEvent {
   int sensor = 0;
   std::vector<double> values;
   std::optional<double> mode = std::nullopt;
+  std::uint32_t index = 0;
 
   Event view() const {
-    return {stamp, kind, sensor, values.data(), static_cast<Eigen::Index>(values.size()), 0, mode};
+    return {stamp, kind, sensor, values.data(), static_cast<Eigen::Index>(values.size()),
+            0,     mode, index};
   }
 };
 

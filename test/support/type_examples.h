@@ -96,6 +96,9 @@ inline std::vector<OwnedEvent> random_events_for(const ObserverLaw& law, std::mt
     if (event.kind == EventKind::kJump && observer.plant().switches()) {
       event.mode = tenth(generator) < 5 ? 1.0 : 2.0;
     }
+    if (event.kind == EventKind::kJump && tenth(generator) < 5) {
+      event.index = static_cast<std::uint32_t>(tenth(generator));
+    }
     const bool known = std::any_of(events.begin(), events.end(), [&](const OwnedEvent& other) {
       return compare(other.view(), event.view()) == 0;
     });

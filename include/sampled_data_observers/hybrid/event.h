@@ -39,6 +39,8 @@ struct Event {
   /// Of jumps of a plant that switches: the label of the mode that follows. Messages may hold any
   /// number.
   std::optional<double> mode = std::nullopt;
+  /// Of jumps: their number, as who detects them counts; 0 where nobody does.
+  std::uint32_t index = 0;
   /// Of releases: the time since the jump.
   Duration delay = 0;
   /// Of what was rejected: its kind.
@@ -48,9 +50,9 @@ struct Event {
   Eigen::Map<const Eigen::VectorXd> vector() const { return {values, size}; }
 };
 
-/// Total order of events: by stamp, then kind, sensor or kind rejected, number of values, mode or
-/// delay, and values in lexicographic order. Negative, zero or positive as for strcmp; zero means a
-/// duplicate.
+/// Total order of events: by stamp, then kind, sensor or kind rejected, index, number of values,
+/// mode or delay, and values in lexicographic order. Negative, zero or positive as for strcmp; zero
+/// means a duplicate.
 /// @pre all values and modes are finite
 int compare(const Event& a, const Event& b);
 

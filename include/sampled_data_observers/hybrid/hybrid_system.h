@@ -13,16 +13,20 @@ namespace sampled_data_observers {
 /// What an event did to the state.
 enum class Effect : std::uint8_t {
   kApplied,
-  kRefused,    ///< nothing: a jump that comes too soon after others
-  kGated,      ///< nothing: a sample whose innovation lies outside its gate
-  kPastGate,   ///< applied although it lies outside its gate: so did all others for too long
-  kRestarted,  ///< the same, to an estimate that began anew
-  kNotFinite   ///< nothing: the result would not have been finite
+  kRefused,         ///< nothing: a jump that comes too soon after others
+  kNotPossible,     ///< nothing: a jump where the estimate lies outside the jump set
+  kRepeated,        ///< nothing: a jump with the number of the one before
+  kGated,           ///< nothing: a sample whose innovation lies outside its gate
+  kPastGate,        ///< applied although it lies outside its gate: so did all others for too long
+  kRestarted,       ///< the same, to an estimate that began anew
+  kWithoutOutputs,  ///< a jump, applied without what was measured at it: no finite correction
+  kNotFinite        ///< nothing: the result would not have been finite
 };
 
 /// Whether the event reset the state.
 constexpr bool took_effect(Effect effect) {
-  return effect == Effect::kApplied || effect == Effect::kPastGate || effect == Effect::kRestarted;
+  return effect == Effect::kApplied || effect == Effect::kPastGate ||
+         effect == Effect::kRestarted || effect == Effect::kWithoutOutputs;
 }
 
 /// A hybrid system whose jumps are driven by events: it flows between them and is reset at them.

@@ -31,6 +31,16 @@ class StateBound {
   ~StateBound() = default;
 };
 
+/// What a law keeps of the jumps that no event told of.
+class JumpWatch {
+ public:
+  /// How many it noticed since the start.
+  virtual double missing_jumps(const double* state) const = 0;
+
+ protected:
+  ~JumpWatch() = default;
+};
+
 /// An observer as a hybrid system: a flow map between events and reset maps at them, over one state
 /// vector whose first entries are the estimate.
 ///
@@ -70,6 +80,12 @@ class ObserverLaw : public HybridSystem {
     if (bound_ != nullptr) bound_->keep_bound(bound, state);
   }
 
+  /// How many jumps were noticed in a state that no event told of, since the start; 0 where nothing
+  /// looks for them.
+  double missing_jumps(const double* state) const {
+    return jump_watch_ != nullptr ? jump_watch_->missing_jumps(state) : 0.0;
+  }
+
   void distrust(double* state) const final {
     if (bound_ != nullptr) bound_->give_up(state);
   }
@@ -83,12 +99,15 @@ class ObserverLaw : public HybridSystem {
 
   /// To be called where a law gives a bound.
   void set_bound(const StateBound* bound) { bound_ = bound; }
+  /// To be called where a law looks for jumps that are missing.
+  void set_jump_watch(const JumpWatch* watch) { jump_watch_ = watch; }
   /// To be called where a law delays jumps.
   void set_delays_jumps() { delays_jumps_ = true; }
 
  private:
   const PlantObserver* observer_;
   const StateBound* bound_ = nullptr;
+  const JumpWatch* jump_watch_ = nullptr;
   bool delays_jumps_ = false;
 };
 

@@ -36,7 +36,9 @@ struct ObserverContext {
 /// Otherwise it is integrated by Runge–Kutta steps.
 ///
 /// Outputs measured at jumps (y_d) come with the jump event, or as events of equal stamp: a
-/// snapshot of the state before the jump lets the jump be applied again with them.
+/// snapshot of the state before the jump lets the jump be applied again with them. Where what is
+/// measured at a jump, or was last measured before it, gives no finite correction, the jump is
+/// applied without: the plant has jumped all the same.
 class PlantObserver : public ObserverLaw {
  public:
   /// The plant that is observed.
@@ -116,18 +118,20 @@ class PlantObserver : public ObserverLaw {
   /// The outputs at a jump.
   class JumpOutputs {
    public:
+    /// None.
+    JumpOutputs() = default;
     /// Those that a state of the law holds.
-    JumpOutputs(const PlantObserver& law, const double* state) : law_(law), state_(state) {}
+    JumpOutputs(const PlantObserver& law, const double* state) : law_(&law), state_(state) {}
 
     /// y_d of a sensor that measures at jumps; null where it is not known.
     const double* of(std::size_t sensor) const {
-      if (!law_.y_d_known_[sensor].of(state_)) return nullptr;
-      return law_.y_d_.of(state_) + law_.output_offset(sensor);
+      if (law_ == nullptr || !law_->y_d_known_[sensor].of(state_)) return nullptr;
+      return law_->y_d_.of(state_) + law_->output_offset(sensor);
     }
 
    private:
-    const PlantObserver& law_;
-    const double* state_;
+    const PlantObserver* law_ = nullptr;
+    const double* state_ = nullptr;
   };
 
   /// @param context  the plant, and where the estimate begins
@@ -204,9 +208,10 @@ class PlantObserver : public ObserverLaw {
  private:
   class Field;
 
-  void begin_jump(const Event& event, double* state, double* workspace) const;
-  void apply_jump(std::size_t next, double* state, double* workspace) const;
-  void pair_with_jump(const Event& output, double* state, double* workspace) const;
+  Effect begin_jump(const Event& event, double* state, double* workspace) const;
+  Effect apply_jump(std::size_t next, double* state, double* workspace) const;
+  Effect pair_with_jump(const Event& output, double* state, double* workspace) const;
+  bool is_usable_after_jump(const double* state) const;
   bool is_built() const { return numeric_flow_ != nullptr || !exact_flows_.empty(); }
   bool takes_jump_outputs() const { return y_d_.size() > 0; }
   std::size_t regime(const Held& held) const;
@@ -243,6 +248,8 @@ class PlantObserver : public ObserverLaw {
   VectorSlot s_before_jump_;
   VectorSlot kept_before_jump_;
 
+  VectorSlot s_attempted_;  ///< before a jump whose correction may not be finite, with the next
+  VectorSlot kept_attempted_;
   VectorSlot flowed_;
   VectorSlot jumped_;
   VectorSlot innovation_;

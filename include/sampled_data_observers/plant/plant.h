@@ -42,6 +42,11 @@ struct PlantDescription {
   std::vector<PlantMode> modes;
   /// For flows that are not affine.
   Integration integration;
+  /// Formulas in (x, u), any number of them, that are all at most 0 where the plant can jump: D of
+  /// bernard2022 (1); null where that is everywhere.
+  std::shared_ptr<const VectorMap> jump_set;
+  /// The same where it flows: C.
+  std::shared_ptr<const VectorMap> flow_set;
 };
 
 /// A checked description. Immutable.
@@ -64,6 +69,10 @@ class Plant {
   const std::vector<PlantMode>& modes() const { return description_.modes; }
   /// How flows that are not affine are integrated.
   const Integration& integration() const { return description_.integration; }
+  /// Where it can jump; null where that is everywhere.
+  const std::shared_ptr<const VectorMap>& jump_set() const { return description_.jump_set; }
+  /// Where it flows; null where that is everywhere.
+  const std::shared_ptr<const VectorMap>& flow_set() const { return description_.flow_set; }
 
   /// n
   Eigen::Index states() const { return static_cast<Eigen::Index>(state_names().size()); }

@@ -116,6 +116,7 @@ class Diagnosis {
   std::vector<ChannelMemory> memory_;
   Stamp now_ = 0;
   Duration elapsed_ = 0;
+  std::uint64_t newly_missing_ = 0;
   std::optional<Suspension> suspension_;
   /// When the last suspension ended, and what it was.
   Stamp restored_ = 0;

@@ -23,11 +23,14 @@ enum class EventOutcome : std::uint8_t {
   kNoTransform = 13,   ///< no transform into a configured frame came in time, so there is no event
   kNoField = 14,       ///< the message does not hold what is configured, so there is no event
   kOutOfOrder = 15,    ///< a detector's signal, stamped not after the one before: no event
-  kDropped = 16        ///< more messages came than could be taken in: never looked at
+  kDropped = 16,       ///< more messages came than could be taken in: never looked at
+  kNotPossible = 17,   ///< taken in without effect: a jump where the estimate can't jump
+  kRepeated = 18,      ///< taken in without effect: a jump with the number of the one before
+  kJumpAlone = 19      ///< a jump taken in without what was measured at it: no finite correction
 };
 
 /// How many outcomes there are: their codes lie below.
-constexpr std::size_t kEventOutcomes = static_cast<std::size_t>(EventOutcome::kDropped) + 1;
+constexpr std::size_t kEventOutcomes = static_cast<std::size_t>(EventOutcome::kJumpAlone) + 1;
 
 /// The outcome in a few words.
 const char* describe(EventOutcome outcome);

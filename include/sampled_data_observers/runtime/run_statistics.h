@@ -65,6 +65,8 @@ struct RunStatistics {
   std::uint64_t held = 0;
   /// How many of them stood at a bound of the observer's saturations.
   std::uint64_t saturated = 0;
+  /// Of the newest estimate: jumps that no event told of, since the start.
+  std::uint64_t missing_jumps = 0;
   /// CPU time that each tick of the publishing thread took [ns].
   Range tick_cpu_time;
   /// Of the newest estimate.
@@ -132,6 +134,7 @@ class StatisticsRecorder {
   RangeRecorder tick_cpu_time_;
   std::atomic<std::uint64_t> held_{0};
   std::atomic<std::uint64_t> saturated_{0};
+  std::atomic<std::uint64_t> missing_jumps_{0};
   /// 0 where there is none.
   std::atomic<Stamp> newest_estimate_{0};
   std::atomic<Stamp> bound_lost_since_{0};

@@ -1,0 +1,83 @@
+#include "config/jump_config.h"
+
+#include <utility>
+
+#include "sampled_data_observers/runtime/estimator.h"
+
+namespace sampled_data_observers {
+namespace {
+
+constexpr double kLongestTime = 1e6;    // s
+constexpr double kShortestTime = 1e-9;  // s: one tick of the clock
+
+/// One margin for all formulas of a set, or one for each.
+StateSet read_margins(ConfigSection& section, const std::shared_ptr<const VectorMap>& set,
+                      const std::string& set_key) {
+  if (!set) {
+    throw section.error("margin", "plant/" + set_key + " beside it, the formulas that it is about",
+                        "none");
+  }
+  StateSet result{set, {}};
+  if (!section.is_list("margin")) {
+    const double margin = section.number_in("margin", 0.0, kLargestValue, std::nullopt);
+    result.margins = Eigen::VectorXd::Constant(set->size(), margin);
+    return result;
+  }
+  result.margins = section.vector("margin", set->size());
+  if (result.margins.minCoeff() < 0.0) {
+    throw section.error("margin", "numbers that are not negative, in the units of the formulas",
+                        "a negative one");
+  }
+  return result;
+}
+
+JumpGate read_jump_gate(ConfigSection section, const Plant& plant) {
+  JumpGate gate;
+  gate.jump_set = read_margins(section, plant.jump_set(), "jump_set");
+  ConfigSection recovery = section.section("recovery");
+  gate.recover_after =
+      from_seconds(recovery.number_in("after", kShortestTime, kLongestTime, std::nullopt));
+  recovery.finish();
+  section.finish();
+  return gate;
+}
+
+MissingJumps read_missing_jumps(ConfigSection section, const Plant& plant, bool are_delayed) {
+  MissingJumps missing;
+  missing.flow_set = read_margins(section, plant.flow_set(), "flow_set");
+  if (section.choice("action", {"report", "predict"}) == "predict") {
+    missing.action = MissingJumps::Action::kPredict;
+    if (plant.switches()) {
+      throw section.error(
+          "action", "report, for a plant that switches: nobody knows into which mode", "predict");
+    }
+    if (are_delayed) {
+      throw section.error("action", "report with jumps/late: delayed", "predict");
+    }
+  }
+  missing.step = plant.integration().step;
+  section.finish();
+  return missing;
+}
+
+}  // namespace
+
+TopicSource read_jumps(ConfigSection& root, const Plant& plant, LawLayers& layers) {
+  ConfigSection section = root.section_or_empty("jumps");
+  TopicSource source = read_jump_source(root, section, plant);
+  layers.delays_jumps =
+      section.has("late") && section.choice("late", {"rewind", "delayed"}) == "delayed";
+  JumpLimits limits;
+  limits.min_separation =
+      from_seconds(section.number_in("min_separation", 0.0, kLongestTime, 1e-6));
+  limits.max_per_second = section.number_in("max_per_second", 1.0, 1e6, 1000.0);
+  layers.jump_limits = limits;
+  if (section.has("gate")) layers.jump_gate = read_jump_gate(section.section("gate"), plant);
+  if (section.has("missing")) {
+    layers.missing = read_missing_jumps(section.section("missing"), plant, layers.delays_jumps);
+  }
+  section.finish();
+  return source;
+}
+
+}  // namespace sampled_data_observers

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "config/law_config.h"
+#include "sampled_data_observers/config/config_section.h"
+#include "sampled_data_observers/config/topic_config.h"
+#include "sampled_data_observers/plant/plant.h"
+
+namespace sampled_data_observers {
+
+/// Reads the section `jumps` of a plant that jumps: where they come from, and, into `layers`, how
+/// the law takes them.
+/// @throws ConfigError for the first fault found.
+TopicSource read_jumps(ConfigSection& root, const Plant& plant, LawLayers& layers);
+
+}  // namespace sampled_data_observers

@@ -1,0 +1,39 @@
+#include "observer/possible_jumps.h"
+
+#include <stdexcept>
+#include <utility>
+
+#include "sampled_data_observers/observer/plant_observer.h"
+
+namespace sampled_data_observers {
+
+PossibleJumps::PossibleJumps(std::shared_ptr<const ObserverLaw> law, JumpGate gate)
+    : LawDecorator(std::move(law)), gate_(std::move(gate)) {
+  if (gate_.jump_set.formulas->size() != gate_.jump_set.margins.size()) {
+    throw std::invalid_argument("PossibleJumps: one margin for each formula of the jump set");
+  }
+  if (gate_.recover_after <= 0) {
+    throw std::invalid_argument("PossibleJumps: recover_after must be positive");
+  }
+}
+
+void PossibleJumps::initialize(double* state) const {
+  law().initialize(state);
+  kept_.initialize(state);
+}
+
+void PossibleJumps::flow(Duration duration, double* state, double* workspace) const {
+  law().flow(duration, state, workspace);
+  kept_.advance(duration, state);
+}
+
+Effect PossibleJumps::reset(const Event& event, double* state, double* workspace) const {
+  if (event.kind == EventKind::kJump) {
+    const double* u = observer().held_part(state);
+    const bool is_outside = !gate_.jump_set.contains(state, u, values_.of(workspace));
+    if (kept_.judge(is_outside, state) == GateState::Verdict::kReject) return Effect::kNotPossible;
+  }
+  return law().reset(event, state, workspace);
+}
+
+}  // namespace sampled_data_observers

@@ -1,0 +1,289 @@
+// Jumps that never happened, jumps told twice, early or late, and jumps that nobody tells of: on a
+// ball that bounces, whose height at bounces is known.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "sampled_data_observers/config/observer_config.h"
+#include "sampled_data_observers/config/yaml_file.h"
+#include "support/random_events.h"
+#include "support/stamps.h"
+
+namespace sampled_data_observers {
+namespace {
+
+using test::kMillisecond;
+using test::kSecond;
+using test::kStart;
+using test::OwnedEvent;
+
+const char kBall[] = R"(
+observer: SynchronizedObserver
+plant:
+  states: [height, velocity]
+  A: [[0, 1], [0, 0]]
+  b: [0, -9.81]
+  jump_map: {A_d: [[1, 0], [0, -0.8]]}
+  jump_set: [height, velocity]
+  flow_set: [-height]
+sensors: {floor: {C: [[1, 0]], measured: at_jumps}}
+sampling: {T1: 0.001, T2: 5}
+gains: {L_d: [[1], [-0.5]]}
+initial_estimate: {height: 5, velocity: 0}
+history: {duration: 100, max_events: 2000}
+)";
+const char kGate[] = "jumps: {gate: {margin: [0.6, 1], recovery: {after: 2}}}";
+const char kPredict[] =
+    "jumps: {gate: {margin: [0.6, 1], recovery: {after: 2}}, "
+    "missing: {margin: 0.6, action: predict}}";
+
+/// A ball dropped from 5 m at kStart, and its bounces until 7 s.
+class Ball {
+ public:
+  Ball() {
+    double time = std::sqrt(2.0 * 5.0 / kGravity);
+    double speed = kGravity * time;
+    while (time < 7.0) {
+      bounces_.push_back({kStart + from_seconds(time), 0.8 * speed});
+      speed *= 0.8;
+      time += 2.0 * speed / kGravity;
+    }
+  }
+
+  std::vector<Stamp> bounces() const {
+    std::vector<Stamp> stamps;
+    for (const Bounce& bounce : bounces_) stamps.push_back(bounce.stamp);
+    return stamps;
+  }
+
+  Eigen::Vector2d at(Stamp stamp) const {
+    Bounce last{kStart, 0.0};
+    double height = 5.0;
+    for (const Bounce& bounce : bounces_) {
+      if (bounce.stamp > stamp) break;
+      last = bounce;
+      height = 0.0;
+    }
+    const double time = to_seconds(stamp - last.stamp);
+    return {height + last.speed * time - kGravity * time * time / 2.0,
+            last.speed - kGravity * time};
+  }
+
+ private:
+  static constexpr double kGravity = 9.81;
+  struct Bounce {
+    Stamp stamp;
+    double speed;  ///< after it
+  };
+  std::vector<Bounce> bounces_;
+};
+
+class MistakenJumpsTest : public ::testing::Test {
+ protected:
+  static ObserverConfig configure(const std::string& jumps) {
+    return read_observer_config(
+        override_with(read_yaml_text(kBall, "ball.yaml"), read_yaml_text(jumps, "jumps.yaml")),
+        no_plant_plugins);
+  }
+
+  static OwnedEvent bounce(Stamp stamp, std::uint32_t index = 0) {
+    OwnedEvent event{stamp, EventKind::kJump, 0, {0.0}};
+    event.index = index;
+    return event;
+  }
+
+  std::vector<OwnedEvent> bounces() const {
+    std::vector<OwnedEvent> events;
+    for (const Stamp stamp : ball_.bounces()) events.push_back(bounce(stamp));
+    return events;
+  }
+
+  /// An estimate that begins with the fall, and takes the events.
+  class Run {
+   public:
+    Run(const ObserverConfig& config, const std::vector<OwnedEvent>& events)
+        : estimator_(config.law, config.options), estimate_(estimator_.make_estimate()) {
+      estimator_.restart(kStart, Eigen::Vector2d(5.0, 0.0));
+      for (const OwnedEvent& event : events) {
+        outcomes.push_back(estimator_.submit(event.view(), kStart + 10 * kSecond).outcome);
+      }
+    }
+
+    Eigen::Vector2d at(Stamp stamp) {
+      EXPECT_EQ(Timeline::Query::kOk, estimator_.estimate_at(stamp, estimate_));
+      return estimate_.state.head<2>();
+    }
+    double missing_at(Stamp stamp) {
+      at(stamp);
+      return estimate_.law->missing_jumps(estimate_.state.data());
+    }
+    std::ptrdiff_t count(EventOutcome outcome) const {
+      return std::count(outcomes.begin(), outcomes.end(), outcome);
+    }
+
+    std::vector<EventOutcome> outcomes;
+
+   private:
+    Estimator estimator_;
+    Estimate estimate_;
+  };
+
+  /// The largest error of a run from one time on to another, 50 ms around bounces left out.
+  double largest_error(Run& run, double from, double to) const {
+    const std::vector<Stamp> stamps = ball_.bounces();
+    double largest = 0.0;
+    for (Stamp stamp = kStart + from_seconds(from); stamp < kStart + from_seconds(to);
+         stamp += kSecond / 100) {
+      const bool is_near = std::any_of(stamps.begin(), stamps.end(), [&](Stamp bounce) {
+        return std::abs(stamp - bounce) < 50 * kMillisecond;
+      });
+      if (!is_near) largest = std::max(largest, (run.at(stamp) - ball_.at(stamp)).norm());
+    }
+    return largest;
+  }
+
+  Ball ball_;
+};
+
+TEST_F(MistakenJumpsTest, AFalseBounceInFlightIsNotPossible) {
+  std::vector<OwnedEvent> events = bounces();
+  const Stamp in_flight = (events[1].stamp + events[2].stamp) / 2;
+  events.push_back(bounce(in_flight));
+  Run believed(configure("{}"), events);
+  EXPECT_GT(largest_error(believed, 3.3, 3.8), 1.0);
+  Run gated(configure(kGate), events);
+  EXPECT_EQ(EventOutcome::kNotPossible, gated.outcomes.back());
+  EXPECT_EQ(1, gated.count(EventOutcome::kNotPossible));
+  EXPECT_LT(largest_error(gated, 0.0, 5.0), 1e-6);
+}
+
+TEST_F(MistakenJumpsTest, ABounceToldTwiceIsTakenOnce) {
+  for (const std::uint32_t index : {0u, 3u}) {
+    std::vector<OwnedEvent> events = bounces();
+    events[2].index = index;
+    events.push_back(bounce(events[2].stamp + 2 * kMillisecond, index));
+    Run twice(configure("{}"), events);
+    Run once(configure(kGate), events);
+    EXPECT_EQ(index == 0 ? EventOutcome::kNotPossible : EventOutcome::kRepeated,
+              once.outcomes.back());
+    EXPECT_LT(largest_error(once, 0.0, 5.0), 1e-6);
+    if (index == 0) {
+      EXPECT_GT(largest_error(twice, 4.0, 4.8), 1.0);
+    } else {
+      EXPECT_EQ(EventOutcome::kRepeated, twice.outcomes.back());
+    }
+  }
+}
+
+TEST_F(MistakenJumpsTest, AJumpOfANumberThatWasRefusedMayComeAgain) {
+  std::vector<OwnedEvent> events = bounces();
+  events[1].index = 2;
+  events.push_back(bounce(events[1].stamp - 200 * kMillisecond, 2));  // too early
+  Run run(configure(kGate), events);
+  EXPECT_EQ(EventOutcome::kNotPossible, run.outcomes.back());
+  EXPECT_LT(largest_error(run, 0.0, 5.0), 1e-6);
+}
+
+TEST_F(MistakenJumpsTest, NumbersOrderTheJumpsOfOneStamp) {
+  for (const bool turned : {false, true}) {
+    std::vector<OwnedEvent> events = {bounce(kStart + kSecond, 2), bounce(kStart + kSecond, 1)};
+    events[0].values = {0.5};
+    events[1].values = {0.25};
+    if (turned) std::swap(events[0], events[1]);
+    EXPECT_LT(compare(events[turned ? 0 : 1].view(), events[turned ? 1 : 0].view()), 0);
+  }
+}
+
+TEST_F(MistakenJumpsTest, AMissedBounceIsMadeUpWhenItWasDue) {
+  for (const std::size_t missed : {std::size_t{0}, std::size_t{2}, std::size_t{4}}) {
+    std::vector<OwnedEvent> events = bounces();
+    const Stamp due = events[missed].stamp;
+    events.erase(events.begin() + static_cast<std::ptrdiff_t>(missed));
+    Run lost(configure("{}"), events);
+    EXPECT_GT(largest_error(lost, to_seconds(due - kStart) + 0.1, 6.0), 1.0);
+    Run predicted(configure(kPredict), events);
+    // It is noticed 0.6 m below the floor.
+    EXPECT_EQ(0.0, predicted.missing_at(due + kMillisecond));
+    EXPECT_EQ(1.0, predicted.missing_at(due + kSecond / 4));
+    EXPECT_EQ(0, predicted.count(EventOutcome::kNotPossible));
+    EXPECT_LT(largest_error(predicted, to_seconds(due - kStart) + 0.25, 6.9), 1e-5) << missed;
+  }
+}
+
+TEST_F(MistakenJumpsTest, WhatIsMissingIsReportedOnce) {
+  std::vector<OwnedEvent> events = bounces();
+  const Stamp due = events[1].stamp;
+  events.resize(1);
+  Run run(configure("jumps: {missing: {margin: 0.6, action: report}}"), events);
+  EXPECT_EQ(0.0, run.missing_at(due));
+  EXPECT_EQ(1.0, run.missing_at(due + kSecond));
+  Run plain(configure("{}"), events);
+  EXPECT_NEAR(0.0, (run.at(due + kSecond) - plain.at(due + kSecond)).norm(), 1e-6);
+}
+
+TEST_F(MistakenJumpsTest, JitterCostsNoMoreThanItsTime) {
+  std::mt19937_64 generator(1);
+  for (const int milliseconds : {1, 5, 20}) {
+    std::vector<OwnedEvent> events = bounces();
+    std::uniform_int_distribution<Duration> jitter(-milliseconds * kMillisecond,
+                                                   milliseconds * kMillisecond);
+    for (OwnedEvent& event : events) event.stamp += jitter(generator);
+    Run run(configure(kPredict), events);
+    EXPECT_EQ(0, run.count(EventOutcome::kNotPossible)) << milliseconds;
+    EXPECT_EQ(0.0, run.missing_at(kStart + 5 * kSecond)) << milliseconds;
+    // A bounce at 9.9 m/s that is off by 1 ms puts the velocity off by (1 + 0.8) g times that, and
+    // the height by (1 + 0.8) 9.9 m/s times that.
+    EXPECT_LT(largest_error(run, 0.0, 5.0), 0.05 * milliseconds) << milliseconds;
+  }
+}
+
+TEST_F(MistakenJumpsTest, BehindTheLastBounceTheBallRests) {
+  Run run(configure(kPredict), bounces());
+  // All bounces until the end, 9.08 s after the fall began, come to nobody's knowledge.
+  EXPECT_GT(run.missing_at(kStart + 9 * kSecond + kSecond / 2), 3.0);
+  EXPECT_LT(std::abs(run.at(kStart + 9 * kSecond + kSecond / 2)(0)), 0.65);
+}
+
+TEST_F(MistakenJumpsTest, AJumpWithoutAFiniteCorrectionIsAJumpAllTheSame) {
+  const ObserverConfig config = configure("gains: {L_d: [[1.0e60], [0]]}");
+  OwnedEvent measured = bounce(ball_.bounces().front());
+  OwnedEvent bare = measured;
+  measured.values = {1e99};
+  bare.values.clear();
+  Run with(config, {measured});
+  Run without(config, {bare});
+  EXPECT_EQ(EventOutcome::kJumpAlone, with.outcomes.back());
+  EXPECT_EQ(EventOutcome::kUsed, without.outcomes.back());
+  for (const Duration after : {Duration{0}, kSecond / 3}) {
+    EXPECT_EQ(without.at(bare.stamp + after), with.at(bare.stamp + after));
+  }
+  EXPECT_GT(with.at(bare.stamp)(1), 7.0);
+}
+
+TEST_F(MistakenJumpsTest, EstimatesDoNotDependOnTheOrderOfArrival) {
+  std::mt19937_64 generator(2);
+  for (int trial = 0; trial < 60; ++trial) {
+    std::vector<OwnedEvent> events = bounces();
+    std::uniform_int_distribution<std::size_t> choice(0, events.size() - 1);
+    std::uniform_int_distribution<Stamp> any(kStart, kStart + 7 * kSecond);
+    events.erase(events.begin() + static_cast<std::ptrdiff_t>(choice(generator)));
+    events.push_back(bounce(any(generator), 5));
+    events.push_back(bounce(any(generator), 5));
+    const ObserverConfig config = configure(kPredict);
+    Run reference(config, events);
+    std::shuffle(events.begin(), events.end(), generator);
+    Run shuffled(config, events);
+    for (int i = 0; i < 20; ++i) {
+      const Stamp stamp = any(generator);
+      ASSERT_EQ(reference.at(stamp), shuffled.at(stamp)) << trial;
+      ASSERT_EQ(reference.missing_at(stamp), shuffled.missing_at(stamp)) << trial;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sampled_data_observers
