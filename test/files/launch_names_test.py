@@ -1,9 +1,12 @@
 #!/usr/bin/env python3
-"""Configuration files of any name without spaces reach the parameter server by roslaunch."""
+"""Configuration files of any name without spaces reach the parameter server by roslaunch, those of an example
+from its own folder."""
+import glob
 import os
 import subprocess
 import sys
 import unittest
+import xml.etree.ElementTree
 
 import yaml
 
@@ -11,7 +14,8 @@ HERE = os.path.dirname(os.path.realpath(__file__))
 sys.path.insert(0, os.path.join(HERE, "..", "support"))
 from folder_test import FolderTest  # noqa: E402
 
-LAUNCH = os.path.join(HERE, "..", "..", "launch", "load_config.launch")
+ROOT = os.path.dirname(os.path.dirname(HERE))
+LAUNCH = os.path.join(ROOT, "launch", "load_config.launch")
 
 
 class LaunchNamesTest(FolderTest):
@@ -27,6 +31,16 @@ class LaunchNamesTest(FolderTest):
             file = "/config/file_%d/" % (number + 1)
             self.assertEqual(parameters[file + "path"], name)
             self.assertEqual(parameters[file + "text"], "rate: %d\n" % number)
+
+    def test_no_include_is_given_its_own_folder(self):
+        # Within <include>, $(dirname) is the folder of the included file before roslaunch 1.15.15.
+        launches = [path for folder in ("config", "launch", "test")
+                    for path in glob.glob(os.path.join(ROOT, folder, "**", "*.launch"), recursive=True)]
+        self.assertGreater(len(launches), 10)
+        for path in launches:
+            for include in xml.etree.ElementTree.parse(path).iter("include"):
+                for argument in include.iter("arg"):
+                    self.assertNotIn("$(dirname)", argument.get("value", ""), path)
 
 
 if __name__ == "__main__":
