@@ -6,6 +6,7 @@
 
 #include "config/gains/readers.h"
 #include "observer/constant_gain_observer.h"
+#include "observer/linear_high_gain_observer.h"
 #include "observer/original_high_gain_observer.h"
 #include "observer/sample_and_hold_observer.h"
 #include "observer/time_varying_gain_observer.h"

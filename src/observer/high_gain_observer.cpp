@@ -3,28 +3,16 @@
 #include <stdexcept>
 #include <utility>
 
-#include "observer/observable_form.h"
-#include "sampled_data_observers/linear_algebra/ordered_product.h"
+#include "observer/gain_requirement.h"
 
 namespace sampled_data_observers {
-namespace {
-
-const AffineMap& affine(const VectorMap& map, const char* name) {
-  if (map.affine() == nullptr) {
-    throw std::invalid_argument(std::string("the linear form takes ") + name + " by matrices only");
-  }
-  return *map.affine();
-}
-
-}  // namespace
 
 HighGainObserver::HighGainObserver(const ObserverContext& context, Saturation saturation,
-                                   Eigen::Index flowing)
+                                   double ell, const std::vector<Eigen::VectorXd>& K,
+                                   const std::vector<std::string>& maps, Eigen::Index flowing)
     : PlantObserver(context, {SensorTiming::kContinuous}, flowing),
       saturation_(std::move(saturation)) {
-  if (saturation_.size() != n()) {
-    throw std::invalid_argument("saturations: one entry per state of the plant");
-  }
+  require_of_gains(saturation_.size() == n(), "saturations: one entry per state of the plant");
   if (plant().switches()) {
     throw std::invalid_argument("the plant must have one mode only");
   }
@@ -35,6 +23,11 @@ HighGainObserver::HighGainObserver(const ObserverContext& context, Saturation sa
     const std::string& state = plant().state_names()[static_cast<std::size_t>(i)];
     if (const auto bounds = saturation_.bounds(i)) listed_.add("saturations/" + state, *bounds);
   }
+  listed_.add("ell", ell);
+  for (std::size_t i = 0; i < K.size(); ++i) {
+    listed_.add(K.size() == 1 ? "K" : "K/" + std::to_string(i + 1), K[i].transpose());
+  }
+  for (const std::string& map : maps) listed_.add(map, Eigen::MatrixXd());
 }
 
 void HighGainObserver::require_one_output() const {
@@ -63,38 +56,6 @@ void HighGainObserver::jump(const Held& held, std::size_t next, const JumpOutput
                             double* state, double* workspace) const {
   PlantObserver::jump(held, next, outputs, state, workspace);
   saturation_.apply(state);
-}
-
-LinearHighGainObserver::LinearHighGainObserver(const ObserverContext& context,
-                                               Saturation saturation, double ell,
-                                               const std::vector<Eigen::VectorXd>& K)
-    : HighGainObserver(context, std::move(saturation)) {
-  const PlantMode& mode = plant().modes().front();
-  const Eigen::MatrixXd& A = affine(*mode.flow, "a flow").M();
-  for (const auto& output : mode.outputs) affine(*output, "outputs");
-  const Eigen::MatrixXd H = plant().stacked_outputs(0, SensorTiming::kContinuous);
-  L_c_ = high_gain(A, H, observable_form(A, H), ell, K);
-  listed().add("ell", ell);
-  for (std::size_t i = 0; i < K.size(); ++i) {
-    listed().add(K.size() == 1 ? "K" : "K/" + std::to_string(i + 1), K[i].transpose());
-  }
-  build_flow();
-}
-
-bool LinearHighGainObserver::flow_is_affine() const {
-  return !plant().has_angles(SensorTiming::kContinuous);
-}
-
-void LinearHighGainObserver::derivative(const Held& held, const double* s, double* ds,
-                                        double* workspace) const {
-  PlantObserver::derivative(held, s, ds, workspace);
-  if (held.y_c == nullptr) return;
-  double* innovations = innovations_.of(workspace);
-  for (std::size_t i = 0; i < sensors(); ++i) {
-    const Eigen::Index first = output_offset(i);
-    compute_innovation(plant(), held.mode, i, held.y_c + first, s, held.u, innovations + first);
-  }
-  add_product(L_c_, innovations, ds);
 }
 
 }  // namespace sampled_data_observers

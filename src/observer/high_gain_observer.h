@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
 #include <vector>
 
 #include "observer/saturation.h"
@@ -23,15 +24,18 @@ class HighGainObserver : public PlantObserver {
   bool is_saturated(const double* state) const override { return saturation_.is_active(state); }
 
  protected:
-  HighGainObserver(const ObserverContext& context, Saturation saturation, Eigen::Index flowing = 0);
+  /// @param K     per continuous output its gains before scaling
+  /// @param maps  the names of what a form is given by formulas
+  /// @throws std::invalid_argument for saturations that do not fit, and a plant with several modes
+  /// or without a sensor.
+  HighGainObserver(const ObserverContext& context, Saturation saturation, double ell,
+                   const std::vector<Eigen::VectorXd>& K, const std::vector<std::string>& maps = {},
+                   Eigen::Index flowing = 0);
 
   void jump(const Held& held, std::size_t next, const JumpOutputs& outputs, double* state,
             double* workspace) const override;
 
   const Saturation& saturation() const { return saturation_; }
-
-  /// To be called by the constructor of each form for what gains() has beside the saturations.
-  LawGains& listed() { return listed_; }
 
   /// @throws std::invalid_argument for other than one continuous output.
   void require_one_output() const;
@@ -43,34 +47,6 @@ class HighGainObserver : public PlantObserver {
  private:
   Saturation saturation_;
   LawGains listed_;
-};
-
-/// Example 4.2, for a flow and outputs that are affine and observable together:
-///
-///   ẋ̂ = A x̂ + B u + b + L_c (y_c − H x̂),  eig(A − L_c H) = ℓ eig(𝐀 − 𝐊 𝐇)
-///
-/// H (m x n) holds the continuous outputs of all sensors; L_c (n x m) is that of high_gain().
-/// The flow is exact, but for angular outputs.
-class LinearHighGainObserver final : public HighGainObserver {
- public:
-  /// @param ell  ℓ > 0
-  /// @param K    per continuous output the d_i numbers of K_i, the last one belonging to the output
-  ///             itself: the eigenvalues are the zeros of s^d + k_d s^(d−1) + … + k_1
-  /// @throws std::invalid_argument for a plant that is not affine or not observable, and a K that
-  /// does not fit.
-  LinearHighGainObserver(const ObserverContext& context, Saturation saturation, double ell,
-                         const std::vector<Eigen::VectorXd>& K);
-
-  /// n x m
-  const Eigen::MatrixXd& L_c() const { return L_c_; }
-
- protected:
-  bool flow_is_affine() const override;
-  void derivative(const Held& held, const double* s, double* ds, double* workspace) const override;
-
- private:
-  Eigen::MatrixXd L_c_;
-  VectorSlot innovations_ = scratch(plant().outputs(SensorTiming::kContinuous));
 };
 
 }  // namespace sampled_data_observers

@@ -26,17 +26,12 @@ class OriginalHighGainObserver final : public HighGainObserver {
   void derivative(const Held& held, const double* s, double* ds, double* workspace) const override;
 
  private:
-  /// J (n x n, column-major) ← ∂T/∂x at x
-  void differentiate(const double* x, const double* u, double* J, double* workspace) const;
-
   std::shared_ptr<const VectorMap> T_;
   Eigen::VectorXd gain_;         ///< ℓ 𝓛(ℓ) K
   VectorSlot x_ = scratch(n());  ///< sat(x̂)
-  VectorSlot correction_ = scratch(n());
   VectorSlot J_ = scratch(n() * n());
-  VectorSlot point_ = scratch(n());
-  VectorSlot above_ = scratch(n());
-  VectorSlot below_ = scratch(n());
+  VectorSlot differences_ = scratch(3 * n());
+  VectorSlot correction_ = scratch(n());
 };
 
 }  // namespace sampled_data_observers

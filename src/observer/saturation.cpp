@@ -14,7 +14,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Saturation::Saturation(Eigen::Index n)
     : low_(Eigen::VectorXd::Constant(n, -kInfinity)),
-      high_(Eigen::VectorXd::Constant(n, kInfinity)) {}
+      high_(Eigen::VectorXd::Constant(n, kInfinity)),
+      scales_(Eigen::VectorXd::Ones(n)) {}
 
 void Saturation::bound(Eigen::Index state, double low, double high) {
   if (state < 0 || state >= size()) throw std::invalid_argument("Saturation: no such state");
@@ -23,6 +24,7 @@ void Saturation::bound(Eigen::Index state, double low, double high) {
   }
   low_(state) = low;
   high_(state) = high;
+  scales_(state) = 0.5 * (high - low);
 }
 
 std::optional<Eigen::RowVector2d> Saturation::bounds(Eigen::Index state) const {
@@ -43,10 +45,6 @@ bool Saturation::is_active(const double* x) const {
     if (!(low_(i) < x[i] && x[i] < high_(i))) return true;
   }
   return false;
-}
-
-double Saturation::scale(Eigen::Index state) const {
-  return low_(state) == -kInfinity ? 1.0 : 0.5 * (high_(state) - low_(state));
 }
 
 }  // namespace sampled_data_observers

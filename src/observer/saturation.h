@@ -26,12 +26,13 @@ class Saturation {
   /// Whether an entry of x (n entries) is at one of its bounds or beyond.
   bool is_active(const double* x) const;
 
-  /// A size of a state's usual changes: half the width of its bounds, 1 where it has none.
-  double scale(Eigen::Index state) const;
+  /// Sizes of the states' usual changes: half the width of the bounds, 1 where there are none.
+  const Eigen::VectorXd& scales() const { return scales_; }
 
  private:
   Eigen::VectorXd low_;
   Eigen::VectorXd high_;
+  Eigen::VectorXd scales_;
 };
 
 }  // namespace sampled_data_observers

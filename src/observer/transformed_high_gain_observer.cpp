@@ -7,18 +7,17 @@
 #include "observer/observable_form.h"
 
 namespace sampled_data_observers {
+
 TransformedHighGainObserver::TransformedHighGainObserver(const ObserverContext& context,
                                                          Saturation saturation, double ell,
                                                          const Eigen::VectorXd& K, Maps maps)
-    : HighGainObserver(context, std::move(saturation), K.size()),
+    : HighGainObserver(context, std::move(saturation), ell, {K}, {"T", "Phi", "Theta"}, K.size()),
       maps_(std::move(maps)),
       gain_(scaled_gain(ell, K)) {
   require_one_output();
   require_of_gains(maps_.T && maps_.T->size() == gain_.size(), "T: as many entries as K");
   require_of_gains(maps_.Phi && maps_.Phi->size() == 1, "Phi: one entry");
   require_of_gains(maps_.Theta && maps_.Theta->size() == n(), "Theta: one entry per state");
-  listed().add("ell", ell).add("K", K.transpose());
-  for (const char* map : {"T", "Phi", "Theta"}) listed().add(map, Eigen::MatrixXd());
   build_flow();
   check_start();
 }

@@ -1,5 +1,3 @@
-#include "observer/high_gain_observer.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,6 +7,8 @@
 #include <string>
 
 #include "linear_algebra/ordered_solve.h"
+#include "observer/linear_high_gain_observer.h"
+#include "observer/observable_form.h"
 #include "observer/original_high_gain_observer.h"
 #include "observer/transformed_high_gain_observer.h"
 #include "sampled_data_observers/plant/expression_map.h"
@@ -58,8 +58,8 @@ struct Body {
       : law(std::move(of)), state(law->state_size()), workspace(law->workspace_size()) {
     law->initialize(state.data());
   }
-  void take(EventKind kind, std::vector<double> values) {
-    const OwnedEvent event{kStart, kind, 0, std::move(values)};
+  void take(EventKind kind, std::vector<double> values, int sensor = 0) {
+    const OwnedEvent event{kStart, kind, sensor, std::move(values)};
     law->reset(event.view(), state.data(), workspace.data());
   }
   void flow(double seconds) { law->flow(from_seconds(seconds), state.data(), workspace.data()); }
@@ -73,8 +73,8 @@ TEST(LinearHighGainTest, TheErrorDecaysExactlyAsTheEigenvaluesSay) {
   // e1 = c1 e^{-ℓt} + c2 e^{-2ℓt}, e2 = 2ℓ c1 e^{-ℓt} + ℓ c2 e^{-2ℓt}.
   for (const double ell : {0.5, 3.0, 20.0}) {
     const auto law = cart_observer(ell);
-    EXPECT_NEAR(3.0 * ell, law->L_c()(0, 0), 1e-12 * ell);
-    EXPECT_NEAR(2.0 * ell * ell, law->L_c()(1, 0), 1e-12 * ell * ell);
+    EXPECT_NEAR(3.0 * ell, law->L_c()[0](0, 0), 1e-12 * ell);
+    EXPECT_NEAR(2.0 * ell * ell, law->L_c()[0](1, 0), 1e-12 * ell * ell);
     Body body(law);
     body.take(EventKind::kOutput, {3.0});
     const Eigen::Vector2d e(3.0 - 1.0, 0.0 + 2.0);
@@ -120,6 +120,41 @@ TEST(LinearHighGainTest, AnAngularOutputIsWrapped) {
   EXPECT_EQ(from_seconds(0.001), body.law->flow_step());
   for (int i = 0; i < 10; ++i) body.flow(1.0);
   EXPECT_NEAR(3.0, body.state(0), 1e-9);
+}
+
+TEST(LinearHighGainTest, SensorsCorrectTogether) {
+  Eigen::Matrix3d A;
+  A << -1.0, 0.4, 0.2, 0.0, 0.0, 1.0, 0.7, -2.0, -0.3;
+  const Eigen::MatrixXd H = Eigen::MatrixXd::Identity(2, 3);
+  PlantDescription plant;
+  plant.state_names = {"x1", "x2", "x3"};
+  plant.sensors = {{"a", SensorTiming::kContinuous, {false}},
+                   {"b", SensorTiming::kContinuous, {false}}};
+  PlantMode mode;
+  mode.flow = std::make_shared<const AffineMap>(A);
+  for (Eigen::Index i = 0; i < 2; ++i) {
+    mode.outputs.push_back(std::make_shared<const AffineMap>(H.row(i)));
+  }
+  plant.modes = {mode};
+  const Eigen::Vector3d x(1.0, -2.0, 0.5);
+  const std::vector<Eigen::VectorXd> K = {Eigen::Vector2d(2.0, 3.0),
+                                          Eigen::VectorXd::Constant(1, 1.5)};
+  const auto law = std::make_shared<const LinearHighGainObserver>(
+      ObserverContext{std::make_shared<const Plant>(plant), x, Eigen::VectorXd(0)}, Saturation(3),
+      4.0, K);
+
+  Body body(law);
+  Eigen::Vector3d slope;
+  const auto expect_slope = [&](const Eigen::Vector3d& expected) {
+    law->flow_derivative(body.state.data(), slope.data(), body.workspace.data());
+    EXPECT_LT((slope - expected).norm(), 1e-12 * expected.norm());
+  };
+  const Eigen::Vector2d y(3.0, -1.0);
+  body.take(EventKind::kOutput, {y(0)});
+  expect_slope(A * x);
+  body.take(EventKind::kOutput, {y(1)}, 1);
+  const Eigen::MatrixXd L_c = high_gain(A, H, observable_form(A, H), 4.0, K);
+  expect_slope(A * x + L_c * (y - H * x));
 }
 
 std::shared_ptr<const VectorMap> formulas(std::vector<std::string> names,
@@ -332,8 +367,8 @@ TEST(SaturationTest, BoundsEachEntryAndGivesAValueWhereThereIsNone) {
   x[0] = std::numeric_limits<double>::infinity();
   bounds.apply(x);
   EXPECT_EQ(2.0, x[0]);
-  EXPECT_EQ(1.5, bounds.scale(0));
-  EXPECT_EQ(1.0, bounds.scale(2));
+  EXPECT_EQ(1.5, bounds.scales()(0));
+  EXPECT_EQ(1.0, bounds.scales()(2));
   EXPECT_THROW(bounds.bound(2, 1.0, 1.0), std::invalid_argument);
   EXPECT_THROW(bounds.bound(3, 1.0, 2.0), std::invalid_argument);
 }
