@@ -183,7 +183,7 @@ def main():
                         help="after which no further design begins")
     parser.add_argument("--design-seconds", type=float, default=60.0, help="for one design")
     parser.add_argument("--check-seconds", type=float, default=20.0,
-                        help="for one condition over tau; then it is sampled only")
+                        help="of processor time, for one condition over tau; then it is sampled only")
     arguments = parser.parse_args()
 
     methods, objectives = choices_of(arguments.tool)

@@ -101,7 +101,7 @@ class OverTimes:
 
     def judge(self, seconds):
         """Samples first, since that finds what is violated; then encloses interval by interval."""
-        end = time.monotonic() + seconds
+        end = time.process_time() + seconds
         if not self.Y or not self.Y[0]:
             return Verdict(self.name, "holds", mpf(1))
         worst = self.search(end)
@@ -127,7 +127,7 @@ class OverTimes:
         values = {}
         for tau in sorted(taus):
             values[tau] = self.at(tau)
-            if values[tau] <= 0 or time.monotonic() > end:
+            if values[tau] <= 0 or time.process_time() > end:
                 break
         ordered = sorted(values)
         best = min(ordered, key=values.get)
@@ -135,7 +135,7 @@ class OverTimes:
         a, b = ordered[max(index - 1, 0)], ordered[min(index + 1, len(ordered) - 1)]
         ratio = (mpmath.sqrt(5) - 1) / 2
         for _ in range(12):
-            if values[best] <= 0 or time.monotonic() > end:
+            if values[best] <= 0 or time.process_time() > end:
                 break
             c, d = b - ratio * (b - a), a + ratio * (b - a)
             for tau in (c, d):
@@ -161,7 +161,7 @@ class OverTimes:
         if norm_B > 0:
             length = min(length, 1 / norm_B)
         while True:
-            if time.monotonic() > end:
+            if time.process_time() > end:
                 return worst, False
             center = min(at + length, self.high)
             flown = self.flown_on(center)

@@ -50,7 +50,8 @@ def main():
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("files", nargs="+", metavar="GAINS")
     parser.add_argument("--plant", help="instead of the file that the gain file names")
-    parser.add_argument("--seconds", type=float, default=60.0, help="for one condition over tau")
+    parser.add_argument("--seconds", type=float, default=60.0,
+                        help="of processor time, for one condition over tau")
     arguments = parser.parse_args()
     status = 0
     for path in arguments.files:
