@@ -44,6 +44,21 @@ class RandomNumbers {
     }
   }
 
+  /// An exponentially distributed number with mean 1, by comparisons alone (von Neumann 1951): a
+  /// run of falling uniform numbers that begins with u has odd length with probability exp(-u).
+  double exponential() {
+    for (double whole = 0.0;; ++whole) {
+      const double first = uniform(0.0, 1.0);
+      bool is_odd = true;
+      double last = first;
+      for (double next = uniform(0.0, 1.0); next < last; next = uniform(0.0, 1.0)) {
+        last = next;
+        is_odd = !is_odd;
+      }
+      if (is_odd) return whole + first;
+    }
+  }
+
  private:
   /// FNV-1a of the name, then a finalizer (splitmix64), so that neighbouring seeds have nothing in
   /// common.

@@ -11,6 +11,7 @@
 #include "sampled_data_observers/plant/plant.h"
 #include "sampled_data_observers/plant/vector_map.h"
 #include "simulation/delivery.h"
+#include "simulation/jump_detection.h"
 #include "simulation/schedule.h"
 
 namespace sampled_data_observers {
@@ -59,6 +60,14 @@ struct InputScenario {
   std::shared_ptr<const VectorMap> formulas;
 };
 
+/// Where jumps that come ever faster (Zeno) end.
+struct RestScenario {
+  /// Of x: the state at rest, n entries.
+  std::shared_ptr<const VectorMap> state;
+  /// For each state: whether it stays there; the others flow on.
+  std::vector<bool> held;
+};
+
 /// When the plant jumps: at a crossing of the guard or on a schedule.
 struct JumpScenario {
   /// Of x: one entry. A jump where it goes from negative to positive or zero.
@@ -68,6 +77,10 @@ struct JumpScenario {
   /// mode.
   std::vector<int> modes;
   Duration min_separation = 0;
+  /// What takes the place of a jump sooner than min_separation after the one before; empty: the
+  /// simulation ends.
+  std::optional<RestScenario> rest;
+  DetectionFaults faults;
   Delivery delivery;
 };
 

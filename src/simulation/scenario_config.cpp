@@ -255,6 +255,8 @@ class ScenarioReader {
     if (plant().switches()) jumps.modes = read_modes(section);
     jumps.min_separation =
         from_seconds(section.number_in("min_separation", kShortest, kLongest, 1e-6));
+    if (section.has("rest")) jumps.rest = read_rest(section);
+    jumps.faults = read_detection_faults(section);
     jumps.delivery = read_delivery(section);
     section.finish();
     scenario_.jumps = std::move(jumps);
@@ -270,6 +272,40 @@ class ScenarioReader {
     } catch (const ExpressionError& fault) {
       throw section.error("when", "a formula of the states that can be evaluated", fault.what());
     }
+  }
+
+  RestScenario read_rest(ConfigSection& jumps) const {
+    if (!jumps.has("when")) {
+      throw jumps.error("rest", "the key when beside it: only jumps at crossings end", "none");
+    }
+    ExpressionNames names = names_;
+    names.u.clear();
+    ConfigSection section = jumps.section("rest");
+    RestScenario rest;
+    std::vector<NamedExpression> state;
+    for (const std::string& name : plant().state_names()) {
+      rest.held.push_back(section.has(name));
+      state.push_back({name, rest.held.back() ? section.text(name) : name});
+    }
+    section.finish();
+    if (section.keys().empty()) throw jumps.error("rest", "at least one state", "none");
+    try {
+      rest.state =
+          std::make_shared<const ExpressionMap>(names, std::vector<NamedExpression>{}, state);
+    } catch (const ExpressionError& fault) {
+      throw section.error(fault.name(), "a formula of the states that can be evaluated",
+                          fault.what());
+    }
+    return rest;
+  }
+
+  static DetectionFaults read_detection_faults(ConfigSection& section) {
+    DetectionFaults faults;
+    faults.stamp_error = from_seconds(section.number_in("stamp_error", 0.0, kLongest, 0.0));
+    faults.missed = section.number_in("missed", 0.0, 1.0, 0.0);
+    faults.duplicate = section.number_in("duplicate", 0.0, 1.0, 0.0);
+    faults.false_rate = section.number_in("false_rate", 0.0, 1e6, 0.0);
+    return faults;
   }
 
   std::vector<int> read_modes(ConfigSection& section) const {

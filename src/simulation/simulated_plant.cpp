@@ -35,12 +35,21 @@ class SimulatedPlant::Flow {
 
 class SimulatedPlant::ExactFlow : public Flow {
  public:
-  explicit ExactFlow(const Plant& plant) : scratch_(plant.states()) {
+  ExactFlow(const Plant& plant, const std::vector<bool>& held) : scratch_(plant.states()) {
     for (const PlantMode& mode : plant.modes()) {
       const AffineMap& map = *mode.flow->affine();
+      Eigen::MatrixXd A = map.M();
       Eigen::MatrixXd B = Eigen::MatrixXd::Zero(plant.states(), plant.inputs());
       B.leftCols(map.N().cols()) = map.N();
-      flows_.emplace_back(map.M(), B, map.c());
+      Eigen::VectorXd b = map.c();
+      for (std::size_t i = 0; i < held.size(); ++i) {
+        if (!held[i]) continue;
+        const auto row = static_cast<Eigen::Index>(i);
+        A.row(row).setZero();
+        B.row(row).setZero();
+        b(row) = 0.0;
+      }
+      flows_.emplace_back(A, B, b);
     }
   }
 
@@ -56,8 +65,9 @@ class SimulatedPlant::ExactFlow : public Flow {
 /// The time is a state of its own, for the disturbance.
 class SimulatedPlant::NumericFlow : public Flow, private VectorField {
  public:
-  explicit NumericFlow(const Scenario& scenario)
+  NumericFlow(const Scenario& scenario, const std::vector<bool>& held)
       : scenario_(scenario),
+        held_(held),
         flow_(scenario.plant->states() + 1, scenario.plant->integration().step),
         state_(scenario.plant->states() + 1),
         w_(scenario.disturbance ? scenario.disturbance->N.cols() : 0) {}
@@ -78,12 +88,17 @@ class SimulatedPlant::NumericFlow : public Flow, private VectorField {
     const Eigen::Index n = state_.size() - 1;
     scenario_.plant->modes()[mode_].flow->evaluate(s, u_, ds);
     ds[n] = 1.0;
-    if (!scenario_.disturbance) return;
-    scenario_.disturbance->formulas->evaluate(s + n, nullptr, w_.data());
-    add_product(scenario_.disturbance->N, w_.data(), ds);
+    if (scenario_.disturbance) {
+      scenario_.disturbance->formulas->evaluate(s + n, nullptr, w_.data());
+      add_product(scenario_.disturbance->N, w_.data(), ds);
+    }
+    for (std::size_t i = 0; i < held_.size(); ++i) {
+      if (held_[i]) ds[i] = 0.0;
+    }
   }
 
   const Scenario& scenario_;
+  std::vector<bool> held_;
   RungeKuttaFlow flow_;
   std::size_t mode_ = 0;
   const double* u_ = nullptr;
@@ -97,15 +112,19 @@ SimulatedPlant::SimulatedPlant(const Scenario& scenario)
       u_(Eigen::VectorXd::Zero(scenario.plant->inputs())),
       mode_(scenario.initial_mode),
       before_(scenario.initial_state) {
-  if (has_exact_flow(scenario)) {
-    flow_ = std::make_unique<ExactFlow>(*scenario.plant);
-  } else {
-    flow_ = std::make_unique<NumericFlow>(scenario);
-  }
+  make_flow({});
   rearm();
 }
 
 SimulatedPlant::~SimulatedPlant() = default;
+
+void SimulatedPlant::make_flow(const std::vector<bool>& held) {
+  if (has_exact_flow(scenario_)) {
+    flow_ = std::make_unique<ExactFlow>(*scenario_.plant, held);
+  } else {
+    flow_ = std::make_unique<NumericFlow>(scenario_, held);
+  }
+}
 
 bool SimulatedPlant::is_finite() const { return state().allFinite() && std::isfinite(last_guard_); }
 
@@ -119,15 +138,19 @@ double SimulatedPlant::guard(const Eigen::VectorXd& x) const {
   return value;
 }
 
+bool SimulatedPlant::watches_guard() const {
+  return scenario_.jumps && scenario_.jumps->guard && !is_at_rest_;
+}
+
 void SimulatedPlant::rearm() {
-  if (!scenario_.jumps || !scenario_.jumps->guard) return;
+  if (!watches_guard()) return;
   last_guard_ = guard(x_);
   armed_ = last_guard_ < 0.0;
   probe_ = 1;
 }
 
 bool SimulatedPlant::flow_to(Duration target) {
-  if (!scenario_.jumps || !scenario_.jumps->guard) {
+  if (!watches_guard()) {
     flow(target - time_, x_);
     time_ = target;
     return false;
@@ -183,14 +206,26 @@ void SimulatedPlant::jump(std::size_t next_mode) {
     x_ = before_;
   }
   mode_ = next_mode;
-  if (crossing_) {
-    // Over less than a nanosecond, linear is exact to rounding.
-    Eigen::VectorXd later = x_;
-    flow(1, later);
-    x_ += remainder_ * (later - x_);
-    crossing_ = false;
-  }
+  flow_to_stamp();
   rearm();
+}
+
+void SimulatedPlant::rest() {
+  const RestScenario& rest = *scenario_.jumps->rest;
+  if (!crossing_) before_ = x_;
+  rest.state->evaluate(before_.data(), nullptr, x_.data());
+  is_at_rest_ = true;
+  make_flow(rest.held);
+  flow_to_stamp();
+}
+
+void SimulatedPlant::flow_to_stamp() {
+  if (!crossing_) return;
+  // Over less than a nanosecond, linear is exact to rounding.
+  Eigen::VectorXd later = x_;
+  flow(1, later);
+  x_ += remainder_ * (later - x_);
+  crossing_ = false;
 }
 
 void SimulatedPlant::measure(std::size_t sensor, double* out) const {

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <vector>
 
 #include "simulation/scenario.h"
 
@@ -13,7 +14,7 @@ namespace sampled_data_observers {
 /// at crossings of the guard happen where linear interpolation within one nanosecond puts them, and
 /// are stamped with the first whole nanosecond from there on; the state at that stamp is the one
 /// after the jump, flowed on for the fraction of the nanosecond that is left. So no error of
-/// rounding times adds up from jump to jump.
+/// rounding times adds up from jump to jump. At rest, states that are held have derivative zero.
 class SimulatedPlant {
  public:
   explicit SimulatedPlant(const Scenario& scenario);
@@ -39,6 +40,10 @@ class SimulatedPlant {
   /// Jumps into the mode at this position.
   void jump(std::size_t next_mode);
 
+  /// In the place of a jump: goes on at rest, without jumps.
+  /// @pre the scenario's jumps have such a state
+  void rest();
+
   /// out ← the outputs of a sensor.
   void measure(std::size_t sensor, double* out) const;
 
@@ -47,9 +52,14 @@ class SimulatedPlant {
   class ExactFlow;
   class NumericFlow;
 
+  /// @param held  for each state, or empty: none
+  void make_flow(const std::vector<bool>& held);
   void flow(Duration duration, Eigen::VectorXd& x) const;
+  bool watches_guard() const;
   double guard(const Eigen::VectorXd& x) const;
   void locate(Duration step);
+  /// After a jump at a crossing: goes on from there to the stamp.
+  void flow_to_stamp();
   void rearm();
 
   const Scenario& scenario_;
@@ -58,6 +68,7 @@ class SimulatedPlant {
   Eigen::VectorXd u_;
   std::size_t mode_;
   Duration time_ = 0;
+  bool is_at_rest_ = false;
 
   /// Whether the guard was negative since the last jump, so that it can trigger another.
   bool armed_ = false;

@@ -10,7 +10,9 @@ Simulator::Simulator(Scenario scenario)
     : scenario_(std::move(scenario)),
       plant_(scenario_),
       jump_delivery_(scenario_.jumps ? scenario_.jumps->delivery : Delivery{},
-                     stream("jumps/delivery")) {
+                     stream("jumps/delivery")),
+      detection_(scenario_.jumps ? scenario_.jumps->faults : DetectionFaults{},
+                 stream("jumps/detection"), stream("jumps/false")) {
   using Kind = SimulatedChannel::Kind;
   for (std::size_t i = 0; i < scenario_.sensors.size(); ++i) add_sensor(i);
   for (const SignalScenario& signal : scenario_.signals) add_signal(signal);
@@ -41,7 +43,8 @@ void Simulator::add_sensor(std::size_t sensor) {
                      std::nullopt,
                      std::nullopt,
                      stream(name + "/noise"),
-                     DeliveryLine(scenario.delivery, stream(name + "/delivery"))};
+                     DeliveryLine(scenario.delivery, stream(name + "/delivery")),
+                     stream(name + "/false_noise")};
   if (scenario.topic.empty()) {
     values_in_jumps_ = true;
   } else {
@@ -63,7 +66,8 @@ void Simulator::add_signal(const SignalScenario& signal) {
                      ScheduledTimes(signal.schedule, stream(name + "/schedule")),
                      std::nullopt,
                      stream(name + "/noise"),
-                     DeliveryLine(signal.delivery, stream(name + "/delivery"))};
+                     DeliveryLine(signal.delivery, stream(name + "/delivery")),
+                     stream(name + "/false_noise")};
   added.next = added.times->next();
   sensors_.push_back(std::move(added));
 }
@@ -85,6 +89,7 @@ Duration Simulator::next_time() const {
   Duration next = std::min(scenario_.duration, next_truth_);
   if (scenario_.input) next = std::min(next, next_input_);
   if (next_jump_) next = std::min(next, *next_jump_);
+  if (detection_.false_alarm()) next = std::min(next, *detection_.false_alarm());
   for (const SensorStream& sensor : sensors_) {
     if (sensor.next) next = std::min(next, *sensor.next);
   }
@@ -100,12 +105,19 @@ void Simulator::step() {
     return;
   }
   const bool jumps = crossed || next_jump_ == time;
-  if (jumps && last_jump_ && time - *last_jump_ < scenario_.jumps->min_separation) {
+  const bool too_soon = jumps && last_jump_ && time - *last_jump_ < scenario_.jumps->min_separation;
+  if (too_soon && !scenario_.jumps->rest) {
     end_ = End::kZeno;
     return;
   }
   if (scenario_.input && next_input_ == time) change_input();
-  if (jumps) jump();
+  if (too_soon) {
+    plant_.rest();
+    rest_since_ = time;
+  } else if (jumps) {
+    jump();
+  }
+  if (detection_.false_alarm() == time) raise_false_alarm();
   for (const bool sampled : {false, true}) {
     for (SensorStream& sensor : sensors_) {
       if (sensor.next == time && is_sampled(sensor) == sampled) measure(sensor);
@@ -113,7 +125,7 @@ void Simulator::step() {
   }
   if (next_truth_ == time) {
     const Eigen::VectorXd& x = plant_.state();
-    send(truth_channel_, {x.data(), x.data() + x.size()}, {now()});
+    send(message_now(truth_channel_, {x.data(), x.data() + x.size()}), {now()});
     next_truth_ += scenario_.truth_period;
   }
   if (time == scenario_.duration) end_ = End::kDuration;
@@ -125,7 +137,7 @@ void Simulator::change_input() {
   Eigen::VectorXd u(plant_.input().size());
   scenario_.input->formulas->evaluate(arguments.data(), nullptr, u.data());
   plant_.set_input(u);
-  send(input_channel_, {u.data(), u.data() + u.size()}, {now()});
+  send(message_now(input_channel_, {u.data(), u.data() + u.size()}), {now()});
   next_input_ += scenario_.input->period;
 }
 
@@ -135,26 +147,59 @@ void Simulator::jump() {
   if (!scenario.modes.empty()) {
     next_mode = *scenario_.plant->find_mode(scenario.modes[jumps_ % scenario.modes.size()]);
   }
-  std::vector<double> values;
-  std::vector<std::pair<SensorStream*, std::vector<double>>> measured;
-  for (SensorStream& sensor : sensors_) {
-    if (sensor.times) continue;
-    const std::vector<double> y = outputs(sensor);
-    if (values_in_jumps_) values.insert(values.end(), y.begin(), y.end());
-    if (sensor.channel) measured.emplace_back(&sensor, y);
-  }
+  const JumpOutputs measured = jump_outputs(false);
   plant_.jump(next_mode);
   ++jumps_;
   last_jump_ = plant_.time();
   if (next_jump_ == plant_.time()) next_jump_ = jump_times_->next();
-  send(jump_channel_, std::move(values), jump_delivery_.send(now()));
-  for (auto& [sensor, y] : measured) {
-    send(*sensor->channel, std::move(y), sensor->delivery.send(now()));
+  const int mode = scenario_.plant->modes()[plant_.mode()].label;
+  for (const Duration error : detection_.tell()) {
+    tell(measured, mode, std::max(scenario_.start, now() + error));
+  }
+}
+
+/// Tells of a jump that is none: into any other mode where the plant switches.
+void Simulator::raise_false_alarm() {
+  const JumpOutputs measured = jump_outputs(true);
+  const std::vector<PlantMode>& modes = scenario_.plant->modes();
+  std::size_t mode = plant_.mode();
+  if (modes.size() > 1) {
+    const std::size_t other = detection_.choose(modes.size() - 1);
+    mode = other < mode ? other : other + 1;
+  }
+  tell(measured, modes[mode].label, now());
+  detection_.pass_false_alarm();
+}
+
+/// What is measured in the present state, before a jump.
+Simulator::JumpOutputs Simulator::jump_outputs(bool is_false) {
+  JumpOutputs result;
+  for (SensorStream& sensor : sensors_) {
+    if (sensor.times) continue;
+    const std::vector<double> y = outputs(sensor, is_false ? sensor.false_noise : sensor.noise);
+    if (values_in_jumps_) result.values.insert(result.values.end(), y.begin(), y.end());
+    if (sensor.channel) result.sent.emplace_back(&sensor, y);
+  }
+  return result;
+}
+
+/// Nothing is told of before it has happened, nor before its stamp.
+void Simulator::tell(const JumpOutputs& measured, int mode, Stamp stamp) {
+  const Stamp departure = std::max(now(), stamp);
+  const auto told = [&](std::size_t channel, const std::vector<double>& values) {
+    SimulatedMessage message = message_now(channel, values);
+    message.stamp = stamp;
+    message.mode = mode;
+    return message;
+  };
+  send(told(jump_channel_, measured.values), jump_delivery_.send(departure));
+  for (const auto& [sensor, y] : measured.sent) {
+    send(told(*sensor->channel, y), sensor->delivery.send(departure));
   }
 }
 
 void Simulator::measure(SensorStream& stream) {
-  send(*stream.channel, outputs(stream), stream.delivery.send(now()));
+  send(message_now(*stream.channel, outputs(stream, stream.noise)), stream.delivery.send(now()));
   stream.next = stream.times->next();
 }
 
@@ -173,7 +218,7 @@ std::vector<double> Simulator::exact_outputs(const SensorStream& stream) const {
 }
 
 /// The outputs of a sensor with its noise; angles as sensors give them, in (−π, π].
-std::vector<double> Simulator::outputs(SensorStream& stream) {
+std::vector<double> Simulator::outputs(const SensorStream& stream, RandomNumbers& random) const {
   const Noise& noise = *stream.added;
   std::vector<double> y = exact_outputs(stream);
   std::vector<double> added(y.size(), 0.0);
@@ -182,9 +227,8 @@ std::vector<double> Simulator::outputs(SensorStream& stream) {
     noise.formulas->evaluate(&t, nullptr, added.data());
   }
   for (std::size_t i = 0; i < y.size(); ++i) {
-    if (noise.kind == Noise::Kind::kUniform)
-      added[i] = stream.noise.uniform(-noise.size, noise.size);
-    if (noise.kind == Noise::Kind::kGaussian) added[i] = noise.size * stream.noise.gaussian();
+    if (noise.kind == Noise::Kind::kUniform) added[i] = random.uniform(-noise.size, noise.size);
+    if (noise.kind == Noise::Kind::kGaussian) added[i] = noise.size * random.gaussian();
     y[i] += added[i];
     if (stream.sensor && scenario_.plant->sensors()[*stream.sensor].angular[i]) {
       y[i] = wrap_angle(y[i]);
@@ -193,19 +237,30 @@ std::vector<double> Simulator::outputs(SensorStream& stream) {
   return y;
 }
 
-void Simulator::send(std::size_t channel, std::vector<double> values,
-                     const std::vector<Stamp>& arrivals) {
+/// Of the present time, mode and number of jumps.
+SimulatedMessage Simulator::message_now(std::size_t channel, std::vector<double> values) const {
   SimulatedMessage message;
   message.channel = channel;
   message.stamp = now();
   message.values = std::move(values);
   message.mode = scenario_.plant->modes()[plant_.mode()].label;
   message.jumps = jumps_;
+  return message;
+}
+
+void Simulator::send(SimulatedMessage message, const std::vector<Stamp>& arrivals) {
   for (const Stamp arrival : arrivals) {
     message.arrival = arrival;
     message.number = sent_++;
     messages_.push(message);
   }
+}
+
+std::string Simulator::describe_rest() const {
+  if (!rest_since_) return "";
+  char text[64];
+  std::snprintf(text, sizeof(text), ", at rest since %.9f s", to_seconds(*rest_since_));
+  return text;
 }
 
 std::string Simulator::describe_end() const {
@@ -215,7 +270,7 @@ std::string Simulator::describe_end() const {
     case End::kNone:
       return std::string("going on at ") + at;
     case End::kDuration:
-      return std::string("ended after its duration, ") + at;
+      return std::string("ended after its duration, ") + at + describe_rest();
     case End::kZeno:
       return std::string("ended at ") + at +
              ", at a jump closer to the one before than min_separation (Zeno limit)";

@@ -5,8 +5,10 @@
 #include <optional>
 #include <queue>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "simulation/jump_detection.h"
 #include "simulation/scenario.h"
 #include "simulation/simulated_plant.h"
 
@@ -45,7 +47,8 @@ struct SimulatedMessage {
 ///
 /// What happens at one instant: the input changes, the plant jumps, continuous outputs and samples
 /// are taken. So an input is computed from the state before a jump, and outputs from the one after
-/// it; outputs measured at jumps are those just before.
+/// it; outputs measured at jumps are those just before. Jumps that never happen are told of after
+/// those that do.
 class Simulator {
  public:
   enum class End {
@@ -84,6 +87,16 @@ class Simulator {
     std::optional<Duration> next;
     RandomNumbers noise;
     DeliveryLine delivery;
+    /// Of what is measured at jumps that never happened.
+    RandomNumbers false_noise;
+  };
+
+  /// What is measured at a jump.
+  struct JumpOutputs {
+    /// What the event carries.
+    std::vector<double> values;
+    /// What sensors with topics of their own send.
+    std::vector<std::pair<SensorStream*, std::vector<double>>> sent;
   };
 
   struct LaterArrival {
@@ -100,10 +113,15 @@ class Simulator {
   void step();
   void change_input();
   void jump();
+  void raise_false_alarm();
+  std::string describe_rest() const;
   void measure(SensorStream& stream);
   std::vector<double> exact_outputs(const SensorStream& stream) const;
-  std::vector<double> outputs(SensorStream& stream);
-  void send(std::size_t channel, std::vector<double> values, const std::vector<Stamp>& arrivals);
+  std::vector<double> outputs(const SensorStream& stream, RandomNumbers& random) const;
+  JumpOutputs jump_outputs(bool is_false);
+  void tell(const JumpOutputs& measured, int mode, Stamp stamp);
+  SimulatedMessage message_now(std::size_t channel, std::vector<double> values) const;
+  void send(SimulatedMessage message, const std::vector<Stamp>& arrivals);
   Stamp now() const { return scenario_.start + plant_.time(); }
   bool is_sampled(const SensorStream& stream) const;
 
@@ -121,6 +139,8 @@ class Simulator {
   std::optional<Duration> last_jump_;
   bool values_in_jumps_ = false;
   DeliveryLine jump_delivery_;
+  JumpDetection detection_;
+  std::optional<Duration> rest_since_;
   std::uint64_t jumps_ = 0;
   std::uint64_t sent_ = 0;
   std::priority_queue<SimulatedMessage, std::vector<SimulatedMessage>, LaterArrival> messages_;

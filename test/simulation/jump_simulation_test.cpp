@@ -78,6 +78,52 @@ TEST(JumpSimulationTest, AJumpEventIsReleasedWhenItArrives) {
   }
 }
 
+TEST(JumpSimulationTest, ABallGoesOnAtRestAfterItsZenoLimit) {
+  Simulator simulator(
+      test::parse_scenario(ball("-x1", ", min_separation: 0.001, rest: {x1: 0, x2: 0}")));
+  const auto messages = test::run(simulator);
+  EXPECT_EQ(Simulator::End::kDuration, simulator.end());
+  EXPECT_NE(std::string::npos, simulator.describe_end().find("20.000000000 s, at rest since 9.08"));
+  // All that came before is as without rest.
+  Simulator without(test::parse_scenario(ball("-x1", ", min_separation: 0.001")));
+  const auto before = test::run(without);
+  EXPECT_EQ(test::on_topic(without, before, "jumps").size(),
+            test::on_topic(simulator, messages, "jumps").size());
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    ASSERT_EQ(before[i].stamp, messages[i].stamp);
+    ASSERT_EQ(before[i].values, messages[i].values);
+  }
+  ASSERT_GT(messages.size(), before.size() + 1000u);
+  for (std::size_t i = before.size(); i < messages.size(); ++i) {
+    for (const double value : messages[i].values) EXPECT_EQ(0.0, value);
+  }
+}
+
+TEST(JumpSimulationTest, AtRestOnlyTheStatesThatAreNamedStay) {
+  // A ball that flies sideways, pushed down at rest; numerically, since it is disturbed.
+  for (const char* disturbance :
+       {"", "  disturbance: {N: [[0], [1], [0]], formulas: [\"-1\"]}\n"}) {
+    Simulator simulator(test::parse_scenario(std::string(R"yaml(
+plant:
+  states: [p, v, x]
+  A: [[0, 1, 0], [0, 0, 0], [0, 0, 0]]
+  b: [0, -9.81, 3]
+  jump_map: {A_d: [[-1, 0, 0], [0, -0.5, 0], [0, 0, 1]]}
+sensors: {s: {C: [[1, 0, 0]], source: {topic: s}}}
+scenario:
+  duration: 10
+  initial_state: {p: 1, v: 0, x: 2}
+  sensors: {s: {schedule: {period: 1}}}
+  jumps: {when: "-p", min_separation: 0.001, rest: {p: "0.5 + 0*x", v: 0}}
+)yaml") + disturbance));
+    const auto truth = test::on_topic(simulator, test::run(simulator), "truth");
+    ASSERT_EQ(1001u, truth.size());
+    EXPECT_EQ(0.5, truth.back().values[0]);
+    EXPECT_EQ(0.0, truth.back().values[1]);
+    EXPECT_NEAR(32.0, truth.back().values[2], 1e-6);
+  }
+}
+
 TEST(JumpSimulationTest, ASpikingNeuronFiresEvery31To36Milliseconds) {
   // bernard2022 (44), time in ms.
   Simulator simulator(test::parse_scenario(R"yaml(

@@ -48,6 +48,23 @@ TEST(RandomNumbersTest, GaussianNumbersHaveTheMomentsAndTailsOfTheNormalDistribu
   EXPECT_NEAR(0.0026998, static_cast<double>(beyond_three) / kSize, 0.0004);
 }
 
+TEST(RandomNumbersTest, ExponentialNumbersHaveTheTailsOfTheirDistribution) {
+  RandomNumbers random(1);
+  constexpr int kSize = 400000;
+  double sum = 0.0;
+  int beyond[4] = {};
+  for (int i = 0; i < kSize; ++i) {
+    const double x = random.exponential();
+    sum += x;
+    for (int j = 0; j < 4; ++j) beyond[j] += x > 0.5 + j ? 1 : 0;
+  }
+  EXPECT_NEAR(1.0, sum / kSize, 5.0 / std::sqrt(kSize));
+  for (int j = 0; j < 4; ++j) {
+    const double share = std::exp(-0.5 - j);
+    EXPECT_NEAR(share, static_cast<double>(beyond[j]) / kSize, 5.0 * std::sqrt(share / kSize)) << j;
+  }
+}
+
 TEST(ScheduleTest, UniformIntervalsFillTheirBoundsFromTheFirstOn) {
   Schedule schedule;
   schedule.T1 = kSecond / 5;

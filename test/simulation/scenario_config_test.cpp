@@ -49,6 +49,11 @@ scenario:
     when: "p - 30"
     modes: [1, 2]
     min_separation: 0.001
+    rest: {v: "p - g"}
+    stamp_error: 0.002
+    missed: 0.1
+    duplicate: 0.2
+    false_rate: 0.5
     latency: [0, 0.02]
 )yaml";
 
@@ -96,6 +101,15 @@ TEST(ScenarioConfigTest, ReadsEveryKey) {
   EXPECT_EQ((std::vector<int>{1, 2}), scenario.jumps->modes);
   EXPECT_EQ(1000000, scenario.jumps->min_separation);
   EXPECT_EQ(20000000, scenario.jumps->delivery.longest);
+  EXPECT_EQ(2000000, scenario.jumps->faults.stamp_error);
+  EXPECT_EQ(0.1, scenario.jumps->faults.missed);
+  EXPECT_EQ(0.2, scenario.jumps->faults.duplicate);
+  EXPECT_EQ(0.5, scenario.jumps->faults.false_rate);
+  EXPECT_EQ((std::vector<bool>{false, true}), scenario.jumps->rest->held);
+  const Eigen::Vector2d state(10.0, 3.0);
+  Eigen::Vector2d rest;
+  scenario.jumps->rest->state->evaluate(state.data(), nullptr, rest.data());
+  EXPECT_EQ(Eigen::Vector2d(10.0, 10.0 - 9.81), rest);
 }
 
 TEST(ScenarioConfigTest, OptionalKeysHaveDefaults) {
@@ -186,6 +200,14 @@ TEST(ScenarioConfigTest, FaultsAreNamedWithPathExpectedAndFound) {
       {"min_separation: 0.001",
        "min_separation: 0",
        {"scenario/jumps/min_separation", "from 1e-09"}},
+      {"rest: {v: \"p - g\"}", "rest: {}", {"scenario/jumps/rest", "one state"}},
+      {"rest: {v: \"p - g\"}", "rest: {w: 0}", {"scenario/jumps/rest/w", "unknown key 'w'"}},
+      {"rest: {v: \"p - g\"}", "rest: {v: u}", {"scenario/jumps/rest/v", "formula", "u"}},
+      {"when: \"p - 30\"", "schedule: {period: 1}", {"scenario/jumps/rest", "when beside it"}},
+      {"stamp_error: 0.002", "stamp_error: -1", {"scenario/jumps/stamp_error", "from 0"}},
+      {"missed: 0.1", "missed: 2", {"scenario/jumps/missed", "from 0 to 1"}},
+      {"duplicate: 0.2", "duplicate: 2", {"scenario/jumps/duplicate", "from 0 to 1"}},
+      {"false_rate: 0.5", "false_rate: -1", {"scenario/jumps/false_rate", "from 0"}},
       {"source: {topic: wheel}",
        "source: {topic: w, type: geometry_msgs/PointStamped, fields: [point.x]}",
        {"sensors/wheel/source/type", "sampled_data_observers/Measurement", "PointStamped"}},
