@@ -43,12 +43,16 @@ TopicSource read_value_source(ConfigSection& section, const std::string& topic,
   return source;
 }
 
-/// Jumps that a detector finds say nothing of the mode that follows.
+/// Jumps that a detector finds.
 TopicSource read_detected_jumps(ConfigSection& section, const Plant& plant) {
-  if (plant.switches()) {
-    throw section.error("detector", "messages that hold the mode, for a switched plant", "one");
-  }
   TopicSource source = read_detector_source(section.section("detector"));
+  if (plant.switches() != (source.detector->mode != nullptr)) {
+    throw section.section("detector")
+        .error("mode",
+               plant.switches() ? "a formula of the mode that follows, for a switched plant"
+                                : "none for a plant of one mode",
+               plant.switches() ? "nothing (the key is missing)" : "one");
+  }
   const Eigen::Index expected = plant.outputs(SensorTiming::kAtJumps);
   const VectorMap* outputs = source.detector->outputs.get();
   if (outputs != nullptr && outputs->size() != expected) {

@@ -10,12 +10,13 @@
 namespace sampled_data_observers {
 
 /// Jumps that show in a signal: reads its messages from another source, and makes an event of each
-/// crossing. When the time of receipt goes back by more than the tolerance, the clock was set: the
-/// detector starts again.
+/// jump found. When the time of receipt goes back by more than the tolerance, the clock was set:
+/// the detector starts again.
 class DetectedJumps : public MessageSource {
  public:
-  /// @param signal  its values are those that the formula of the signal takes
-  DetectedJumps(std::unique_ptr<MessageSource> signal, const DetectorConfig& config);
+  /// @param signal  its values are those that the formulas take
+  /// @param fields  how many they are
+  DetectedJumps(std::unique_ptr<MessageSource> signal, std::size_t fields, DetectorConfig config);
 
   ros::Subscriber subscribe(ros::NodeHandle& handle, std::uint32_t queue_length,
                             const Receiver& receive) const override;
@@ -29,11 +30,17 @@ class DetectedJumps : public MessageSource {
   }
 
  private:
+  JumpDetector::Finding take(const Event& sample);
+  /// The fields of a sample before the newest one.
+  const double* fields(std::size_t samples_ago) const;
+  void tell(Event& event);
+
   std::unique_ptr<MessageSource> signal_;
-  std::shared_ptr<const VectorMap> formula_;
-  std::shared_ptr<const VectorMap> outputs_;
+  DetectorConfig config_;
   JumpDetector detector_;
-  Duration future_tolerance_;
+  /// Of the samples that the detector may look back at, round about; the newest before next_.
+  std::vector<std::vector<double>> fields_;
+  std::size_t next_ = 0;
   std::vector<double> values_;
   ClockJumps clock_;
 };

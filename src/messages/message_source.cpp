@@ -56,7 +56,8 @@ std::unique_ptr<MessageSource> make_message_source(
   if (found != kTypes.end()) {
     std::unique_ptr<MessageSource> messages = found->second(source, std::move(transforms));
     if (!source.detector) return messages;
-    return std::make_unique<DetectedJumps>(std::move(messages), *source.detector);
+    return std::make_unique<DetectedJumps>(std::move(messages), source.fields.size(),
+                                           *source.detector);
   }
   std::string known;
   for (const auto& [name, make] : kTypes) known += (known.empty() ? "" : ", ") + name;

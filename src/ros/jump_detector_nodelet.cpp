@@ -3,6 +3,9 @@
 #include <sampled_data_observers/JumpEvent.h>
 
 #include <boost/make_shared.hpp>
+#include <cmath>
+#include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -13,6 +16,16 @@
 #include "sampled_data_observers/runtime/event_report.h"
 
 namespace sampled_data_observers {
+namespace {
+
+/// The label that a number is.
+std::optional<std::int32_t> label_of(double mode) {
+  const bool fits = std::abs(mode) <= std::numeric_limits<std::int32_t>::max();
+  if (!fits || mode != std::floor(mode)) return std::nullopt;
+  return static_cast<std::int32_t>(mode);
+}
+
+}  // namespace
 
 JumpDetectorNodelet::JumpDetectorNodelet() : threads_(1) {}
 
@@ -62,6 +75,16 @@ void JumpDetectorNodelet::receive(const MessagePointer& message, Stamp receipt) 
   }
   const auto jump = boost::make_shared<JumpEvent>();
   jump->header.stamp = to_ros_time(event.stamp);
+  if (event.mode) {
+    const std::optional<std::int32_t> mode = label_of(*event.mode);
+    if (!mode) {
+      if (!throttles_[static_cast<std::size_t>(EventOutcome::kUnknownMode)].admits()) return;
+      log_->warn("jump at %.9f s ignored: its mode, %g, is no whole number",
+                 to_seconds(event.stamp), *event.mode);
+      return;
+    }
+    jump->mode = *mode;
+  }
   jump->values.assign(event.values, event.values + event.size);
   publisher_.publish(jump);
   log_->info("jump at %.9f s", to_seconds(event.stamp));

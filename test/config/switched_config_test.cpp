@@ -46,6 +46,20 @@ TEST(SwitchedConfigTest, EachKindOfGainMayBeMissingButNotAll) {
   EXPECT_NE(std::string::npos, none.find("at least one of L_c, L_d and projection")) << none;
 }
 
+TEST(SwitchedConfigTest, ADetectorTellsTheMode) {
+  const std::string detector = std::string(kModes) + R"(jumps:
+  detector:
+    source: {topic: t, type: sensor_msgs/Imu, fields: {v: angular_velocity.z}}
+    signal: v
+    threshold: 0
+)";
+  EXPECT_EQ("no fault", fault(detector + "    mode: \"v > 3 ? 7 : 1\"\n"));
+  const std::string none = fault(detector);
+  for (const char* part : {"jumps/detector/mode", "mode that follows", "missing"}) {
+    EXPECT_NE(std::string::npos, none.find(part)) << none;
+  }
+}
+
 using test::Fault;
 
 class BadSwitchedTest : public ::testing::TestWithParam<Fault> {};

@@ -105,13 +105,101 @@ TEST(DetectorConfigTest, ReadsEveryKey) {
   ASSERT_TRUE(source.detector.has_value());
   EXPECT_EQ(30.0, source.detector->options.threshold);
   EXPECT_EQ(10.0, source.detector->options.hysteresis);
-  EXPECT_FALSE(source.detector->options.rising);
+  EXPECT_EQ(JumpDetector::Kind::kThreshold, source.detector->options.kind);
+  EXPECT_EQ(JumpDetector::Direction::kFalling, source.detector->options.direction);
   EXPECT_EQ(500'000'000, source.detector->options.refractory);
   const double fields[] = {-3.0, 0.25};
   double signal = 0.0;
   source.detector->signal->evaluate(fields, nullptr, &signal);
   EXPECT_EQ(3.5, signal);
   EXPECT_EQ(nullptr, source.detector->outputs);
+}
+
+DetectorConfig read_kind(const std::string& keys) {
+  const ConfigNode tree = read_yaml_text(
+      "detector:\n  source: {topic: t, type: sensor_msgs/Imu, fields: {v: angular_velocity.z}}\n"
+      "  signal: v\n" +
+          keys,
+      "test.yaml");
+  return *read_detector_source(ConfigSection(tree, "").section("detector")).detector;
+}
+
+TEST(DetectorConfigTest, ReadsTheKeysOfEachKind) {
+  using Kind = JumpDetector::Kind;
+  const JumpDetector::Options threshold = read_kind("  kind: threshold\n  threshold: -1\n").options;
+  EXPECT_EQ(Kind::kThreshold, threshold.kind);
+  EXPECT_EQ(-1.0, threshold.threshold);
+  EXPECT_EQ(0.0, threshold.noise_factor);
+  const JumpDetector::Options deviation =
+      read_kind("  kind: deviation\n  threshold: 2\n  noise: {factor: 8}\n  hysteresis: 1\n")
+          .options;
+  EXPECT_EQ(Kind::kDeviation, deviation.kind);
+  EXPECT_EQ(8.0, deviation.noise_factor);
+  EXPECT_EQ(500u, deviation.noise_samples);
+  EXPECT_EQ(1.0, deviation.hysteresis);
+  EXPECT_EQ(JumpDetector::Direction::kRising, deviation.direction);
+  const JumpDetector::Options step =
+      read_kind(
+          "  kind: step\n  threshold: 2\n  window: 5\n  direction: either\n"
+          "  noise: {factor: 7, samples: 100}\n")
+          .options;
+  EXPECT_EQ(Kind::kStep, step.kind);
+  EXPECT_EQ(5u, step.window);
+  EXPECT_EQ(7.0, step.noise_factor);
+  EXPECT_EQ(100u, step.noise_samples);
+  EXPECT_EQ(JumpDetector::Direction::kEither, step.direction);
+  EXPECT_EQ(1u, read_kind("  kind: step\n  threshold: 2\n").options.window);
+  const JumpDetector::Options guard =
+      read_kind("  kind: guard\n  when: signal - 10*since\n").options;
+  EXPECT_EQ(Kind::kGuard, guard.kind);
+  const double arguments[] = {30.0, 2.0};
+  double value = 0.0;
+  guard.guard->evaluate(arguments, nullptr, &value);
+  EXPECT_EQ(10.0, value);
+}
+
+TEST(DetectorConfigTest, ReadsEnergyAndMode) {
+  const DetectorConfig detector = read_kind(
+      "  threshold: 0\n  energy: {formula: v^2, at_least: 0.04}\n  mode: \"v > 0 ? 2 : 1\"\n");
+  EXPECT_EQ(0.04, detector.options.least_energy);
+  const double field = 3.0;
+  double value = 0.0;
+  detector.energy->evaluate(&field, nullptr, &value);
+  EXPECT_EQ(9.0, value);
+  detector.mode->evaluate(&field, nullptr, &value);
+  EXPECT_EQ(2.0, value);
+  EXPECT_EQ(nullptr, read_kind("  threshold: 0\n").energy);
+  EXPECT_EQ(nullptr, read_kind("  threshold: 0\n").mode);
+}
+
+TEST(DetectorConfigTest, FaultsOfKindsSayWhatIsExpected) {
+  struct {
+    const char* keys;
+    std::vector<const char*> message;
+  } faults[] = {
+      {"  kind: edge\n", {"detector/kind", "threshold, deviation, step, guard", "'edge'"}},
+      {"  kind: step\n", {"detector/threshold", "missing"}},
+      {"  kind: step\n  threshold: 0\n", {"detector/threshold", "above 0", "0"}},
+      {"  kind: step\n  threshold: 1\n  window: 0\n", {"detector/window", "1 to 1000", "0"}},
+      {"  kind: step\n  threshold: 1\n  hysteresis: 1\n", {"unknown key 'hysteresis'"}},
+      {"  kind: step\n  threshold: 1\n  direction: up\n", {"detector/direction", "either"}},
+      {"  kind: deviation\n  threshold: 1\n", {"detector/noise", "missing"}},
+      {"  kind: deviation\n  threshold: 1\n  noise: {factor: 0}\n", {"noise/factor", "above 0"}},
+      {"  kind: step\n  threshold: 1\n  noise: {factor: 1, samples: 5}\n", {"noise/samples", "20"}},
+      {"  kind: step\n  threshold: 1\n  noise: {factor: 1, over: 5}\n", {"unknown key 'over'"}},
+      {"  kind: guard\n  threshold: 1\n", {"detector/when", "missing"}},
+      {"  kind: guard\n  when: v\n", {"detector/when", "v"}},
+      {"  kind: guard\n  when: signal\n  threshold: 1\n", {"unknown key 'threshold'"}},
+      {"  threshold: 1\n  noise: {factor: 7}\n", {"unknown key 'noise'"}},
+      {"  threshold: 1\n  direction: either\n", {"detector/direction", "falling", "'either'"}},
+      {"  threshold: 1\n  energy: {formula: w, at_least: 1}\n", {"energy/formula", "w"}},
+      {"  threshold: 1\n  energy: {formula: v}\n", {"energy/at_least", "missing"}},
+  };
+  for (const auto& [keys, parts] : faults) {
+    const std::string text = keys;
+    const std::string message = test::fault_of([&] { read_kind(text); });
+    EXPECT_EQ("", test::missing_parts({"", "", parts}, message)) << message;
+  }
 }
 
 TEST(DetectorConfigTest, OutputsAreFormulasOfTheFields) {
@@ -134,6 +222,10 @@ TEST(DetectorConfigTest, TheSameSectionStandsBelowTheJumpsOfAnObserver) {
   EXPECT_EQ("imu", config.jumps->topic);
   EXPECT_TRUE(config.jumps->of_jumps);
   EXPECT_EQ(30.0, config.jumps->detector->options.threshold);
+  const std::string of_mode = fault(detector_in_observer(text + "  mode: 1\n"));
+  for (const char* part : {"jumps/detector/mode", "one mode", "found one"}) {
+    EXPECT_NE(std::string::npos, of_mode.find(part)) << of_mode;
+  }
   const std::string message = fault(detector_in_observer(text + "  outputs: [1]\n"));
   for (const char* part : {"jumps/detector/outputs", "0 formulas", "found 1"}) {
     EXPECT_NE(std::string::npos, message.find(part)) << message;

@@ -2,6 +2,7 @@
 """Examples whose jumps a detector finds in a simulated signal, in place of the simulator's events, and a
 detector that gets too many signals."""
 import json
+import math
 import os
 import subprocess
 import sys
@@ -11,7 +12,7 @@ import time
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "support"))
-from ros_tools import PACKAGE, find_tool, run_tool  # noqa: E402
+from ros_tools import PACKAGE, RosProcess, find_tool, free_port, run_tool  # noqa: E402
 
 EXAMPLES = os.path.realpath(os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..",
                                          "config", "examples"))
@@ -27,9 +28,10 @@ class DetectedJumpsTest(unittest.TestCase):
     def path(self, name):
         return os.path.join(self.folder, name)
 
-    def simulate(self, example):
+    def simulate(self, example, scenario="scenario.yaml"):
         self.example = os.path.join(EXAMPLES, example)
-        run_tool("simulate", os.path.join(self.example, "scenario.yaml"), "-o",
+        self.scenario = scenario
+        run_tool("simulate", os.path.join(self.example, scenario), "-o",
                  self.path("simulated.bag"))
 
     def replay(self, observer, *arguments):
@@ -40,7 +42,7 @@ class DetectedJumpsTest(unittest.TestCase):
         output = self.path(observer + ".bag")
         summary = self.path("summary.json")
         configs = [os.path.join(self.example, name)
-                   for name in ("scenario.yaml", observer, "gains.yaml")]
+                   for name in (self.scenario, observer, "gains.yaml")]
         run_tool("replay", self.path("simulated.bag"), *configs, "-o", output, "--truth", "truth",
                  "--json", summary, *arguments)
         with rosbag.Bag(output) as bag:
@@ -103,6 +105,51 @@ class DetectedJumpsTest(unittest.TestCase):
         for jump, true_jump in zip(jumps[:15], true_jumps[:15]):
             self.assertLess(abs(jump - true_jump), PERIOD)
         self.assertLess(found["rmse_norm"], 1.01 * told["rmse_norm"])
+
+    def published_error(self, observer, begin, end):
+        """The root mean square of the error of what was published, over these seconds."""
+        import rosbag
+
+        with rosbag.Bag(self.path("simulated.bag")) as bag:
+            truth = {message.header.stamp.to_nsec(): message.state
+                     for _, message, _ in bag.read_messages("/truth")}
+        start = min(truth)
+        squares = []
+        with rosbag.Bag(self.path(observer + ".bag")) as bag:
+            for _, message, _ in bag.read_messages("/estimate"):
+                stamp = message.header.stamp.to_nsec()
+                if begin <= (stamp - start) * 1e-9 <= end:
+                    squares.append(sum((a - b) ** 2
+                                       for a, b in zip(truth[stamp], message.state)))
+        self.assertGreater(len(squares), 100)
+        return math.sqrt(sum(squares) / len(squares))
+
+    def test_bounces_in_a_noisy_velocity(self):
+        self.simulate("bernard2022_bouncing_ball", "scenario_noisy.yaml")
+        _, true_jumps = self.replay("observer.yaml")
+        _, jumps = self.replay("observer_noisy.yaml")
+        for jump in jumps:
+            self.assertLess(min(abs(jump - true_jump) for true_jump in true_jumps), PERIOD)
+        # Nearly all that are faster than 0.2 m/s: from one to the next the ball falls half of the time.
+        fast = [true_jump for previous, true_jump in zip([0] + true_jumps, true_jumps)
+                if 9.81 * (true_jump - previous) / 2 > 0.2]
+        found = [true_jump for true_jump in fast
+                 if min(abs(jump - true_jump) for jump in jumps) < PERIOD]
+        self.assertGreaterEqual(len(fast), 17)
+        self.assertGreaterEqual(len(found), 0.95 * len(fast))
+        # A bounce is known some milliseconds late, which is made up for.
+        self.assertLess(self.published_error("observer_noisy.yaml", 3, 7),
+                        1.01 * self.published_error("observer.yaml", 3, 7))
+
+        port = free_port()
+        launch = os.path.join(self.example, "bernard2022_bouncing_ball.launch")
+        command = ["roslaunch", "--port", str(port), launch, "scenario:=scenario_noisy.yaml",
+                   "observer:=observer_noisy.yaml", "wait_for_subscribers:=false",
+                   "sim_time:=true", "output:=" + self.path("live.bag")]
+        with RosProcess(command, port) as process:
+            process.wait(60)
+        run_tool("compare_estimates", self.path("live.bag"), self.path("observer_noisy.yaml.bag"),
+                 "--at-least", "20")
 
 
 if __name__ == "__main__":

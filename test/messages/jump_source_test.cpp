@@ -121,5 +121,57 @@ TEST(DetectedJumpsTest, CarryTheOutputsThatTheirMessageTells) {
   EXPECT_EQ((std::vector<double>{6.0}), jump.values);
 }
 
+TEST(DetectedJumpsTest, OutputsOfAStepAreThoseBeforeItAndTheModeIsThatAfterIt) {
+  TopicSource signal = jumps<Measurement>({"values.0", "values.1"});
+  DetectorConfig detector;
+  detector.signal = std::make_shared<const AffineMap>(Eigen::RowVector2d(1.0, 0.0));
+  detector.outputs = std::make_shared<const AffineMap>(Eigen::RowVector2d(0.0, 1.0));
+  detector.mode = std::make_shared<const AffineMap>(Eigen::RowVector2d(1.0, 0.0));
+  detector.options.kind = JumpDetector::Kind::kStep;
+  detector.options.threshold = 0.5;
+  detector.options.window = 3;
+  signal.detector = detector;
+  const auto source = make_message_source(signal);
+  int jumps = 0;
+  for (int i = 1; i <= 60; ++i) {
+    Measurement message;
+    message.header.stamp.fromNSec(static_cast<std::uint64_t>(1000 * i));
+    message.values = {i > 25 ? 5.0 : 1.0, 100.0 + i};
+    if (i % 7 == 0) {
+      // As if it had not come.
+      Measurement bad = message;
+      bad.values[0] = std::nan("");
+      EXPECT_EQ(Reading::kNotFinite, read(*source, bad, EventKind::kJump).reading);
+    }
+    const Read jump = read(*source, message, EventKind::kJump);
+    if (jump.reading != Reading::kEvent) continue;
+    ++jumps;
+    EXPECT_EQ(25'500, jump.event.stamp);
+    EXPECT_EQ((std::vector<double>{125.0}), jump.values);
+    EXPECT_EQ(5.0, jump.event.mode);
+  }
+  EXPECT_EQ(1, jumps);
+}
+
+TEST(DetectedJumpsTest, TheEnergyBetweenThemIsAFormulaOfTheFields) {
+  TopicSource signal = jumps<Measurement>({"values.0", "values.1"});
+  DetectorConfig detector;
+  detector.signal = std::make_shared<const AffineMap>(Eigen::RowVector2d(1.0, 0.0));
+  detector.energy = std::make_shared<const AffineMap>(Eigen::RowVector2d(0.0, 2.0));
+  detector.options.least_energy = 6.0;
+  signal.detector = detector;
+  const auto source = make_message_source(signal);
+  const auto reading = [&](std::uint64_t stamp, double value, double half_energy) {
+    Measurement message;
+    message.header.stamp.fromNSec(stamp);
+    message.values = {value, half_energy};
+    return read(*source, message, EventKind::kJump).reading;
+  };
+  EXPECT_EQ(Reading::kPassedOver, reading(1000, -1.0, 2.0));
+  EXPECT_EQ(Reading::kPassedOver, reading(2000, 1.0, 2.0));
+  EXPECT_EQ(Reading::kPassedOver, reading(3000, -1.0, 3.0));
+  EXPECT_EQ(Reading::kEvent, reading(4000, 1.0, 2.0));
+}
+
 }  // namespace
 }  // namespace sampled_data_observers

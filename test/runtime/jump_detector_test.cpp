@@ -33,7 +33,7 @@ std::vector<Stamp> jumps(JumpDetector detector, const std::vector<double>& value
 TEST(JumpDetectorTest, InterpolatesTheCrossing) {
   EXPECT_EQ((std::vector<Stamp>{1'750'000}), jumps(JumpDetector(options(3.0)), {0.0, 4.0, 5.0}));
   JumpDetector::Options falling = options(-3.0);
-  falling.rising = false;
+  falling.direction = JumpDetector::Direction::kFalling;
   EXPECT_EQ((std::vector<Stamp>{1'750'000}), jumps(JumpDetector(falling), {0.0, -4.0, -5.0}));
 }
 

@@ -14,9 +14,14 @@ namespace sampled_data_observers {
 struct DetectorConfig {
   /// From one value per field to the signal.
   std::shared_ptr<const VectorMap> signal;
-  /// From them to the outputs measured at a jump, evaluated for the message that shows it; null
-  /// where it tells none.
+  /// From them to the energy that must be reached between jumps; null where none must.
+  std::shared_ptr<const VectorMap> energy;
+  /// From them to the outputs measured at a jump, evaluated for the message that shows it, or for
+  /// the last one before a step; null where it tells none.
   std::shared_ptr<const VectorMap> outputs;
+  /// From them to the label of the mode that follows, evaluated for the newest message; null where
+  /// it tells none.
+  std::shared_ptr<const VectorMap> mode;
   /// What of the signal is a jump.
   JumpDetector::Options options;
   /// How far a stamp may lie after the time of its arrival [ns].
@@ -28,7 +33,7 @@ struct DetectorConfig {
 /// Reads the signal of a section `detector` and what is looked for in it; other keys of the section
 /// are left alone.
 /// @param section  `detector`
-/// @param fields   the names of the fields, which the formula of the signal may use
+/// @param fields   the names of the fields, which the formulas of what is read from them may use
 /// @throws ConfigError for the first fault found.
 DetectorConfig read_detector(ConfigSection& section, const std::vector<std::string>& fields);
 
