@@ -95,6 +95,44 @@ class DetectedJumpsTest(unittest.TestCase):
         self.assertTrue(any(b"messages on /signal come faster than they are used" in line
                             for line in lines))
 
+    def test_a_live_detector_tells_the_mode_and_what_is_measured(self):
+        import rospy
+        from sampled_data_observers.msg import JumpEvent, Measurement
+
+        rospy.init_node("detected_jumps_test", anonymous=True)
+        rospy.set_param("/stepping/jumps/detector", {
+            "source": {"topic": "stairs", "type": "sampled_data_observers/Measurement",
+                       "fields": {"value": "values.0", "number": "values.1"}},
+            "signal": "value", "kind": "step", "window": 3, "threshold": 0.5,
+            "mode": "value == 1 ? 7 : value / 2", "outputs": ["number"]})
+        jumps = []
+        rospy.Subscriber("jumps", JumpEvent, jumps.append)
+        detector = subprocess.Popen([find_tool("jump_detector"), "__name:=stepping"],
+                                    stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                                    universal_newlines=True)
+        self.addCleanup(detector.stdout.close)
+        self.addCleanup(detector.wait)
+        self.addCleanup(detector.kill)
+        publisher = rospy.Publisher("stairs", Measurement, queue_size=None)
+        while publisher.get_num_connections() == 0:
+            time.sleep(0.1)
+        start = rospy.Time.now() - rospy.Duration(1)
+        # Up by one every 20 samples: into mode 7, then 1, 1.5, which is none, and 2.
+        for i in range(100):
+            message = Measurement(values=[i // 20, i])
+            message.header.stamp = start + rospy.Duration(PERIOD * i)
+            publisher.publish(message)
+        end = time.time() + 10
+        while len(jumps) < 3 and time.time() < end:
+            time.sleep(0.1)
+        self.assertEqual([7, 1, 2], [jump.mode for jump in jumps])
+        self.assertEqual([(19,), (39,), (79,)], [jump.values for jump in jumps])
+        for jump, before in zip(jumps, (19, 39, 79)):
+            found = (jump.header.stamp - start).to_sec()
+            self.assertAlmostEqual(PERIOD * (before + 0.5), found, delta=2e-6)
+        detector.terminate()
+        self.assertIn("its mode, 1.5, is no whole number", detector.stdout.read())
+
     def test_bounces_in_the_velocity(self):
         self.simulate("bernard2022_bouncing_ball")
         told, true_jumps = self.replay("observer.yaml", "--from", "3", "--to", "6.5")

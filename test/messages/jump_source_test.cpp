@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "messages/source_reading.h"
+#include "support/allocation_counter.h"
 #include "support/config_faults.h"
 
 namespace sampled_data_observers {
@@ -151,6 +152,38 @@ TEST(DetectedJumpsTest, OutputsOfAStepAreThoseBeforeItAndTheModeIsThatAfterIt) {
     EXPECT_EQ(5.0, jump.event.mode);
   }
   EXPECT_EQ(1, jumps);
+}
+
+TEST(DetectedJumpsTest, ReadingAllocatesNothing) {
+  TopicSource signal = jumps<Measurement>({"values.0"});
+  DetectorConfig detector;
+  detector.signal = std::make_shared<const AffineMap>(Eigen::MatrixXd::Constant(1, 1, 1.0));
+  detector.outputs = detector.signal;
+  detector.options.kind = JumpDetector::Kind::kStep;
+  detector.options.threshold = 0.5;
+  detector.options.window = 10;
+  detector.options.noise_factor = 5.0;
+  detector.options.noise_samples = 50;
+  signal.detector = detector;
+  const auto source = make_message_source(signal);
+  std::vector<boost::shared_ptr<Measurement>> messages;
+  for (int i = 1; i <= 500; ++i) {
+    messages.push_back(boost::make_shared<Measurement>());
+    messages.back()->header.stamp.fromNSec(static_cast<std::uint64_t>(1000 * i));
+    messages.back()->values = {i / 100 % 2 == 0 ? 0.0 : 1.0};
+  }
+  // The second time round the clock is set back.
+  int jumps = 0;
+  const std::size_t before = test::allocations();
+  for (const Stamp receipt : {Stamp{10'000'000'000}, Stamp{1'000'000}}) {
+    for (const auto& message : messages) {
+      Event event;
+      event.kind = EventKind::kJump;
+      jumps += source->read(message, receipt, event) == Reading::kEvent ? 1 : 0;
+    }
+  }
+  EXPECT_EQ(before, test::allocations());
+  EXPECT_EQ(4, jumps);
 }
 
 TEST(DetectedJumpsTest, TheEnergyBetweenThemIsAFormulaOfTheFields) {
