@@ -190,7 +190,7 @@ INSTANTIATE_TEST_SUITE_P(
                   "jumps: {gate: {margin: 1, recovery: {after: 1}}, ",
                   {"jumps/gate/margin", "plant/jump_set"}}},
         BadPlant{kFormulas, {"flow: {", "jump_set: [x3]\n  flow: {", {"plant/jump_set", "x3"}}},
-        BadPlant{kJumpSets, {"[0.1, 1]", "[0.1]", {"jumps/gate/margin", "2 numbers"}}},
+        BadPlant{kJumpSets, {"[0.1, 1]", "[0.1]", {"jumps/gate/margin", "list of 2"}}},
         BadPlant{kJumpSets, {"[0.1, 1]", "[0.1, -1]", {"jumps/gate/margin", "negative"}}},
         BadPlant{kJumpSets, {", recovery: {after: 2}", "", {"jumps/gate/recovery"}}},
         BadPlant{kJumpSets, {"flow_set: [-x]\n", "\n", {"jumps/missing/margin", "plant/flow_set"}}},
