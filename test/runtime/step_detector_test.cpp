@@ -91,12 +91,32 @@ TEST(StepDetectorTest, TellsWithinTwoWindowsAndWhichSampleWasTheLastBefore) {
   }
 }
 
+TEST(StepDetectorTest, TellsWithinTwoWindowsOfAStepThatASlopeFollows) {
+  JumpDetector detector(steps(0.5, 4));
+  // Its change stays large enough, so that a second step is a part of the first one.
+  const auto slope = [](int i) { return i > 20 ? (i > 60 ? 100.0 : 10.0) + 0.5 * i : 0.0; };
+  EXPECT_TRUE(jumps(detector, 27, slope).empty());
+  EXPECT_EQ(Finding::kJump, detector.add(28 * kPeriod, slope(28)));
+  EXPECT_EQ(20'500'000, detector.crossing());
+  for (int i = 29; i < 100; ++i) {
+    EXPECT_EQ(Finding::kNothing, detector.add(i * kPeriod, slope(i))) << i;
+  }
+}
+
 TEST(StepDetectorTest, StepsWithinTwoWindowsAreOneAndLaterOnesAreTheirOwn) {
   const auto stairs = [](int apart) {
     return [apart](int i) { return (i > 20 ? 1.0 : 0.0) + (i > 20 + apart ? 2.0 : 0.0); };
   };
   EXPECT_EQ(std::vector<double>{22.5}, jumps(steps(0.5, 5), 100, stairs(2)));
   EXPECT_EQ((std::vector<double>{20.5, 31.5}), jumps(steps(0.5, 5), 100, stairs(11)));
+}
+
+TEST(StepDetectorTest, StepsWithinTheRefractoryTimeOfTheLastAreNone) {
+  Options options = steps(0.5, 3, Direction::kEither);
+  options.refractory = 20 * kPeriod;
+  EXPECT_EQ((std::vector<double>{20.5, 40.5}), jumps(options, 100, pulse));
+  options.refractory = 20 * kPeriod + 1;
+  EXPECT_EQ((std::vector<double>{20.5}), jumps(options, 100, pulse));
 }
 
 TEST(StepDetectorTest, FindsAllStepsOfFourteenDeviationsInNoiseOfAnySizeAndNoOthers) {
@@ -146,6 +166,22 @@ TEST(DeviationDetectorTest, FindsWhatLeavesTheMedianAndFollowsDrift) {
   ASSERT_EQ(2u, found.size());
   EXPECT_NEAR(2999.2, found[0], 0.15);
   EXPECT_NEAR(5999.2, found[1], 0.15);
+}
+
+TEST(DeviationDetectorTest, MustComeBackByTheHysteresis) {
+  Options options;
+  options.kind = Kind::kDeviation;
+  options.threshold = 1.0;
+  options.noise_factor = 1.0;
+  options.noise_samples = 40;
+  // Between 50 and 60 it rattles, from 1.5 down to 0.6 and up again; then it comes back to 0.
+  const auto rattling = [](int i) {
+    if (i >= 50 && i < 60) return i % 2 == 0 ? 1.5 : 0.6;
+    return i == 65 ? 1.5 : 0.0;
+  };
+  EXPECT_EQ(6u, jumps(options, 80, rattling).size());
+  options.hysteresis = 0.5;
+  EXPECT_EQ(2u, jumps(options, 80, rattling).size());
 }
 
 TEST(DeviationDetectorTest, WhatIsLargeWhenTheNoiseBecomesKnownIsNoJump) {
@@ -217,15 +253,42 @@ TEST(JumpEnergyTest, WhatFollowsAJumpIsNotBeforeIt) {
   }
 }
 
-TEST(StepDetectorTest, AfterARestartItKnowsNoSample) {
-  Options options = steps(0.5, 3);
-  options.noise_factor = 3.0;
-  options.noise_samples = 25;
-  JumpDetector detector(options);
-  const auto step = [](int i) { return i > 60 ? 1.0 : 0.0; };
-  EXPECT_EQ(std::vector<double>{60.5}, jumps(detector, 66, step));
-  detector.restart();
-  EXPECT_EQ(std::vector<double>{60.5}, jumps(detector, 100, step));
+TEST(JumpEnergyTest, WhatComesBetweenAStepAndItsDetectionIsAfterIt) {
+  // The step at 20.5 is told with sample 25.
+  Options options = steps(0.5, 3, Direction::kEither);
+  options.least_energy = 1.0;
+  for (const int energetic : {21, 22, 25}) {
+    const auto energy = [=](int i) { return i == 10 || i == energetic ? 2.0 : 0.0; };
+    EXPECT_EQ((std::vector<double>{20.5, 40.5}), jumps(options, 100, pulse, energy)) << energetic;
+  }
+  const auto before = [](int i) { return i <= 20 ? 2.0 : 0.0; };
+  EXPECT_EQ(std::vector<double>{20.5}, jumps(options, 100, pulse, before));
+}
+
+TEST(StepDetectorTest, AfterARestartItKnowsNothing) {
+  const auto step_after = [](int last) { return [last](int i) { return i > last ? 1.0 : 0.0; }; };
+  JumpDetector plain(steps(0.5, 3, Direction::kEither));
+  EXPECT_TRUE(jumps(plain, 20, [](int) { return 1.0; }).empty());
+  plain.restart();
+  EXPECT_EQ(std::vector<double>{10.5}, jumps(plain, 20, step_after(10)));
+  EXPECT_EQ(Finding::kOutOfOrder, plain.add(20 * kPeriod, 0.0));
+
+  Options noisy = steps(0.5, 3);
+  noisy.noise_factor = 3.0;
+  noisy.noise_samples = 25;
+  JumpDetector relative(noisy);
+  EXPECT_EQ(std::vector<double>{60.5}, jumps(relative, 66, step_after(60)));
+  relative.restart();
+  EXPECT_TRUE(jumps(relative, 25, step_after(15)).empty());
+
+  Options energetic = steps(0.5, 3);
+  energetic.least_energy = 1.0;
+  JumpDetector hungry(energetic);
+  EXPECT_TRUE(jumps(
+                  hungry, 20, [](int) { return 0.0; }, [](int) { return 2.0; })
+                  .empty());
+  hungry.restart();
+  EXPECT_TRUE(jumps(hungry, 20, step_after(10)).empty());
 }
 
 TEST(StepDetectorTest, RefusesWhatIsNotFiniteOrTooLarge) {
