@@ -22,7 +22,13 @@ Eigen::VectorXd read_initial_estimate(ConfigSection& root, const std::vector<std
   return estimate;
 }
 
+constexpr double kLargestStampError = 1e6;  // s
+
 }  // namespace
+
+double read_stamp_error(ConfigSection& jumps) {
+  return jumps.number_in("stamp_error", 0.0, kLargestStampError, 0.0);
+}
 
 std::shared_ptr<const ObserverLaw> read_law(ConfigSection& root, const PlantConfig& plant) {
   const std::string type = root.choice("observer", observer_types());
@@ -31,6 +37,10 @@ std::shared_ptr<const ObserverLaw> read_law(ConfigSection& root, const PlantConf
   context.observer.initial_estimate = read_initial_estimate(root, plant.plant->state_names());
   context.observer.initial_input = Eigen::VectorXd::Zero(plant.plant->inputs());
   context.names = plant.names;
+  if (plant.plant->jumps()) {
+    ConfigSection jumps = root.section_or_empty("jumps");
+    context.jump_stamp_error = read_stamp_error(jumps);
+  }
   ConfigSection gains = root.section("gains");
   std::shared_ptr<const ObserverLaw> law = build_law(type, gains, context);
   gains.finish();

@@ -14,8 +14,11 @@
 
 namespace sampled_data_observers {
 
-/// Reads the keys `observer`, `initial_estimate` and `gains`: the law alone, with zero as its first
-/// input.
+/// By how much the stamps of jumps may be off: `stamp_error` of the section `jumps` [s].
+double read_stamp_error(ConfigSection& jumps);
+
+/// Reads the keys `observer`, `initial_estimate` and `gains`, and `stamp_error` of `jumps`: the law
+/// alone, with zero as its first input.
 /// @throws ConfigError for the first fault found.
 std::shared_ptr<const ObserverLaw> read_law(ConfigSection& root, const PlantConfig& plant);
 

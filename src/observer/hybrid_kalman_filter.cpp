@@ -63,8 +63,12 @@ void HybridKalmanFilter::sample(std::size_t sensor, const double* y, const Held&
   correct(sensor, y, held, state, workspace);
 }
 
-void HybridKalmanFilter::jump(const Held& held, std::size_t, const JumpOutputs& outputs,
+void HybridKalmanFilter::jump(const Held& held, std::size_t next, const JumpOutputs& outputs,
                               double* state, double* workspace) const {
+  if (matrices_.stamp_deviation > 0.0) {
+    jump_of_uncertain_stamp(held, next, outputs, state, workspace);
+    return;
+  }
   for (const std::size_t i : sensors_of(SensorTiming::kAtJumps)) {
     if (const double* y_d = outputs.of(i)) correct(i, y_d, held, state, workspace);
   }
@@ -82,42 +86,114 @@ void HybridKalmanFilter::jump(const Held& held, std::size_t, const JumpOutputs& 
   add_symmetric_product(A_d_P, A_d, n(), n(), P);
 }
 
-/// The update of x̂ and P by the outputs y of a sensor, in Joseph's form.
+void HybridKalmanFilter::jump_of_uncertain_stamp(const Held& held, std::size_t next,
+                                                 const JumpOutputs& outputs, double* state,
+                                                 double* workspace) const {
+  const Eigen::Index size = variables();
+  double* P = P_.of(state);
+  double* joint = joint_.of(workspace);
+  std::fill_n(joint, joint_.size(), 0.0);
+  for (Eigen::Index j = 0; j < n(); ++j) std::copy_n(P + j * n(), n(), joint + j * size);
+  joint[size * size - 1] = matrices_.stamp_deviation * matrices_.stamp_deviation;
+
+  const PlantMode& mode = plant().modes()[held.mode];
+  double* before = field_before_.of(workspace);
+  mode.flow->evaluate(state, held.u, before);
+  double stamp_error = 0.0;
+  for (const std::size_t i : sensors_of(SensorTiming::kAtJumps)) {
+    const double* y_d = outputs.of(i);
+    if (y_d == nullptr) continue;
+    const Eigen::Index m = plant().sensors()[i].outputs();
+    const double* C = matrices_.outputs[held.mode][i].data();
+    double* rows = rows_.of(workspace);
+    double* innovation = innovation_.of(workspace);
+    normalized_innovation(i, y_d, held, state, innovation);
+    for (Eigen::Index j = 0; j < m; ++j) {
+      std::copy_n(C + j * n(), n(), rows + j * size);
+      const double per_stamp_error = -dot(C + j * n(), before, n());
+      rows[j * size + n()] = per_stamp_error;
+      innovation[j] -= per_stamp_error * stamp_error;
+    }
+    update(rows, m, size, joint, workspace);
+    const double* correction = correction_.of(workspace);
+    for (Eigen::Index j = 0; j < n(); ++j) state[j] += correction[j];
+    stamp_error += correction[n()];
+  }
+
+  mode.flow->evaluate(state, held.u, before);
+  apply_plant_jump(held, state, workspace);
+  double* after = field_after_.of(workspace);
+  plant().modes()[next].flow->evaluate(state, held.u, after);
+  double* transition = transition_.of(workspace);
+  double* saltation = transition + n() * n();
+  if (mode.jump) {
+    std::copy_n(mode.jump->affine()->M().data(), n() * n(), transition);
+  } else {
+    std::fill_n(transition, n() * n(), 0.0);
+    for (Eigen::Index i = 0; i < n(); ++i) transition[i * n() + i] = 1.0;
+  }
+  multiply(transition, n(), n(), before, 1, saltation);
+  for (Eigen::Index i = 0; i < n(); ++i) {
+    saltation[i] = after[i] - saltation[i];
+    state[i] += saltation[i] * stamp_error;
+  }
+  double* propagated = propagated_.of(workspace);
+  multiply(transition, n(), size, joint, size, propagated);
+  P_.set(matrices_.Q_d.data(), state);
+  add_symmetric_product(propagated, transition, n(), size, P);
+}
+
+/// The update of x̂ and P by the outputs y of a sensor.
 void HybridKalmanFilter::correct(std::size_t sensor, const double* y, const Held& held,
                                  double* state, double* workspace) const {
+  const double* correction = correction_.of(workspace);
+  normalized_innovation(sensor, y, held, state, innovation_.of(workspace));
+  update(matrices_.outputs[held.mode][sensor].data(), plant().sensors()[sensor].outputs(), n(),
+         P_.of(state), workspace);
+  for (Eigen::Index i = 0; i < n(); ++i) state[i] += correction[i];
+}
+
+/// The innovation of outputs whose noises are independent and of variance 1.
+void HybridKalmanFilter::normalized_innovation(std::size_t sensor, const double* y,
+                                               const Held& held, const double* state,
+                                               double* innovation) const {
   const Eigen::Index m = plant().sensors()[sensor].outputs();
-  double* innovation = innovation_.of(workspace);
+  compute_innovation(plant(), held.mode, sensor, y, state, held.u, innovation);
+  solve_lower(matrices_.noise_roots[sensor].data(), m, m, innovation, 1);
+}
+
+/// Takes the normalized innovation that stands in innovation_ into P (size x size), in Joseph's
+/// form, and leaves what it corrects in correction_.
+/// @param rows  of the outputs: size x outputs, transposed
+void HybridKalmanFilter::update(const double* rows, Eigen::Index outputs, Eigen::Index size,
+                                double* P, double* workspace) const {
+  const double* innovation = innovation_.of(workspace);
   double* correction = correction_.of(workspace);
   double* gain = gain_.of(workspace);
   double* column = column_.of(workspace);
   double* rest = rest_.of(workspace);
-  double* P = P_.of(state);
-
-  compute_innovation(plant(), held.mode, sensor, y, state, held.u, innovation);
-  solve_lower(matrices_.noise_roots[sensor].data(), m, m, innovation, 1);
-  for (Eigen::Index i = 0; i < n(); ++i) correction[i] = 0.0;
-  for (Eigen::Index output = 0; output < m; ++output) {
-    const double* c = matrices_.outputs[held.mode][sensor].data() + output * n();
-    multiply(P, n(), n(), c, 1, column);
+  for (Eigen::Index i = 0; i < size; ++i) correction[i] = 0.0;
+  for (Eigen::Index output = 0; output < outputs; ++output) {
+    const double* c = rows + output * size;
+    multiply(P, size, size, c, 1, column);
     // Rounding may leave c P cᵀ a little below zero.
-    const double variance = 1.0 + std::max(0.0, dot(c, column, n()));
-    const double left = innovation[output] - dot(c, correction, n());
-    for (Eigen::Index i = 0; i < n(); ++i) {
+    const double variance = 1.0 + std::max(0.0, dot(c, column, size));
+    const double left = innovation[output] - dot(c, correction, size);
+    for (Eigen::Index i = 0; i < size; ++i) {
       gain[i] = column[i] / variance;
       correction[i] += gain[i] * left;
     }
-    for (Eigen::Index j = 0; j < n(); ++j) {
-      for (Eigen::Index i = 0; i < n(); ++i) P[j * n() + i] -= gain[i] * column[j];
+    for (Eigen::Index j = 0; j < size; ++j) {
+      for (Eigen::Index i = 0; i < size; ++i) P[j * size + i] -= gain[i] * column[j];
     }
-    multiply(P, n(), n(), c, 1, rest);
-    for (Eigen::Index j = 0; j < n(); ++j) {
-      for (Eigen::Index i = j; i < n(); ++i) {
-        P[j * n() + i] += (gain[i] - rest[i]) * gain[j];
+    multiply(P, size, size, c, 1, rest);
+    for (Eigen::Index j = 0; j < size; ++j) {
+      for (Eigen::Index i = j; i < size; ++i) {
+        P[j * size + i] += (gain[i] - rest[i]) * gain[j];
       }
     }
-    mirror_lower(P, n());
+    mirror_lower(P, size);
   }
-  for (Eigen::Index i = 0; i < n(); ++i) state[i] += correction[i];
 }
 
 }  // namespace sampled_data_observers

@@ -20,6 +20,16 @@ namespace sampled_data_observers {
 /// In a mode without jump map, A_d is the identity and b_d is 0. A, C and A_d may differ from mode
 /// to mode. Innovations of angular outputs are wrapped.
 ///
+/// Where the stamps of jumps are off by ε, of mean 0 and standard deviation σ, which is independent
+/// from jump to jump and of all else, the error after a jump is A_d e + s ε to first order, with
+/// the saltation vector s = f⁺(g(x̂)) − A_d f(x̂), f the field of the mode before the jump and f⁺
+/// that of the mode after it, both at the input held:
+///
+///   P⁺ = A_d P A_dᵀ + Q_d + σ² s sᵀ
+///
+/// Outputs measured at the jump are those of the plant just before it, C (x − f ε) at the stamp:
+/// they correct x̂ and, beside it, ε, whose estimate ε̂ then moves x̂⁺ by s ε̂.
+///
 /// Each update is made output by output, after a transformation in which their noises are
 /// independent and of variance 1. That gives the same, and needs no inverse that might fail.
 class HybridKalmanFilter : public PlantObserver {
@@ -46,19 +56,38 @@ class HybridKalmanFilter : public PlantObserver {
  private:
   void correct(std::size_t sensor, const double* y, const Held& held, double* state,
                double* workspace) const;
+  void jump_of_uncertain_stamp(const Held& held, std::size_t next, const JumpOutputs& outputs,
+                               double* state, double* workspace) const;
+  void normalized_innovation(std::size_t sensor, const double* y, const Held& held,
+                             const double* state, double* innovation) const;
+  void update(const double* rows, Eigen::Index outputs, Eigen::Index size, double* P,
+              double* workspace) const;
+  /// Number of variables that are corrected at jumps: x, and ε where stamps are uncertain.
+  Eigen::Index variables() const { return n() + (matrices_.stamp_deviation > 0.0 ? 1 : 0); }
+  /// `entries`, or none where stamps are certain.
+  Eigen::Index where_uncertain(Eigen::Index entries) const {
+    return matrices_.stamp_deviation > 0.0 ? entries : 0;
+  }
 
   KalmanMatrices matrices_;
   std::vector<CovarianceFlow> covariance_flows_;  ///< one per mode
 
   VectorSlot P_ = constants(n() * n());
   VectorSlot innovation_ = scratch(plant().max_outputs());
-  VectorSlot correction_ = scratch(n());
-  VectorSlot gain_ = scratch(n());
-  VectorSlot column_ = scratch(n());  ///< P c
-  VectorSlot rest_ = scratch(n());    ///< (I − K c) P c
+  VectorSlot correction_ = scratch(variables());
+  VectorSlot gain_ = scratch(variables());
+  VectorSlot column_ = scratch(variables());  ///< P c
+  VectorSlot rest_ = scratch(variables());    ///< (I − K c) P c
   VectorSlot flown_ = scratch(n() * n());
   VectorSlot S_ = scratch(plant().max_outputs() * plant().max_outputs());
   VectorSlot PC_ = scratch(n() * plant().max_outputs());
+  // Of a jump whose stamp is uncertain.
+  VectorSlot joint_ = scratch(where_uncertain(variables() * variables()));  ///< cov (x, ε)
+  VectorSlot rows_ = scratch(where_uncertain(variables() * plant().max_outputs()));
+  VectorSlot transition_ = scratch(where_uncertain(n() * variables()));  ///< (A_d, s)
+  VectorSlot propagated_ = scratch(where_uncertain(n() * variables()));
+  VectorSlot field_before_ = scratch(where_uncertain(n()));
+  VectorSlot field_after_ = scratch(where_uncertain(n()));
 };
 
 }  // namespace sampled_data_observers

@@ -1,5 +1,6 @@
 #include "observer/kalman_matrices.h"
 
+#include <cmath>
 #include <stdexcept>
 
 #include "linear_algebra/definite_matrix.h"
@@ -12,6 +13,10 @@ KalmanMatrices kalman_matrices(const KalmanCovariances& covariances, const Plant
   KalmanMatrices result;
   result.P0 = checked_positive_definite("P0", covariances.P0, n);
   result.Q_d = checked_positive_semidefinite("Q_d", covariances.Q_d, n);
+  if (!(covariances.stamp_deviation >= 0.0) || !std::isfinite(covariances.stamp_deviation)) {
+    throw std::invalid_argument("stamp_deviation: a finite number of seconds, not negative");
+  }
+  result.stamp_deviation = covariances.stamp_deviation;
   if (!plant.is_affine()) {
     throw std::invalid_argument(
         "this observer takes plants whose flow, jump map and outputs are linear, up to constants");

@@ -13,6 +13,7 @@ struct KalmanCovariances {
   std::vector<Eigen::MatrixXd> R;  ///< of each sensor: m_i x m_i, symmetric positive definite
   Eigen::MatrixXd Q;               ///< in flow, per second: n x n, symmetric positive semidefinite
   Eigen::MatrixXd Q_d;             ///< at jumps: n x n, symmetric positive semidefinite
+  double stamp_deviation = 0.0;    ///< standard deviation of the stamps of jumps [s], >= 0
 };
 
 /// What a HybridKalmanFilter computes with: outputs are transformed so that their noises are
@@ -21,6 +22,7 @@ struct KalmanMatrices {
   Eigen::MatrixXd P0;  ///< symmetric to the bit, as the others
   Eigen::MatrixXd Q;
   Eigen::MatrixXd Q_d;
+  double stamp_deviation = 0.0;              ///< of jumps [s]
   std::vector<Eigen::MatrixXd> R;            ///< of each sensor
   std::vector<Eigen::MatrixXd> noise_roots;  ///< of each sensor: L with R = L Lᵀ
   /// Of each mode and sensor: (L⁻¹ C)ᵀ, n x m.
@@ -28,7 +30,7 @@ struct KalmanMatrices {
 };
 
 /// @throws std::invalid_argument for a plant that is not affine and for covariances that do not fit
-/// it or are not definite as they must be.
+/// it or are not definite as they must be, and for a stamp_deviation that is negative or infinite.
 KalmanMatrices kalman_matrices(const KalmanCovariances& covariances, const Plant& plant);
 
 }  // namespace sampled_data_observers

@@ -234,7 +234,9 @@ class ScenarioReader {
     }
     ConfigSection topic = root_.section_or_empty("jumps");
     scenario_.jumps_topic = simulated_topic(read_jump_source(root_, topic, plant()), "JumpEvent");
-    for (const char* key : {"late", "min_separation", "max_per_second"}) topic.has(key);
+    for (const char* key : {"late", "min_separation", "max_per_second", "stamp_error"}) {
+      topic.has(key);
+    }
     topic.finish();
     if (!section_.has("jumps")) {
       if (plant().outputs(SensorTiming::kAtJumps) == 0) return;

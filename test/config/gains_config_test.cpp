@@ -4,7 +4,11 @@
 #include <fstream>
 #include <sstream>
 
+#include "sampled_data_observers/config/observer_config.h"
+#include "sampled_data_observers/config/yaml_file.h"
+#include "sampled_data_observers/observer/plant_observer.h"
 #include "support/config_faults.h"
+#include "support/law_runner.h"
 
 namespace sampled_data_observers {
 namespace {
@@ -71,6 +75,25 @@ INSTANTIATE_TEST_SUITE_P(
                  {"{angle: c}", "{angel: c}", {"gains/output_injection/angel", "unknown"}}},
         BadGains{"synchronized_nonlinear_delayed",
                  {"{angle: c}", "{angle: d}", {"gains", "'d'", "continuously"}}}));
+
+const char kFallingBall[] = R"(
+observer: HybridKalmanFilter
+plant: {states: [v], A: [[0]], b: [-9], jump_map: {A_d: [[-1]]}}
+sensors: {s: {C: [[1]], source: {topic: s}}}
+sampling: {T1: 1, T2: 1}
+gains: {P0: [[1]], R: [[1]]}
+jumps: {stamp_error: 0.1}
+)";
+
+TEST(KalmanGainsTest, TheStampErrorOfJumpsIsThatOfAUniformDistribution) {
+  const ObserverConfig config =
+      read_observer_config(read_yaml_text(kFallingBall, "test.yaml"), no_plant_plugins);
+  test::LawRunner runner(config.law);
+  runner.jump();
+  // The saltation is -9 - 9.
+  EXPECT_NEAR(1.0 + 0.1 * 0.1 / 3.0 * 18.0 * 18.0,
+              *config.law->observer().covariance(runner.state().data()), 1e-12);
+}
 
 }  // namespace
 }  // namespace sampled_data_observers

@@ -184,6 +184,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadPlant{kSwitched, {"outputs: {d:", "outputs: {e:", {"plant/modes/7/outputs/e"}}},
         BadPlant{kSwitched, {"late: delayed", "late: never", {"jumps/late", "rewind, delayed"}}},
         BadPlant{kSwitched, {"max_per_second: 20", "max_per_second: 0", {"jumps/max_per_second"}}},
+        BadPlant{kSwitched, {"max_per_second: 20", "stamp_error: -1", {"jumps/stamp_error"}}},
         BadPlant{kSwitched, {"jumps: {", "jumps: {topc: x, ", {"jumps/topc", "unknown"}}},
         BadPlant{kSwitched,
                  {"jumps: {",

@@ -67,11 +67,12 @@ KalmanCovariances example_covariances() {
   return covariances;
 }
 
-std::shared_ptr<const HybridKalmanFilter> example_filter() {
+std::shared_ptr<const HybridKalmanFilter> example_filter(double stamp_deviation = 0.0) {
   const auto of = plant(example_A(), example_A_d(), example_C(), Eigen::RowVector3d(0.0, 1.0, 0.0));
+  KalmanCovariances covariances = example_covariances();
+  covariances.stamp_deviation = stamp_deviation;
   return std::make_shared<const HybridKalmanFilter>(
-      ObserverContext{of, Eigen::Vector3d(0.5, -1.0, 0.2), Eigen::VectorXd::Zero(0)},
-      example_covariances());
+      ObserverContext{of, Eigen::Vector3d(0.5, -1.0, 0.2), Eigen::VectorXd::Zero(0)}, covariances);
 }
 
 Eigen::Matrix3d covariance(const ObserverLaw& law, const LawRunner& runner) {
@@ -137,8 +138,10 @@ TEST(HybridKalmanFilterTest, IsTheTextbooksFilter) {
   EXPECT_GT(expected.P.norm(), 0.01);
 }
 
-TEST(HybridKalmanFilterTest, TheCovarianceStaysSymmetricAndPositiveDefinite) {
-  const auto law = example_filter();
+class StampDeviationTest : public ::testing::TestWithParam<double> {};
+
+TEST_P(StampDeviationTest, TheCovarianceStaysSymmetricAndPositiveDefinite) {
+  const auto law = example_filter(GetParam());
   LawRunner runner(law);
   std::mt19937_64 generator(3);
   std::uniform_real_distribution<double> value(-2.0, 2.0);
@@ -160,6 +163,8 @@ TEST(HybridKalmanFilterTest, TheCovarianceStaysSymmetricAndPositiveDefinite) {
     ASSERT_TRUE(test::is_positive_definite(P)) << i << "\n" << P;
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(CertainAndUncertain, StampDeviationTest, ::testing::Values(0.0, 0.05));
 
 TEST(HybridKalmanFilterTest, FindsTheStateOfSystem16InItsStandardForm) {
   // Example 5.5 of bernard2022 with tau = 2, 5: the printed (40), with the gain of the jump before,

@@ -17,6 +17,8 @@ struct LawContext {
   ObserverContext observer;
   /// For an ExpressionMap made of gains.
   ExpressionNames names;
+  /// By how much the stamps of jumps may be off [s], >= 0.
+  double jump_stamp_error = 0.0;
 
   /// The plant that is observed: its sizes are those that the gains must fit.
   const Plant& plant() const { return *observer.plant; }

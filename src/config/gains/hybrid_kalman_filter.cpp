@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "config/gains/readers.h"
 #include "config/size_limits.h"
 #include "sampled_data_observers/config/gains_config.h"
@@ -29,6 +31,8 @@ KalmanCovariances read_covariances(ConfigSection& gains, const LawContext& conte
       read_square_per_sensor(gains, "R", plant, {SensorTiming::kSampled, SensorTiming::kAtJumps});
   covariances.Q = matrix_or_zero("Q");
   covariances.Q_d = matrix_or_zero("Q_d");
+  // Nothing is known but the limits, as of a uniform distribution between them.
+  covariances.stamp_deviation = context.jump_stamp_error / std::sqrt(3.0);
   return covariances;
 }
 
