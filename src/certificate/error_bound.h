@@ -11,6 +11,17 @@ struct ErrorAssumptions {
   double disturbance = 0.0;    ///< |w| <= this at all times, units of w
   /// |θ| of what an observer with intersample injection adds before its first sample.
   double initial_injection = 0.0;
+  double jump_stamp_error = 0.0;  ///< by how much the stamps of jumps may be off [s]
+};
+
+/// What a jump of the plant does to an estimate.
+struct JumpMotion {
+  /// |x̂⁺ − x̂|, by which a jump that was told twice takes the estimate away at most; of a jump that
+  /// the law refused |g(x̂) − x̂|, g the plant's jump map.
+  double moved = 0.0;
+  // Where the stamps of jumps may be off:
+  double speed_before = 0.0;  ///< |f(x̂)|, f the plant's flow
+  double speed_after = 0.0;   ///< |f(g(x̂))|
 };
 
 /// How a certificate bounds the norm of the estimation error |x − x̂| along flow and events: a small
@@ -21,6 +32,10 @@ struct ErrorAssumptions {
 /// `workspace`. Where the events leave the set for which the theorem holds, for example by a time
 /// between samples longer than T2, it goes on with what the flow makes of the error at most. A
 /// bound of infinity says that nothing is known any more. It stays until the estimate begins anew.
+///
+/// Where the stamps of jumps may be off, it is about the plant as its jumps are told: at a stamp
+/// between a jump and the telling of it, the error is taken of the plant that goes on as if it had
+/// not jumped, or had jumped already.
 class ErrorBound {
  public:
   ErrorBound() = default;
@@ -52,18 +67,21 @@ class ErrorBound {
   /// than move x̂.
   virtual bool injects_between_samples() const { return false; }
 
+  /// By how much the stamps of jumps may be off [s].
+  virtual double jump_stamp_error() const { return 0.0; }
+
   /// At a jump of the plant.
-  /// @param moved  |x̂⁺ − x̂|, by which a jump that was told twice takes the estimate away at most
-  virtual void jump(double moved, double* state) const = 0;
+  virtual void jump(const JumpMotion& motion, double* state) const = 0;
 
   /// At a jump of the plant whose outputs, which the law corrects with, did not come: x̂ only takes
   /// the jump map.
-  virtual void uncorrected_jump(double moved, double* state) const { jump(moved, state); }
+  virtual void uncorrected_jump(const JumpMotion& motion, double* state) const {
+    jump(motion, state);
+  }
 
   /// At a jump that was told and that the law did not take, so that the plant may have jumped or
   /// not.
-  /// @param moved  |g(x̂) − x̂| of the plant's jump map g
-  virtual void refused_jump(double moved, double* state) const { jump(moved, state); }
+  virtual void refused_jump(const JumpMotion& motion, double* state) const { jump(motion, state); }
 
   /// The bound on |x − x̂|, units of the state.
   virtual double bound(const double* state) const = 0;

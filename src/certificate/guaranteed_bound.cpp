@@ -40,6 +40,12 @@ std::vector<Eigen::VectorXd> weights_of_angles(const Plant& plant) {
   return weights;
 }
 
+double norm(const double* vector, Eigen::Index size) {
+  double sum = 0.0;
+  for (Eigen::Index i = 0; i < size; ++i) sum += vector[i] * vector[i];
+  return std::sqrt(sum);
+}
+
 }  // namespace
 
 GuaranteedBound::GuaranteedBound(const std::shared_ptr<const ObserverLaw>& inner,
@@ -50,7 +56,10 @@ GuaranteedBound::GuaranteedBound(const std::shared_ptr<const ObserverLaw>& inner
       plant_(std::move(plant)),
       noise_(noise),
       angles_(weights_of_angles(*plant_)),
-      jumps_are_measured_(observer().event_size(EventKind::kJump) > 0) {
+      jumps_are_measured_(observer().event_size(EventKind::kJump) > 0),
+      jump_stamp_error_(from_seconds(bound_->jump_stamp_error())),
+      shift_is_bounded_(plant_->inputs() == 0 && !plant_->switches() &&
+                        !plant_->has_angles(SensorTiming::kAtJumps)) {
   set_bound(this);
 }
 
@@ -97,6 +106,10 @@ void GuaranteedBound::initialize(double* state) const {
   since_.restart(state);
   awaiting_.set(false, state);
   moved_.set(0.0, state);
+  speed_before_.set(0.0, state);
+  speed_after_.set(0.0, state);
+  since_start_.restart(state);
+  since_jump_.expire(state);
   before_.fill(0.0, state);
   then_.loss.set(BoundLoss::kNone, state);
   bound_->initialize(then_.bound.of(state));
@@ -111,6 +124,8 @@ bool GuaranteedBound::accepts(const Event& event) const {
 void GuaranteedBound::flow(Duration duration, double* state, double* workspace) const {
   law().flow(duration, state, workspace);
   since_.advance(duration, state);
+  since_start_.advance(duration, state);
+  since_jump_.advance(duration, state);
   flow_part(state);
 }
 
@@ -120,7 +135,7 @@ void GuaranteedBound::flow_part(double* state) const {
   if (now_.loss.of(state) != BoundLoss::kNone) return;
   double* bound = now_.bound.of(state);
   if (awaiting_.of(state)) {
-    bound_->uncorrected_jump(moved_.of(state), bound);
+    bound_->uncorrected_jump(motion(moved_.of(state), state), bound);
     settle(now_, state);
   }
   if (now_.loss.of(state) != BoundLoss::kNone || since_.of(state) == 0.0) return;
@@ -143,6 +158,7 @@ Effect GuaranteedBound::reset(const Event& event, double* state, double* workspa
     before_.set(state, state);
   }
   const Effect effect = law().reset(event, state, workspace);
+  if (is_jump) note_stamp_of_jump(state, workspace);
   if (!took_effect(effect)) {
     if (is_jump) refuse_jump(state);
     return effect;
@@ -202,7 +218,7 @@ void GuaranteedBound::take_jump(double* state) const {
     if (plant_->sensors()[i].timing != SensorTiming::kAtJumps) continue;
     if (may_be_wrapped(bound_of(then_, state), i, nullptr)) lose(then_, BoundLoss::kAngle, state);
   }
-  bound_->jump(moved_since_before(state), then_.bound.of(state));
+  bound_->jump(motion(moved_since_before(state), state), then_.bound.of(state));
   go_on_from_then(state);
 }
 
@@ -211,8 +227,34 @@ void GuaranteedBound::refuse_jump(double* state) const {
   begin_interval(state);
   const VectorMap* map = plant_->modes()[observer().mode_of(state)].jump.get();
   if (map != nullptr) map->evaluate(state, observer().held_part(state), before_.of(state));
-  bound_->refused_jump(moved_since_before(state), then_.bound.of(state));
+  bound_->refused_jump(motion(moved_since_before(state), state), then_.bound.of(state));
   go_on_from_then(state);
+}
+
+/// What the bound needs of a jump that may not have been at its stamp; x̂ before it stands in
+/// before_.
+void GuaranteedBound::note_stamp_of_jump(double* state, double* workspace) const {
+  if (jump_stamp_error_ == 0) return;
+  const double since = since_jump_.of(state);
+  since_jump_.restart(state);
+  if (!shift_is_bounded_ || since <= 2.0 * static_cast<double>(jump_stamp_error_)) {
+    give_up(state, BoundLoss::kUncertainJump);
+    return;
+  }
+  const PlantMode& mode = plant_->modes().front();
+  const double* u = observer().held_part(state);
+  const double* x = before_.of(state);
+  double* speed = speed_.of(workspace);
+  mode.flow->evaluate(x, u, speed);
+  speed_before_.set(norm(speed, estimate_size()), state);
+  double* jumped = jumped_.of(workspace);
+  mode.jump->evaluate(x, u, jumped);
+  mode.flow->evaluate(jumped, u, speed);
+  speed_after_.set(norm(speed, estimate_size()), state);
+}
+
+JumpMotion GuaranteedBound::motion(double moved, const double* state) const {
+  return {moved, speed_before_.of(state), speed_after_.of(state)};
 }
 
 void GuaranteedBound::begin_interval(double* state) const {
@@ -251,14 +293,28 @@ bool GuaranteedBound::may_be_wrapped(const Event& sample, double* state, double*
   return may_be_wrapped(bound_of(now_, state), sensor, innovation);
 }
 
+double GuaranteedBound::with_rounding(double bound, const double* state) const {
+  return bound + kFloor * static_cast<double>(estimate_size()) * norm(state, estimate_size());
+}
+
 double GuaranteedBound::error_bound(const double* state) const {
   if (bound_loss(state) != BoundLoss::kNone) return std::numeric_limits<double>::infinity();
-  double sum = 0.0;
-  for (Eigen::Index i = 0; i < estimate_size(); ++i) sum += state[i] * state[i];
-  return bound_of(now_, state) + kFloor * static_cast<double>(estimate_size()) * std::sqrt(sum);
+  return with_rounding(bound_of(now_, state), state);
+}
+
+PublishedBound GuaranteedBound::known_bound(const double* state) const {
+  return {with_rounding(bound_of(now_, state), state), now_.loss.of(state)};
+}
+
+/// Whether the plant may be yet to make a jump that was told.
+bool GuaranteedBound::is_near_jump(const double* state) const {
+  const double since = std::min(since_jump_.of(state), since_start_.of(state));
+  return jump_stamp_error_ > 0 && since <= static_cast<double>(jump_stamp_error_);
 }
 
 void GuaranteedBound::keep_bound(const PublishedBound& known, double* state) const {
+  // As if a jump had been told here: the law before may have taken one just now.
+  if (jump_stamp_error_ > 0) since_jump_.restart(state);
   if (std::isfinite(known.value)) {
     bound_->begin(known.value, then_.bound.of(state));
     go_on_from_then(state);
@@ -267,6 +323,9 @@ void GuaranteedBound::keep_bound(const PublishedBound& known, double* state) con
   }
 }
 
-BoundLoss GuaranteedBound::bound_loss(const double* state) const { return now_.loss.of(state); }
+BoundLoss GuaranteedBound::bound_loss(const double* state) const {
+  const BoundLoss loss = now_.loss.of(state);
+  return loss == BoundLoss::kNone && is_near_jump(state) ? BoundLoss::kNearJump : loss;
+}
 
 }  // namespace sampled_data_observers

@@ -26,6 +26,12 @@ namespace sampled_data_observers {
 /// or given, the assumption on the initial error is taken to hold anew; where it goes on from that
 /// of another law, what was known of that one's error (keep_bound()).
 ///
+/// Where the stamps of jumps may be off by δ (ErrorBound::jump_stamp_error()), a bound is known but
+/// not given within δ after each jump that is told, and after the start, since the plant may be yet
+/// to jump; who knows of later events must not give it within δ before one, either. Where two jumps
+/// are told within 2 δ, so that nobody knows which was first, or one of a plant with inputs, modes
+/// or angles measured at jumps, it is lost.
+///
 /// A share of 64 n ε of |x̂| is added for the rounding of the estimate, n the number of its states.
 class GuaranteedBound : public LawDecorator, public StateBound {
  public:
@@ -42,6 +48,7 @@ class GuaranteedBound : public LawDecorator, public StateBound {
   Effect reset(const Event& event, double* state, double* workspace) const override;
   double error_bound(const double* state) const override;
   BoundLoss bound_loss(const double* state) const override;
+  PublishedBound known_bound(const double* state) const override;
   void keep_bound(const PublishedBound& bound, double* state) const override;
   void give_up(double* state) const override;
 
@@ -53,6 +60,8 @@ class GuaranteedBound : public LawDecorator, public StateBound {
   };
 
   double bound_of(const Part& part, const double* state) const;
+  double with_rounding(double bound, const double* state) const;
+  bool is_near_jump(const double* state) const;
   void settle(const Part& part, double* state) const;
   static void lose(const Part& part, BoundLoss reason, double* state);
   static void copy(const Part& from, const Part& to, double* state);
@@ -67,6 +76,8 @@ class GuaranteedBound : public LawDecorator, public StateBound {
   void await_outputs(double* state) const;
   void take_jump(double* state) const;
   void refuse_jump(double* state) const;
+  void note_stamp_of_jump(double* state, double* workspace) const;
+  JumpMotion motion(double moved, const double* state) const;
   void go_on_from_moved(double* state) const;
 
   std::unique_ptr<const ErrorBound> bound_;
@@ -75,10 +86,16 @@ class GuaranteedBound : public LawDecorator, public StateBound {
   /// |C_i| of each angular output of each sensor, the largest of all modes; 0 of one that is none.
   std::vector<Eigen::VectorXd> angles_;
   bool jumps_are_measured_;
+  Duration jump_stamp_error_;  ///< ns
+  bool shift_is_bounded_;      ///< whether the bound knows what that does
 
   TimerSlot since_ = state_layout().timer();    ///< the last sample, jump or start
   FlagSlot awaiting_ = state_layout().flag();   ///< the outputs of the last jump are still to come
   NumberSlot moved_ = state_layout().number();  ///< by how much x̂ did at that jump
+  NumberSlot speed_before_ = state_layout().number();  ///< |f(x̂)| at the last jump
+  NumberSlot speed_after_ = state_layout().number();   ///< |f(g(x̂))| there
+  TimerSlot since_start_ = state_layout().timer();
+  TimerSlot since_jump_ = state_layout().timer(1e18);           ///< that was told, taken or not
   VectorSlot before_ = state_layout().vector(estimate_size());  ///< x̂ before the last of them
   /// The bound at the last of them (before a jump whose outputs are still to come), and the bound
   /// now, which is always computed from that one, however often the flow is interrupted.
@@ -87,6 +104,8 @@ class GuaranteedBound : public LawDecorator, public StateBound {
 
   VectorSlot bound_workspace_ = scratch(bound_->workspace_size());
   VectorSlot innovation_ = scratch(max_event_size());
+  VectorSlot jumped_ = scratch(estimate_size());
+  VectorSlot speed_ = scratch(estimate_size());
 };
 
 }  // namespace sampled_data_observers

@@ -55,8 +55,8 @@ void SampledErrorBound::sample(double* state, double* workspace) const {
   begin_interval(state);
 }
 
-void SampledErrorBound::jump(double moved, double* state) const {
-  static_cast<void>(moved);
+void SampledErrorBound::jump(const JumpMotion& motion, double* state) const {
+  static_cast<void>(motion);
   lose(state);
 }
 

@@ -18,6 +18,7 @@ class IntervalBound : public ErrorBound {
   void begin(double error, double* state) const final;
   void flow(double duration, double* state) const final;
   double bound(const double* state) const final;
+  double jump_stamp_error() const final { return jump_stamp_error_; }
 
  protected:
   struct Interval {
@@ -31,6 +32,7 @@ class IntervalBound : public ErrorBound {
       : T1_(subject.T1),
         T2_(subject.T2),
         initial_error_(assumptions.initial_error),
+        jump_stamp_error_(assumptions.jump_stamp_error),
         numbers_(numbers) {}
 
   /// The numbers where the estimate begins with |x − x̂| <= error.
@@ -64,6 +66,7 @@ class IntervalBound : public ErrorBound {
   double T1_;
   double T2_;
   double initial_error_;
+  double jump_stamp_error_;
   Eigen::Index numbers_;
 };
 
@@ -72,7 +75,7 @@ class IntervalBound : public ErrorBound {
 class SampledErrorBound : public IntervalBound {
  public:
   void sample(double* state, double* workspace) const final;
-  void jump(double moved, double* state) const final;
+  void jump(const JumpMotion& motion, double* state) const final;
 
  protected:
   using IntervalBound::IntervalBound;

@@ -33,24 +33,37 @@ class JumpBasedBound : public IntervalBound {
     noise_ = weighted_norm(L_d, P) * assumptions.noise;
     per_error_ = std::sqrt(largest_eigenvalue_above(P));
     least_ = std::sqrt(positive_least_eigenvalue(P, "P"));
+    if (jump_stamp_error() == 0.0) return;
+    flow_norm_ = raised(norm2(A));
+    flown_ = raised(std::exp(flow_norm_ * jump_stamp_error()));
+    reset_norm_ = raised(norm2(reset));
+    jump_norm_ = raised(norm2(A_d));
+    const double injection = raised(norm2(L_d) * norm2(subject.plant.mode().C_d));
+    const Eigen::MatrixXd& N = subject.plant.N;
+    const double disturbance = N.cols() == 0 ? 0.0 : raised(norm2(N)) * assumptions.disturbance;
+    disturbed_ = (1.0 + flown_ * jump_norm_ + injection) * flown_ * disturbance;
   }
 
-  void jump(double moved, double* state) const override {
+  void jump(const JumpMotion& motion, double* state) const override {
     const auto [tau, is_first] = interval(state);
     const double after_jump = numbers(state)[kAfterJump];
     const double carried =
         !is_first && is_foreseen(tau)
             ? after_jump * std::exp(contraction_.offset + contraction_.slope * tau)
             : reset_ * flowed_linearly(after_jump, growth_, 0.0, tau);
-    const double after = carried + reset_ * numbers(state)[kCausedSince] + noise_;
-    go_on_from(unless_told_twice(after, moved, state), state);
+    const double after = carried + reset_ * numbers(state)[kCausedSince] + noise_ +
+                         shifted(reset_norm_, motion, state);
+    go_on_from(unless_told_twice(after, motion, state), state);
   }
-  void uncorrected_jump(double moved, double* state) const override {
-    go_on_from(unless_told_twice(uncorrected_ * before_jump(state), moved, state), state);
+  void uncorrected_jump(const JumpMotion& motion, double* state) const override {
+    const double after = uncorrected_ * before_jump(state) + shifted(jump_norm_, motion, state);
+    go_on_from(unless_told_twice(after, motion, state), state);
   }
-  void refused_jump(double moved, double* state) const override {
+  void refused_jump(const JumpMotion& motion, double* state) const override {
     const double before = before_jump(state);
-    go_on_from(std::max(before, uncorrected_ * before + per_error_ * moved), state);
+    const double jumped =
+        uncorrected_ * before + per_error_ * motion.moved + shifted(jump_norm_, motion, state);
+    go_on_from(std::max(before, jumped), state);
   }
   void sample(double*, double*) const override {}
 
@@ -78,10 +91,21 @@ class JumpBasedBound : public IntervalBound {
   }
   /// A jump sooner after another than T1 is more likely one that was told twice: then x stayed
   /// where it was, and only x̂ jumped.
-  double unless_told_twice(double after, double moved, const double* state) const {
+  double unless_told_twice(double after, const JumpMotion& motion, const double* state) const {
     const auto [tau, is_first] = interval(state);
     if (is_first || !is_too_soon(tau)) return after;
-    return std::max(after, before_jump(state) + per_error_ * moved);
+    return std::max(after, before_jump(state) + per_error_ * motion.moved);
+  }
+  /// Of |r|_P, by which a jump that was not at its stamp changes the error.
+  /// @param reset_norm  ‖A_d − L_d C_d‖ of what the law took
+  double shifted(double reset_norm, const JumpMotion& motion, const double* state) const {
+    if (jump_stamp_error() == 0.0) return 0.0;
+    const double error = before_jump(state) / least_;
+    const double before = motion.speed_before + flow_norm_ * error;
+    const double after = motion.speed_after + flow_norm_ * jump_norm_ * error;
+    const double speed =
+        flown_ * (after + (reset_norm + 2.0 * (flown_ - 1.0) * jump_norm_) * before);
+    return raised(per_error_ * jump_stamp_error() * (speed + disturbed_));
   }
   static void go_on_from(double after, double* state) {
     numbers(state)[kAfterJump] = after;
@@ -97,6 +121,12 @@ class JumpBasedBound : public IntervalBound {
   double noise_ = 0.0;
   double per_error_ = 0.0;  // |e|_P of |e| = 1
   double least_ = 0.0;
+  // Where stamps of jumps may be off.
+  double flow_norm_ = 0.0;   // ‖A‖
+  double flown_ = 1.0;       // of ‖e^{Aε}‖
+  double reset_norm_ = 0.0;  // ‖A_d − L_d C_d‖
+  double jump_norm_ = 0.0;   // ‖A_d‖
+  double disturbed_ = 0.0;   // what w adds, per second
 };
 
 }  // namespace

@@ -15,8 +15,21 @@ struct JumpContraction {
 
 /// The bound of an observer that is corrected at jumps alone. For times between jumps in [T1, T2]
 /// it falls as the contraction says, after longer ones and at the first jump it is what flow and
-/// reset make of it at most; a jump sooner than T1 after another makes it infinite. Each jump must
-/// come with its outputs, and no jump may be missed.
+/// reset make of it at most. No jump may be missed.
+///
+/// Stamps that are off by ε, |ε| <= δ: let x̃ be the plant as its jumps are told, z = x̃ before the
+/// jump at its stamp, and Φ_ε the flow ẋ = f(x) = A x + b over ε. The plant jumped at Φ_{−ε}(z), so
+/// that the error of x̃ after the stamp differs from (A_d − L_d C_d)(z − x̂) − L_d η by
+///
+///   r(ε) = Φ_ε(g(Φ_{−ε}(z))) − g(z) + L_d C_d (z − Φ_{−ε}(z)),  r(0) = 0,
+///
+/// for ε of either sign. With γ = e^{‖A‖δ} >= ‖e^{Aε}‖ and f(Φ_ε(x)) = e^{Aε} f(x),
+///
+///   |r'(ε)| <= γ |f(g(z))| + γ (‖A_d − L_d C_d‖ + 2 (γ − 1) ‖A_d‖) |f(z)|,
+///
+/// where |f(z)| <= |f(x̂)| + ‖A‖ |z − x̂| and |f(g(z))| <= |f(g(x̂))| + ‖A‖ ‖A_d‖ |z − x̂|. A
+/// disturbance |w| <= d that acts between jump and stamp adds up to (1 + γ ‖A_d‖ + ‖L_d‖ ‖C_d‖) γ δ
+/// ‖N‖ d. Between stamps the error of x̃ moves as without.
 /// @param P       n x n
 /// @param reset   n x n: A_d − L_d H_d, from before a jump to after it
 /// @param L_d     n x m

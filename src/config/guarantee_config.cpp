@@ -166,8 +166,14 @@ void require_bounded(ConfigSection& root, const ObserverConfig& config, bool del
 }
 
 /// What the error bound does not cover, for who reads the log.
-std::string conditions_of_bound(const Plant& plant, const ObserverLaw& law, Duration latency) {
+std::string conditions_of_bound(const Plant& plant, const ObserverLaw& law,
+                                const Estimator::Options& options, Duration latency) {
   std::string text;
+  if (options.jump_stamp_error > 0) {
+    text += "; no error bound is given within " +
+            number_text(to_seconds(options.jump_stamp_error), 4) +
+            " s (jumps/stamp_error) of a jump, nor sooner than that after its stamp";
+  }
   if (latency == 0 && (plant.inputs() > 0 || plant.jumps())) {
     text +=
         "; an error bound holds if no input or jump of before its stamp is still on its way "
@@ -248,15 +254,15 @@ Guarantee read_guarantee(ConfigSection& root, const ConfigNode& tree, const Obse
   if (!root.has("error_assumptions")) return guarantee;
   require_bounded(root, config, delays_jumps);
   const CertificateConfig& basis = for_bound ? *for_bound : *claim;
-  const ErrorAssumptions assumptions =
-      read_assumptions(root, basis, law.observer().gains(), guarantee);
+  ErrorAssumptions assumptions = read_assumptions(root, basis, law.observer().gains(), guarantee);
+  assumptions.jump_stamp_error = to_seconds(config.options.jump_stamp_error);
   if (error) return guarantee;
   guarantee.bound = bound_of(root, basis.certificate, assumptions);
   guarantee.noise = assumptions.noise;
   if (for_bound) {
     guarantee.text += std::string("; error bound by the proof in ") + kRunTimeCertificate;
   }
-  guarantee.text += conditions_of_bound(*config.plant, law, guarantee.latency);
+  guarantee.text += conditions_of_bound(*config.plant, law, config.options, guarantee.latency);
   return guarantee;
 }
 

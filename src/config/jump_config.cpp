@@ -62,7 +62,8 @@ MissingJumps read_missing_jumps(ConfigSection section, const Plant& plant, bool 
 
 }  // namespace
 
-TopicSource read_jumps(ConfigSection& root, const Plant& plant, LawLayers& layers) {
+TopicSource read_jumps(ConfigSection& root, const Plant& plant, LawLayers& layers,
+                       Duration& stamp_error) {
   ConfigSection section = root.section_or_empty("jumps");
   TopicSource source = read_jump_source(root, section, plant);
   layers.delays_jumps =
@@ -72,7 +73,7 @@ TopicSource read_jumps(ConfigSection& root, const Plant& plant, LawLayers& layer
       from_seconds(section.number_in("min_separation", 0.0, kLongestTime, 1e-6));
   limits.max_per_second = section.number_in("max_per_second", 1.0, 1e6, 1000.0);
   layers.jump_limits = limits;
-  section.has("stamp_error");  // that the law was built with
+  stamp_error = from_seconds(read_stamp_error(section));
   if (section.has("gate")) layers.jump_gate = read_jump_gate(section.section("gate"), plant);
   if (section.has("missing")) {
     layers.missing = read_missing_jumps(section.section("missing"), plant, layers.delays_jumps);

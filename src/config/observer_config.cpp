@@ -82,7 +82,9 @@ ObserverConfig read_observer_config(const ConfigNode& tree, const PlantPluginLoa
   }
   if (plant.inputs() > 0) config.input = read_input_source(root, plant);
   LawLayers layers;
-  if (plant.jumps()) config.jumps = read_jumps(root, plant, layers);
+  if (plant.jumps()) {
+    config.jumps = read_jumps(root, plant, layers, config.options.jump_stamp_error);
+  }
 
   config.static_transforms = read_static_transforms(root);
 
@@ -125,6 +127,12 @@ ObserverConfig read_observer_config(const ConfigNode& tree, const PlantPluginLoa
   }
   if (config.options.latency >= config.options.history.history) {
     throw root.error("error_assumptions/latency", "less than history/duration", "as much or more");
+  }
+  if (root.has("error_assumptions") &&
+      config.options.latency + config.options.jump_stamp_error >= config.options.history.history) {
+    throw root.error("jumps/stamp_error",
+                     "with error_assumptions/latency, less than history/duration",
+                     "as much or more");
   }
   if (config.options.future_tolerance >= config.options.history.history) {
     throw root.error("future_tolerance", "less than history/duration (it is 0.5 where not given)",

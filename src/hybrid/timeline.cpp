@@ -182,6 +182,16 @@ std::optional<Stamp> Timeline::newest() const {
   return size_ > 0 ? std::make_optional(stamp(size_)) : std::nullopt;
 }
 
+bool Timeline::has_jump(Stamp after, Stamp until) const {
+  for (std::size_t position = size_; position > 0 && stamp(position) > after; --position) {
+    const Event& event = slot(position).event;
+    const bool is_jump = event.kind == EventKind::kJump ||
+                         (event.kind == EventKind::kRejected && event.rejected == EventKind::kJump);
+    if (is_jump && event.stamp <= until) return true;
+  }
+  return false;
+}
+
 std::optional<Stamp> Timeline::earliest_insertion() const {
   std::optional<Stamp> earliest;
   if (base_ != Base::kInitial) earliest = stamp(0) + 1;

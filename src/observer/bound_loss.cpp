@@ -19,6 +19,12 @@ const char* describe(BoundLoss loss) {
       return "a jump was rejected, so that the estimate lacks it";
     case BoundLoss::kStillOnTheirWay:
       return "events may still be on their way (error_assumptions/latency)";
+    case BoundLoss::kNearJump:
+      return "a jump was told so near to it that the plant may have made it before or after "
+             "(jumps/stamp_error)";
+    case BoundLoss::kUncertainJump:
+      return "a jump may have been before or after its stamp (jumps/stamp_error), and with it "
+             "another jump, a change of the input or of the mode, or a turn of an angle";
   }
   return "";
 }

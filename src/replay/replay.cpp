@@ -84,7 +84,7 @@ class Replay {
     // delay.
     rosbag::View all(bag_);
     const Stamp end = to_stamp(all.getEndTime());
-    if (clock_) publish_due(end + std::max(config_.publish_delay, config_.options.latency));
+    if (clock_) publish_due(end + std::max(config_.publish_delay, settling_time()));
     if (clock_) compare_waiting(*clock_);
     for (EventIntake& intake : intakes_) intake.give_up();
     if (output_) output_->finish();
@@ -227,17 +227,22 @@ class Replay {
     recorder_->add_truth(stamp, truth_values_);
     const double elapsed = to_seconds(stamp - *first_truth_);
     if (elapsed < options_.from || elapsed > options_.to) return;
-    if (config_.options.latency == 0) {
+    if (settling_time() == 0) {
       compare(stamp, truth_values_);
     } else {
       waiting_truth_.push_back({stamp, truth_values_});
     }
   }
 
+  /// How long after a stamp its bound is known [ns].
+  Duration settling_time() const {
+    return config_.options.latency + config_.options.jump_stamp_error;
+  }
+
   /// Compares what had to wait until no more events can come before its stamp.
   void compare_waiting(Stamp now) {
     while (!waiting_truth_.empty() &&
-           now - waiting_truth_.front().stamp >= config_.options.latency) {
+           now - waiting_truth_.front().stamp >= settling_time()) {
       compare(waiting_truth_.front().stamp, waiting_truth_.front().values);
       waiting_truth_.pop_front();
     }

@@ -71,9 +71,10 @@ void SummaryRecorder::add_estimate(const Estimate& estimate, BoundLoss loss) {
   }
 }
 
-/// That events may still come says the least, and is so from the first estimate on.
+/// That events may still come says the least, and is so from the first estimate on. Near a jump the
+/// bound is not lost.
 void SummaryRecorder::note_bound(Stamp stamp, BoundLoss loss) {
-  if (loss == BoundLoss::kNone) return;
+  if (loss == BoundLoss::kNone || loss == BoundLoss::kNearJump) return;
   const bool may_go_on = !bound_loss_ || *bound_loss_ == BoundLoss::kStillOnTheirWay;
   if (bound_loss_ && (!may_go_on || loss == *bound_loss_)) return;
   bound_loss_ = loss;

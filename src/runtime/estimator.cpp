@@ -67,11 +67,11 @@ Event rejection(EventKind of, Stamp stamp) {
 
 }  // namespace
 
-PublishedBound published_bound(const Estimate& estimate, bool may_change) {
+PublishedBound published_bound(const Estimate& estimate, BoundLoss withheld) {
   const double* state = estimate.state.data();
   const double value = estimate.law->error_bound(state);
-  if (may_change && std::isfinite(value)) {
-    return {std::numeric_limits<double>::infinity(), BoundLoss::kStillOnTheirWay};
+  if (withheld != BoundLoss::kNone && std::isfinite(value)) {
+    return {std::numeric_limits<double>::infinity(), withheld};
   }
   return {value, estimate.law->bound_loss(state)};
 }
@@ -108,6 +108,9 @@ Estimator::Estimator(std::shared_ptr<const ObserverLaw> law, const Options& opti
   }
   if (options_.latency < 0) {
     throw std::invalid_argument("Estimator: latency must not be negative");
+  }
+  if (options_.jump_stamp_error < 0) {
+    throw std::invalid_argument("Estimator: jump_stamp_error must not be negative");
   }
 }
 
@@ -244,12 +247,25 @@ void Estimator::insert_rejected(EventKind kind, Stamp stamp) {
 }
 
 PublishedBound Estimator::bound(const Estimate& estimate, Stamp now) const {
-  return published_bound(estimate, may_change(estimate.stamp, now));
+  return published_bound(estimate, withheld(estimate.stamp, now));
 }
 
-/// Whether inputs or jumps of before an estimate's stamp may still come.
-bool Estimator::may_change(Stamp stamp, Stamp now) const {
-  return has_other_events_ && now - stamp < options_.latency;
+/// Why a bound at an estimate's stamp can't be given yet, or not at all, though one is known:
+/// inputs or jumps of before it may still come, or a jump that was told with a later stamp was
+/// before it, perhaps.
+BoundLoss Estimator::withheld(Stamp stamp, Stamp now) const {
+  const bool jumps = law_->observer().plant().jumps();
+  const Duration latest = options_.latency + (jumps ? options_.jump_stamp_error : 0);
+  if (has_other_events_ && now - stamp < latest) return BoundLoss::kStillOnTheirWay;
+  return is_before_jump(stamp) ? BoundLoss::kNearJump : BoundLoss::kNone;
+}
+
+/// Whether a jump was told with a stamp so little later that it may have been before.
+bool Estimator::is_before_jump(Stamp stamp) const {
+  const Duration error = options_.jump_stamp_error;
+  if (error == 0) return false;
+  return timeline_.has_jump(stamp, stamp + error) ||
+         (has_earlier() && earlier_->is_before_jump(stamp));
 }
 
 const Estimator& Estimator::at(Stamp stamp) const {
@@ -280,7 +296,7 @@ Timeline::Query Estimator::begin_query(Stamp stamp, Stamp now, EstimateQuery& qu
   if (awaits_sample_) return Timeline::Query::kNoEvent;
   const Estimator& from = at(stamp);
   query.law_ = from.law_;
-  query.may_change_ = may_change(stamp, now);
+  query.withheld_ = withheld(stamp, now);
   query.estimate_.stamp = stamp;
   return from.timeline_.begin_flow(stamp, query.flow_, query.estimate_.counts);
 }
@@ -398,7 +414,7 @@ bool Estimator::prepare_take_over() {
   const double* before = earlier_->before_restart_.state.data();
   const ObserverLaw& law = *earlier_->law_;
   law_->observer().start_from(before, restart_state_.data());
-  law_->keep_bound({law.error_bound(before), law.bound_loss(before)}, restart_state_.data());
+  law_->keep_bound(law.known_bound(before), restart_state_.data());
   return true;
 }
 

@@ -52,12 +52,14 @@ EventReport ObserverRuntime::receive(const Event& event, Stamp now) {
 }
 
 /// The plant had it, whatever became of it here. At its own stamp an input changes nothing yet, as
-/// a jump does.
+/// a jump does, which may even have been before it.
 bool ObserverRuntime::comes_after_bound(const Event& event, const EventReport& report) const {
   const bool is_of_plant = event.kind == EventKind::kInput || event.kind == EventKind::kJump;
-  return is_of_plant && report.outcome != EventOutcome::kDuplicate && event.stamp > 0 &&
+  const Duration jump_stamp_error = setup_.options.jump_stamp_error;
+  return is_of_plant && bounded_until_ > 0 && report.outcome != EventOutcome::kDuplicate &&
+         event.stamp > 0 &&
          (event.kind == EventKind::kInput ? event.stamp < bounded_until_
-                                          : event.stamp <= bounded_until_);
+                                          : event.stamp <= bounded_until_ + jump_stamp_error);
 }
 
 /// A sample that a gate keeps out says as much of the estimate as one that is used.

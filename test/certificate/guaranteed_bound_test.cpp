@@ -45,9 +45,11 @@ class ExampleBound : public ErrorBound {
   }
   void sample(double* state, double*) const override { state[0] /= 2.0; }
   bool injects_between_samples() const override { return injects_; }
-  void jump(double, double* state) const override { state[0] *= 2.0; }
-  void uncorrected_jump(double, double* state) const override { state[0] *= 3.0; }
-  void refused_jump(double moved, double* state) const override { state[0] += moved; }
+  void jump(const JumpMotion&, double* state) const override { state[0] *= 2.0; }
+  void uncorrected_jump(const JumpMotion&, double* state) const override { state[0] *= 3.0; }
+  void refused_jump(const JumpMotion& motion, double* state) const override {
+    state[0] += motion.moved;
+  }
   double bound(const double* state) const override { return state[0]; }
 
  private:

@@ -21,13 +21,15 @@ constexpr Stamp kRunStart = 1'600'000'000'000'000'000;
 /// later, or never, and every estimate that is given out is compared with it.
 class TrueRun {
  public:
-  TrueRun(const ObserverConfig& config, const Eigen::VectorXd& initial_error)
+  /// @param N  n x n_w, where a disturbance enters
+  TrueRun(const ObserverConfig& config, const Eigen::VectorXd& initial_error,
+          const Eigen::MatrixXd& N = {})
       : config_(config),
         plant_(*config.plant),
-        flow_(flow_of(plant_)),
+        flow_(flow_of(plant_, N)),
         estimator_(config.law, config.options),
         estimate_(estimator_.make_estimate()),
-        held_(Eigen::VectorXd::Zero(plant_.inputs() + 1)) {
+        held_(Eigen::VectorXd::Zero(plant_.inputs() + 1 + N.cols())) {
     held_(plant_.inputs()) = 1.0;
     config.law->initialize(estimate_.state.data());
     x_ = estimate_.state.head(plant_.states()) + initial_error;
@@ -42,18 +44,34 @@ class TrueRun {
     held_(0) = value;
     happen({EventKind::kInput, 0, {value}}, later);
   }
+  /// From then on.
+  void disturb(double seconds, const Eigen::VectorXd& w) {
+    go_to(seconds);
+    held_.tail(w.size()) = w;
+    history_.push_back({stamp_of(now_), x_, held_});
+  }
   void sample(double seconds, double noise = 0.0) {
     go_to(seconds);
     const AffineMap& output = *plant_.modes().front().outputs.front()->affine();
     happen({EventKind::kSample, 0, {(output.M() * x_ + output.c())(0) + noise}}, 0.0);
   }
-  /// A jump with its output.
-  void jump(double seconds, double later) {
+  /// A jump with its outputs, told with a stamp that is so much later [s].
+  /// @param noise  of the first output
+  void jump(double seconds, double later, double stamp_error = 0.0, double noise = 0.0) {
     go_to(seconds);
-    const double y = (plant_.modes().front().outputs.front()->affine()->M() * x_)(0);
+    const Eigen::VectorXd y = plant_.modes().front().outputs.front()->affine()->M() * x_;
+    std::vector<double> values(y.data(), y.data() + y.size());
+    values.front() += noise;
     const AffineMap& map = *plant_.modes().front().jump->affine();
     x_ = Eigen::VectorXd(map.M() * x_ + map.c());
-    happen({EventKind::kJump, 0, {y}}, later);
+    happen({EventKind::kJump, 0, values}, later, stamp_error);
+  }
+  /// A jump whose output does not come.
+  void unmeasured_jump(double seconds, double later, double stamp_error) {
+    go_to(seconds);
+    const AffineMap& map = *plant_.modes().front().jump->affine();
+    x_ = Eigen::VectorXd(map.M() * x_ + map.c());
+    happen({EventKind::kJump, 0, {}}, later, stamp_error);
   }
   /// Told, although the plant did not jump.
   void false_jump(double seconds) {
@@ -113,10 +131,12 @@ class TrueRun {
     Eigen::VectorXd held;
   };
 
-  static LinearFlow flow_of(const Plant& plant) {
+  static LinearFlow flow_of(const Plant& plant, const Eigen::MatrixXd& N) {
     const AffineMap& map = *plant.modes().front().flow->affine();
-    Eigen::MatrixXd B(plant.states(), plant.inputs() + 1);
-    B << map.N(), map.c();
+    Eigen::MatrixXd B(plant.states(), plant.inputs() + 1 + N.cols());
+    B.leftCols(plant.inputs()) = map.N();
+    B.col(plant.inputs()) = map.c();
+    if (N.cols() > 0) B.rightCols(N.cols()) = N;
     return LinearFlow(map.M(), B);
   }
   Eigen::VectorXd flowed(const Knot& from, Stamp stamp) const {
@@ -129,9 +149,9 @@ class TrueRun {
     x_ = flowed(history_.back(), stamp_of(seconds));
     now_ = seconds;
   }
-  void happen(const What& what, double later) {
+  void happen(const What& what, double later, double stamp_error = 0.0) {
     history_.push_back({stamp_of(now_), x_, held_});
-    waiting_.push_back({stamp_of(now_ + later), stamp_of(now_), what});
+    waiting_.push_back({stamp_of(now_ + later), stamp_of(now_) + from_seconds(stamp_error), what});
   }
   Eigen::VectorXd truth(Stamp stamp) const {
     std::size_t i = history_.size() - 1;

@@ -59,11 +59,11 @@ class DrivenBound {
   }
   /// @param moved  as ErrorBound takes it
   void jump(double moved = 0.0) {
-    bound_->jump(moved, now_.data());
+    bound_->jump({moved}, now_.data());
     then_ = now_;
   }
   void uncorrected_jump(double moved = 0.0) {
-    bound_->uncorrected_jump(moved, now_.data());
+    bound_->uncorrected_jump({moved}, now_.data());
     then_ = now_;
   }
   double value() const { return bound_->bound(now_.data()); }

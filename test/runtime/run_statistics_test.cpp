@@ -153,6 +153,10 @@ TEST(StatisticsRecorderTest, KnowsSinceWhenTheBoundIsLost) {
   recorder.record_estimate(law, estimate(40, 0.25), {0.25, BoundLoss::kNone}, 3);
   recorder.take(window);
   EXPECT_FALSE(window.bound_lost_since);
+  // Near a jump it is only not given, as at every jump whose stamp may be off.
+  recorder.record_estimate(law, estimate(50, kInfinity), {kInfinity, BoundLoss::kNearJump}, 3);
+  recorder.take(window);
+  EXPECT_FALSE(window.bound_lost_since);
 }
 
 TEST(StatisticsRecorderTest, KeepsTheLastMissingTransformOfEachChannel) {

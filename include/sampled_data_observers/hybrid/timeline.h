@@ -139,6 +139,9 @@ class Timeline {
   /// Stamp of the newest event in the log; nothing where it is empty.
   std::optional<Stamp> newest() const;
 
+  /// Whether the log has a jump, taken or rejected, with a stamp in (after, until].
+  bool has_jump(Stamp after, Stamp until) const;
+
   /// The earliest stamp at which an event can be taken in now; nothing where any can.
   std::optional<Stamp> earliest_insertion() const;
 

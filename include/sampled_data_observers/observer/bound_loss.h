@@ -7,13 +7,15 @@ namespace sampled_data_observers {
 
 /// Why an estimate has no finite error bound.
 enum class BoundLoss : std::uint8_t {
-  kNone = 0,        ///< it has one, or the law gives none at all
-  kNotVouched,      ///< the estimate went on from one of which nothing is known
-  kAngle,           ///< an angular innovation may have been wrapped
-  kTooLarge,        ///< it grew beyond what it can be computed for
-  kUnknownInput,    ///< an input was rejected: the estimate rests on another one
-  kUnknownJump,     ///< a jump was rejected: the estimate did not take it
-  kStillOnTheirWay  ///< events before its stamp may still come
+  kNone = 0,         ///< it has one, or the law gives none at all
+  kNotVouched,       ///< the estimate went on from one of which nothing is known
+  kAngle,            ///< an angular innovation may have been wrapped
+  kTooLarge,         ///< it grew beyond what it can be computed for
+  kUnknownInput,     ///< an input was rejected: the estimate rests on another one
+  kUnknownJump,      ///< a jump was rejected: the estimate did not take it
+  kStillOnTheirWay,  ///< events before its stamp may still come
+  kNearJump,         ///< a jump told near its stamp may have been before or after it
+  kUncertainJump     ///< the time of a jump is not known well enough to bound what it did
 };
 
 /// A guaranteed bound on |x − x̂|, infinite where there is none, and why; NaN without certificate.

@@ -21,6 +21,11 @@ class StateBound {
   /// Why error_bound() is infinite.
   virtual BoundLoss bound_loss(const double* state) const = 0;
 
+  /// What keep_bound() of another law is to know. By default what is published.
+  virtual PublishedBound known_bound(const double* state) const {
+    return {error_bound(state), bound_loss(state)};
+  }
+
   /// Takes over what is known of the error of the estimate of a state that begins.
   virtual void keep_bound(const PublishedBound& bound, double* state) const = 0;
 
@@ -72,6 +77,12 @@ class ObserverLaw : public HybridSystem {
   /// Why error_bound() is infinite in a state.
   BoundLoss bound_loss(const double* state) const {
     return bound_ != nullptr ? bound_->bound_loss(state) : BoundLoss::kNone;
+  }
+
+  /// What another law that goes on from the estimate of a state is to know of its error, for its
+  /// keep_bound().
+  PublishedBound known_bound(const double* state) const {
+    return bound_ != nullptr ? bound_->known_bound(state) : PublishedBound{};
   }
 
   /// Takes over what is known of the error of the estimate of a state that begins, for laws that

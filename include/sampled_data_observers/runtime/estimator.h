@@ -42,9 +42,9 @@ struct Estimate {
   const ObserverLaw* law = nullptr;
 };
 
-/// The bound on the error of an estimate as it can be given: none where inputs or jumps of before
-/// its stamp `may_change` it yet.
-PublishedBound published_bound(const Estimate& estimate, bool may_change);
+/// The bound on the error of an estimate as it can be given: none where something is a reason to
+/// withhold a finite one.
+PublishedBound published_bound(const Estimate& estimate, BoundLoss withheld);
 
 /// An estimate that is computed in parts (Estimator::begin_query()), so that others may use the
 /// estimator meanwhile.
@@ -57,7 +57,7 @@ class EstimateQuery {
   /// @pre proceed() returned true. Needs the estimator no more.
   const Estimate& estimate() const { return estimate_; }
   /// Its bound, as it could be given when the query began.
-  PublishedBound bound() const { return published_bound(estimate_, may_change_); }
+  PublishedBound bound() const { return published_bound(estimate_, withheld_); }
 
  private:
   friend class Estimator;
@@ -65,7 +65,7 @@ class EstimateQuery {
   std::shared_ptr<const ObserverLaw> law_;
   SplitFlow flow_;
   Estimate estimate_;
-  bool may_change_ = false;
+  BoundLoss withheld_ = BoundLoss::kNone;
 };
 
 /// One observer at work: admits events, keeps them in a Timeline and answers for any time in its
@@ -86,6 +86,8 @@ class Estimator {
     /// How long after their stamps inputs and jumps may come [ns], >= 0; 0 where they are taken to
     /// be there at once.
     Duration latency = 0;
+    /// By how much the stamps of jumps may be off [ns], >= 0.
+    Duration jump_stamp_error = 0;
   };
 
   /// @throws std::invalid_argument for options out of range.
@@ -105,7 +107,9 @@ class Estimator {
   void note_rejected(const Event& event, Stamp now);
 
   /// The bound on the error of an estimate as it can be given at `now`: none while inputs or jumps
-  /// of before its stamp may still come.
+  /// of before its stamp may still come, and none where a jump may have been before it although its
+  /// stamp is a later one (jump_stamp_error). So it is a function of the events up to that much
+  /// after its stamp.
   PublishedBound bound(const Estimate& estimate, Stamp now) const;
 
   /// The estimate at `stamp` from all events taken in; `estimate` is written for kOk and kHeld.
@@ -171,7 +175,8 @@ class Estimator {
   std::optional<EventOutcome> objection(const Event& event, Stamp now) const;
   void mark_what_is_unseen(EventKind kind, Stamp stamp);
   void insert_rejected(EventKind kind, Stamp stamp);
-  bool may_change(Stamp stamp, Stamp now) const;
+  BoundLoss withheld(Stamp stamp, Stamp now) const;
+  bool is_before_jump(Stamp stamp) const;
   bool prepare_restart(Estimator& from, Stamp stamp);
   void begin(Stamp stamp);
   void begin_at(const Event& sample);
