@@ -17,9 +17,6 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CATKIN_DEVEL_PREFIX}/lib)
 # Beside the libraries that programs link: what starts and plays them, and what packages that use
 # the headers and messages compile with.
-string(REPLACE ";" ", " CPACK_DEBIAN_PACKAGE_DEPENDS
-  "libnodeletlib-tools;python3-nodelet;python3-roslaunch;python3-rosbag;rosbash;rospack-tools;python3-matplotlib;\
-libdiagnostic-updater-dev;libeigen3-dev;libgeometry-msgs-dev;libmuparser-dev;libnav-msgs-dev;\
-libnodeletlib-dev;librosbag-dev;libsensor-msgs-dev;libstd-srvs-dev;libtf2-dev;libtf2-msgs-dev;\
-libtf2-ros-dev;libyaml-cpp-dev;libboost-dev;python3-geometry-msgs;python3-std-msgs")
+file(STRINGS cmake/run_packages.txt run_packages REGEX "^[a-z]")
+string(REPLACE ";" ", " CPACK_DEBIAN_PACKAGE_DEPENDS "${run_packages}")
 include(CPack)
