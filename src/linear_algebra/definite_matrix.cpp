@@ -1,9 +1,9 @@
 #include "linear_algebra/definite_matrix.h"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <stdexcept>
 
+#include "linear_algebra/matrix_functions.h"
 #include "linear_algebra/ordered_linear_algebra.h"
 
 namespace sampled_data_observers {
@@ -52,8 +52,7 @@ Eigen::MatrixXd checked_positive_semidefinite(const std::string& name,
     scale(i) = symmetric(i, i) > 0.0 ? 1.0 / std::sqrt(symmetric(i, i)) : 1.0;
   }
   const Eigen::MatrixXd scaled = scale.asDiagonal() * symmetric * scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled, Eigen::EigenvaluesOnly);
-  require(solver.eigenvalues().minCoeff() >= -kRounding * static_cast<double>(n), name, what);
+  require(min_eigenvalue(scaled) >= -kRounding * static_cast<double>(n), name, what);
   return symmetric;
 }
 

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <Eigen/QR>
 #include <Eigen/SVD>
 #include <cmath>
 #include <limits>
@@ -91,8 +92,18 @@ Eigen::MatrixXd exponential_of(const Eigen::MatrixXd& a) {
 
 Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& a) { return a.partialPivLu().inverse(); }
 
+std::optional<Eigen::MatrixXd> inverse_where_regular(const Eigen::MatrixXd& a) {
+  const Eigen::FullPivLU<Eigen::MatrixXd> decomposition(a);
+  if (!decomposition.isInvertible()) return std::nullopt;
+  return decomposition.inverse();
+}
+
 Eigen::MatrixXd solve_linear(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   return a.partialPivLu().solve(b);
+}
+
+Eigen::MatrixXd solve_definite(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  return a.llt().solve(b);
 }
 
 Eigen::MatrixXd cholesky_root(const Eigen::MatrixXd& a) {
@@ -101,6 +112,21 @@ Eigen::MatrixXd cholesky_root(const Eigen::MatrixXd& a) {
     return Eigen::MatrixXd::Constant(a.rows(), a.cols(), std::numeric_limits<double>::quiet_NaN());
   }
   return decomposition.matrixU();
+}
+
+Eigen::Index rank_of(const Eigen::MatrixXd& a) {
+  return Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(a).rank();
+}
+
+Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& a) {
+  return a.completeOrthogonalDecomposition().pseudoInverse();
+}
+
+Eigen::MatrixXd orthogonal_complement(const Eigen::MatrixXd& a) {
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(a);
+  const Eigen::MatrixXd orthonormal =
+      qr.householderQ() * Eigen::MatrixXd::Identity(a.rows(), a.rows());
+  return orthonormal.rightCols(a.rows() - a.cols());
 }
 
 Eigen::VectorXcd eigenvalues_of(const Eigen::MatrixXd& a) {

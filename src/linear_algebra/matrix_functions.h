@@ -40,11 +40,25 @@ Eigen::MatrixXd exponential_of(const Eigen::MatrixXd& a);
 /// a⁻¹; not finite where a is singular.
 Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& a);
 
+/// a⁻¹; nothing where a is singular.
+std::optional<Eigen::MatrixXd> inverse_where_regular(const Eigen::MatrixXd& a);
+
 /// a⁻¹ b
 Eigen::MatrixXd solve_linear(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 
+/// a⁻¹ b for a symmetric positive definite a.
+Eigen::MatrixXd solve_definite(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
+
 /// The upper triangular R with a = Rᵀ R; not finite where a is not positive definite.
 Eigen::MatrixXd cholesky_root(const Eigen::MatrixXd& a);
+
+Eigen::Index rank_of(const Eigen::MatrixXd& a);
+
+/// The Moore–Penrose pseudo-inverse.
+Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& a);
+
+/// Orthonormal columns orthogonal to those of a, which are independent.
+Eigen::MatrixXd orthogonal_complement(const Eigen::MatrixXd& a);
 
 /// The eigenvalues of a square matrix, in no order.
 Eigen::VectorXcd eigenvalues_of(const Eigen::MatrixXd& a);

@@ -1,11 +1,11 @@
 #include "observer/observable_form.h"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
 #include <string>
+
+#include "linear_algebra/matrix_functions.h"
 
 namespace sampled_data_observers {
 namespace {
@@ -100,7 +100,7 @@ ObservableForm observable_form(const Eigen::MatrixXd& A, const Eigen::MatrixXd& 
       h = (h * A).eval();
     }
   }
-  const Eigen::MatrixXd inverse = selected.inverse();
+  const Eigen::MatrixXd inverse = inverse_of(selected);
   form.basis.resize(n, n);
   Eigen::MatrixXd last(n, m);  // A^(d_i) w_i = 𝒱⁻¹ 𝐃_i
   form.M.resize(m, m);
@@ -116,7 +116,7 @@ ObservableForm observable_form(const Eigen::MatrixXd& A, const Eigen::MatrixXd& 
     last.col(i) = column;
     form.M.col(i) = H * form.basis.col(end - 1);
   }
-  form.D = form.basis.lu().solve(last);
+  form.D = solve_linear(form.basis, last);
   return form;
 }
 
@@ -149,11 +149,11 @@ Eigen::MatrixXd high_gain(const Eigen::MatrixXd& A, const Eigen::MatrixXd& H,
     }
     first += d;
   }
-  Eigen::MatrixXd L_c = form.basis * in_form * form.M.inverse();
+  Eigen::MatrixXd L_c = form.basis * in_form * inverse_of(form.M);
 
   // ℓ (𝐀 − 𝐊 𝐇) = 𝓛⁻¹ 𝒱 (A − L_c H) 𝒱⁻¹ 𝓛, which has the eigenvalues of A − L_c H.
   const Eigen::MatrixXd scaled_basis = form.basis * powers.asDiagonal();
-  const Eigen::MatrixXd found = scaled_basis.lu().solve((A - L_c * H) * scaled_basis) / ell;
+  const Eigen::MatrixXd found = solve_linear(scaled_basis, (A - L_c * H) * scaled_basis) / ell;
   const Eigen::MatrixXd wanted = closed_loop(form.indices, K);
   if (!((found - wanted).norm() <= kAccuracy * wanted.norm())) {
     throw std::invalid_argument(
@@ -181,7 +181,7 @@ bool is_hurwitz(const Eigen::VectorXd& c) {
   Eigen::MatrixXd companion = Eigen::MatrixXd::Zero(d, d);
   companion.col(0) = -c;
   for (Eigen::Index i = 0; i + 1 < d; ++i) companion(i, i + 1) = 1.0;
-  const Eigen::VectorXcd zeros = companion.eigenvalues();
+  const Eigen::VectorXcd zeros = eigenvalues_of(companion);
   return zeros.real().maxCoeff() < -1e-12 * zeros.cwiseAbs().maxCoeff();
 }
 

@@ -1,12 +1,12 @@
 #include "sampled_data_observers/observer/plant_observer.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cassert>
 #include <limits>
 #include <stdexcept>
 #include <utility>
 
+#include "linear_algebra/matrix_functions.h"
 #include "sampled_data_observers/hybrid/split_flow.h"
 #include "sampled_data_observers/linear_algebra/ordered_product.h"
 
@@ -16,7 +16,7 @@ namespace {
 /// What makes of the innovation of an affine output the least change of x̂ that removes it.
 Eigen::MatrixXd least_correction(const VectorMap& output) {
   if (output.affine() == nullptr) return {};
-  return output.affine()->M().completeOrthogonalDecomposition().pseudoInverse();
+  return pseudo_inverse(output.affine()->M());
 }
 
 }  // namespace

@@ -1,9 +1,9 @@
 #include "observer/switched_gains.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
+#include <optional>
 #include <string>
 
+#include "linear_algebra/matrix_functions.h"
 #include "observer/gain_requirement.h"
 #include "sampled_data_observers/observer/gain_check.h"
 
@@ -19,11 +19,11 @@ bool is_identity(const VectorMap& map) {
 Eigen::MatrixXd projection_gain(const Eigen::MatrixXd& P, const Eigen::MatrixXd& H,
                                 const std::string& where) {
   if (H.rows() == 0) return {};
-  const Eigen::MatrixXd lifted = P.llt().solve(H.transpose());
-  const Eigen::FullPivLU<Eigen::MatrixXd> gram(H * lifted);
-  require_of_gains(gram.isInvertible(),
+  const Eigen::MatrixXd lifted = solve_definite(P, H.transpose());
+  const std::optional<Eigen::MatrixXd> gram_inverse = inverse_where_regular(H * lifted);
+  require_of_gains(gram_inverse.has_value(),
                    "projection" + where + ": the outputs of the mode are dependent");
-  return lifted * gram.inverse();
+  return lifted * *gram_inverse;
 }
 
 Projection make_projection(const SwitchedGains& gains, const Plant& plant, std::size_t mode) {
@@ -33,9 +33,8 @@ Projection make_projection(const SwitchedGains& gains, const Plant& plant, std::
   const std::string where = " of mode " + std::to_string(of_plant.label);
   require_of_gains(P.rows() == plant.states() && P.cols() == plant.states() && P.allFinite(),
                    "projection" + where + ": one row and one column per state");
-  require_of_gains(
-      (P - P.transpose()).norm() <= 1e-9 * P.norm() && P.llt().info() == Eigen::Success,
-      "projection" + where + ": the metric must be symmetric and positive definite");
+  require_of_gains((P - P.transpose()).norm() <= 1e-9 * P.norm() && cholesky_root(P).allFinite(),
+                   "projection" + where + ": the metric must be symmetric and positive definite");
   require_of_gains(!of_plant.jump || is_identity(*of_plant.jump),
                    "projection" + where + ": its jump map must be the identity");
   return {projection_gain(P, plant.stacked_outputs(mode, SensorTiming::kAtJumps), where),

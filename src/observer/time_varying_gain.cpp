@@ -1,11 +1,11 @@
 #include "observer/time_varying_gain.h"
 
-#include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
+#include "linear_algebra/matrix_functions.h"
 #include "linear_algebra/ordered_linear_algebra.h"
 
 namespace sampled_data_observers {
@@ -24,7 +24,7 @@ bool is_moderate(const double* backward, Eigen::Index size) {
 }
 
 Eigen::Index number_of_independent_rows(const Eigen::MatrixXd& C) {
-  if (Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(C.transpose()).rank() < C.rows()) {
+  if (rank_of(C.transpose()) < C.rows()) {
     throw std::invalid_argument("the rows of C must be linearly independent");
   }
   return C.rows();
@@ -34,11 +34,9 @@ Eigen::Index number_of_independent_rows(const Eigen::MatrixXd& C) {
 
 InverseOutputGain::InverseOutputGain(const Eigen::MatrixXd& C, double lambda) : lambda_(lambda) {
   if (C.rows() != C.cols()) throw std::invalid_argument("C must be square where there is no P");
-  const Eigen::FullPivLU<Eigen::MatrixXd> decomposition(C);
-  if (!decomposition.isInvertible()) {
-    throw std::invalid_argument("C must be invertible where there is no P");
-  }
-  inverse_ = decomposition.inverse();
+  const std::optional<Eigen::MatrixXd> inverse = inverse_where_regular(C);
+  if (!inverse) throw std::invalid_argument("C must be invertible where there is no P");
+  inverse_ = *inverse;
 }
 
 void InverseOutputGain::evaluate(const double* backward, double* K, double* workspace) const {
@@ -63,12 +61,10 @@ CertificateGain::CertificateGain(const Eigen::MatrixXd& C, const Eigen::MatrixXd
       K_at_zero_(n_, m_) {
   factor_cholesky(L_.data(), n_);
   L_transposed_ = L_.transpose();
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(C.transpose());
-  const Eigen::MatrixXd orthonormal = qr.householderQ() * Eigen::MatrixXd::Identity(n_, n_);
-  basis_.leftCols(q_) = orthonormal.rightCols(q_);
+  basis_.leftCols(q_) = orthogonal_complement(C.transpose());
   basis_.rightCols(m_) = C.transpose();
   P_complement_ = (P * basis_.leftCols(q_)).transpose();
-  gram_inverse_ = (C * C.transpose()).inverse();
+  gram_inverse_ = inverse_of(C * C.transpose());
 
   const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(n_, n_);
   Eigen::VectorXd workspace(workspace_size());
