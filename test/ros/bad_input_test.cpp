@@ -99,9 +99,3 @@ TEST(BadInputTest, OnlyTheGoodEventsCountAndEachHasItsStatus) {
 
 }  // namespace
 }  // namespace sampled_data_observers
-
-int main(int argc, char** argv) {
-  ros::init(argc, argv, "bad_input_test");
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -101,10 +101,3 @@ TEST_F(CertifiedNodeletTest, PublishesTheBoundWhileTheAssumptionsHold) {
 
 }  // namespace
 }  // namespace sampled_data_observers
-
-int main(int argc, char** argv) {
-  ros::init(argc, argv, "certified_nodelet_test");
-  const ros::NodeHandle alive;  // roscpp shuts down with the last handle
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -177,9 +177,3 @@ INSTANTIATE_TEST_SUITE_P(Types, EveryTypeTest, ::testing::ValuesIn(test::type_ex
 
 }  // namespace
 }  // namespace sampled_data_observers
-
-int main(int argc, char** argv) {
-  ros::init(argc, argv, "every_type_test");
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -68,9 +68,3 @@ TEST_F(InterfaceTest, GetEstimateSaysWhyThereIsNone) {
 
 }  // namespace
 }  // namespace sampled_data_observers
-
-int main(int argc, char** argv) {
-  ros::init(argc, argv, "interface_test");
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

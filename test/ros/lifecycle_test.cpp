@@ -249,10 +249,3 @@ TEST(MasterWatchTest, AfterShutdownNothingIsRegistered) {
 
 }  // namespace
 }  // namespace sampled_data_observers
-
-int main(int argc, char** argv) {
-  ros::init(argc, argv, "lifecycle_test");
-  const ros::NodeHandle alive;  // roscpp shuts down with the last handle
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -174,10 +174,3 @@ TEST_F(ServicesTest, AResetMayWaitForTheNextSample) {
 
 }  // namespace
 }  // namespace sampled_data_observers
-
-int main(int argc, char** argv) {
-  ros::init(argc, argv, "services_test");
-  const ros::NodeHandle alive;
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -111,9 +111,3 @@ TEST_F(SimulatedTimeTest, EveryEventIsAnsweredWhereEstimatesCannotKeepUp) {
 
 }  // namespace
 }  // namespace sampled_data_observers
-
-int main(int argc, char** argv) {
-  ros::init(argc, argv, "simulated_time_test");
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

@@ -203,9 +203,3 @@ TEST_F(StandardOutputsTest, FollowTheEstimateAndDiagnosticsSayHowItGoes) {
 
 }  // namespace
 }  // namespace sampled_data_observers
-
-int main(int argc, char** argv) {
-  ros::init(argc, argv, "standard_outputs_test");
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

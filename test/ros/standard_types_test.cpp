@@ -141,9 +141,3 @@ TEST_F(StandardTypesTest, EachIsReadAndTheJumpIsDetected) {
 
 }  // namespace
 }  // namespace sampled_data_observers
-
-int main(int argc, char** argv) {
-  ros::init(argc, argv, "standard_types_test");
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

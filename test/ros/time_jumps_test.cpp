@@ -149,9 +149,3 @@ TEST_F(TimeJumpsTest, ACorrectedClockKeepsTheTransforms) {
 
 }  // namespace
 }  // namespace sampled_data_observers
-
-int main(int argc, char** argv) {
-  ros::init(argc, argv, "time_jumps_test");
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

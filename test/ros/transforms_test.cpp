@@ -118,9 +118,3 @@ TEST_F(TransformsTest, MeasurementsWaitForTheirTransformsAndTheEstimateForNothin
 
 }  // namespace
 }  // namespace sampled_data_observers
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "transforms_test");
-  return RUN_ALL_TESTS();
-}
