@@ -241,8 +241,7 @@ class Replay {
 
   /// Compares what had to wait until no more events can come before its stamp.
   void compare_waiting(Stamp now) {
-    while (!waiting_truth_.empty() &&
-           now - waiting_truth_.front().stamp >= settling_time()) {
+    while (!waiting_truth_.empty() && now - waiting_truth_.front().stamp >= settling_time()) {
       compare(waiting_truth_.front().stamp, waiting_truth_.front().values);
       waiting_truth_.pop_front();
     }
