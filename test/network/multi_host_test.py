@@ -15,7 +15,7 @@ import unittest
 HERE = os.path.dirname(os.path.realpath(__file__))
 sys.path.insert(0, os.path.join(HERE, "..", "support"))
 import oscillation  # noqa: E402
-from ros_tools import RosProcess, find_tool  # noqa: E402
+from ros_tools import RosProcess, end_rospy_node, find_tool  # noqa: E402
 from two_hosts import NotPossible, TwoHosts  # noqa: E402
 
 ROOT = os.path.realpath(os.path.join(HERE, "..", ".."))
@@ -111,7 +111,7 @@ class Story:
             sensors[0].kill()
             time.sleep(2.5)  # for the last report of the diagnostics
             self.asked = self.ask_for_the_past()
-            rospy.signal_shutdown("done")
+            end_rospy_node()
 
     def configure(self):
         """Whether the master was there to take the parameters."""

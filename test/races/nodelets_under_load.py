@@ -16,7 +16,7 @@ import xmlrpc.client
 
 HERE = os.path.dirname(os.path.realpath(__file__))
 sys.path.insert(0, os.path.join(HERE, "..", "support"))
-from ros_tools import RosProcess, find_tool, free_port  # noqa: E402
+from ros_tools import RosProcess, end_rospy_node, find_tool, free_port  # noqa: E402
 from sanitizer_reports import Judge, reports  # noqa: E402
 
 ROOT = os.path.realpath(os.path.join(HERE, "..", ".."))
@@ -191,7 +191,7 @@ def run_under_load(port):
                 raise SystemExit("the observer ended with status %s" % observer.returncode)
             load.stop()
             running.close()
-            rospy.signal_shutdown("done")
+            end_rospy_node()
     return load.counts
 
 
