@@ -77,6 +77,11 @@ std::optional<Quantity> output_quantity(const Plant& plant, std::size_t sensor,
                   description.angular[static_cast<std::size_t>(output)]};
 }
 
+double error_of(const Quantity& quantity, const double* x, double truth) {
+  const Eigen::Map<const Eigen::VectorXd> estimate(x, quantity.row.size());
+  return difference(quantity, quantity.row.dot(estimate), truth);
+}
+
 Comparison::Comparison(std::vector<Quantity> quantities, std::shared_ptr<const Plant> plant)
     : quantities_(std::move(quantities)),
       plant_(std::move(plant)),
@@ -106,15 +111,13 @@ void Comparison::add_sample(std::size_t sensor, Stamp stamp, const double* value
   }
 }
 
-void Comparison::add_truth(const std::vector<double>& truth, const double* x, double error_bound) {
+bool Comparison::add_truth(const std::vector<double>& truth, const double* x, double error_bound) {
   for (const Held& held : held_) {
-    if (held.is_measured && !held.value) return;
+    if (held.is_measured && !held.value) return false;
   }
   double squares = 0.0;
   for (std::size_t i = 0; i < quantities_.size(); ++i) {
-    const Eigen::VectorXd& row = quantities_[i].row;
-    const double estimate = row.dot(Eigen::Map<const Eigen::VectorXd>(x, row.size()));
-    const double square = std::pow(difference(quantities_[i], estimate, truth[i]), 2);
+    const double square = std::pow(error_of(quantities_[i], x, truth[i]), 2);
     squares += square;
     squares_[i] += square;
     if (held_[i].is_measured) {
@@ -122,7 +125,7 @@ void Comparison::add_truth(const std::vector<double>& truth, const double* x, do
     }
   }
   ++size_;
-  if (!std::isfinite(error_bound)) return;
+  if (!std::isfinite(error_bound)) return true;
   const double error = std::sqrt(squares);
   const double allowed = weight_ * error_bound;
   ++bound_check_.stamps;
@@ -130,6 +133,7 @@ void Comparison::add_truth(const std::vector<double>& truth, const double* x, do
   if (allowed > 0.0) {
     bound_check_.share = std::max(bound_check_.share.value_or(0.0), error / allowed);
   }
+  return true;
 }
 
 std::vector<std::optional<double>> Comparison::rmse() const {

@@ -31,6 +31,10 @@ std::optional<Quantity> output_quantity(const Plant& plant, std::size_t sensor,
 bool measures(const Plant& plant, std::size_t sensor, Eigen::Index output,
               const Quantity& quantity);
 
+/// The error of the quantity of an estimate x (n entries) against its true value, wrapped where it
+/// is an angle.
+double error_of(const Quantity& quantity, const double* x, double truth);
+
 /// Errors of the estimate and of holding the last sample, against the truth, on the same stamps.
 class Comparison {
  public:
@@ -43,8 +47,9 @@ class Comparison {
 
   /// Compares at one stamp. @param truth one value per quantity @param x the estimate, n entries
   /// @param error_bound  on |truth − x| of the whole state; NaN: none
-  /// Does nothing before each quantity that a sensor measures directly was sampled once.
-  void add_truth(const std::vector<double>& truth, const double* x, double error_bound);
+  /// Does nothing before each quantity that a sensor measures directly was sampled once, and
+  /// returns false then.
+  bool add_truth(const std::vector<double>& truth, const double* x, double error_bound);
 
   /// Number of stamps compared.
   std::size_t size() const { return size_; }

@@ -16,11 +16,13 @@
 #include "replay/bag_source.h"
 #include "replay/bag_writer.h"
 #include "replay/comparison.h"
+#include "replay/jump_neighbourhood.h"
 #include "replay/summary_recorder.h"
 #include "replay/thinning.h"
 #include "replay/truth.h"
 #include "sampled_data_observers/config/event_channels.h"
 #include "sampled_data_observers/messages/event_intake.h"
+#include "sampled_data_observers/observer/plant_observer.h"
 
 namespace sampled_data_observers {
 namespace {
@@ -50,6 +52,7 @@ class Replay {
       truth_ = truth_from_samples(config, channels_, transforms_);
     }
     comparison_.emplace(truth_.quantities, config.plant);
+    tell_jumps_apart();
     std::vector<Quantity> plotted = truth_.quantities;
     if (plotted.empty()) {
       for (const std::string& state : config.law->estimate_names()) {
@@ -100,6 +103,15 @@ class Replay {
   }
 
  private:
+  void tell_jumps_apart() {
+    const Duration stamp_error = config_.options.jump_stamp_error;
+    const bool is_wanted = options_.around_jumps || stamp_error > 0;
+    if (!is_wanted || truth_.quantities.empty() || !config_.plant->jumps()) return;
+    const Duration around =
+        options_.around_jumps ? from_seconds(*options_.around_jumps) : stamp_error;
+    neighbourhood_.emplace(truth_.quantities, config_.plant, around);
+  }
+
   /// Else a long run would end with nothing compared.
   void require_truth_in_range() {
     if (truth_.topic.empty()) return;
@@ -185,6 +197,11 @@ class Replay {
     recorder_->add_event(event, report, status_.reason);
     const bool is_measurement =
         event.kind == EventKind::kSample || event.kind == EventKind::kOutput;
+    if (neighbourhood_ && report.used() && event.kind == EventKind::kJump) {
+      const Stamp release = event.release > 0 ? event.release : *clock_;
+      neighbourhood_->add_jump(
+          event.stamp, config_.law->delays_jumps() ? std::max(event.stamp, release) : event.stamp);
+    }
     if (report.used() && is_measurement) {
       const auto sensor = static_cast<std::size_t>(event.sensor);
       comparison_->add_sample(sensor, event.stamp, event.values);
@@ -250,8 +267,12 @@ class Replay {
   void compare(Stamp stamp, const std::vector<double>& values) {
     const Timeline::Query query = runtime_.estimator().estimate_at(stamp, truth_estimate_);
     if (query != Timeline::Query::kOk && query != Timeline::Query::kHeld) return;
-    comparison_->add_truth(values, truth_estimate_.state.data(),
-                           runtime_.bound(truth_estimate_).value);
+    const double* state = truth_estimate_.state.data();
+    const bool is_compared =
+        comparison_->add_truth(values, state, runtime_.bound(truth_estimate_).value);
+    if (!is_compared || !neighbourhood_) return;
+    const PlantObserver& observer = truth_estimate_.law->observer();
+    neighbourhood_->add_truth(stamp, values, state, observer.held_part(state));
   }
 
   void finish(ReplaySummary& summary) const {
@@ -266,6 +287,7 @@ class Replay {
       summary.compared.push_back(quantity.name);
     }
     summary.compared_stamps = comparison_->size();
+    if (neighbourhood_) summary.apart_from_jumps = neighbourhood_->errors();
     summary.guarantee = config_.guarantee;
     summary.bounded = !std::isnan(config_.law->error_bound(truth_estimate_.state.data()));
     summary.truth_is_given = !options_.truth_topic.empty();
@@ -314,6 +336,7 @@ class Replay {
   };
   std::deque<WaitingTruth> waiting_truth_;
   std::optional<Comparison> comparison_;
+  std::optional<JumpNeighbourhood> neighbourhood_;
   std::optional<SummaryRecorder> recorder_;
   std::optional<Stamp> clock_;
   EventStatus status_;

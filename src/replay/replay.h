@@ -30,6 +30,9 @@ struct ReplayOptions {
   /// The comparison is limited to these times after the first truth stamp [s].
   double from = 0.0;
   double to = std::numeric_limits<double>::infinity();
+  /// How far around jumps errors are told apart [s]; by default jumps/stamp_error, and where that
+  /// is 0 they are not.
+  std::optional<double> around_jumps;
   /// Whether a bag without the topic of the input will do: the input is zero then.
   bool may_lack_input = false;
 };

@@ -18,6 +18,22 @@ std::string shown(const std::optional<double>& value) {
   return out.str();
 }
 
+void print_apart_from_jumps(const ReplaySummary& summary, const ErrorsApart& apart,
+                            std::ostream& out) {
+  out << "  but for " << shown(apart.around) << " s around each of " << apart.jumps << " jumps, at "
+      << apart.stamps << " stamps\n";
+  const auto row = [&](const std::string& name, const std::optional<double>& value) {
+    out << "  " << std::left << std::setw(16) << name << std::right << std::setw(14) << shown(value)
+        << "\n";
+  };
+  for (std::size_t i = 0; i < summary.compared.size(); ++i) row(summary.compared[i], apart.rmse[i]);
+  row("norm", apart.rmse_norm);
+  out << "  largest norm of the error: " << shown(apart.largest) << " there, " << shown(apart.peak)
+      << " around jumps";
+  if (apart.peak_free) out << ", " << shown(apart.peak_free) << " there without the peak";
+  out << "\n";
+}
+
 void print_comparison(const ReplaySummary& summary, std::ostream& out) {
   if (summary.compared.empty()) return;
   out << "\nagainst the truth at " << summary.compared_stamps << " stamps\n";
@@ -41,6 +57,7 @@ void print_comparison(const ReplaySummary& summary, std::ostream& out) {
   }
   row("norm", shown(summary.rmse_norm), shown(summary.hold_rmse_norm),
       ratio(summary.rmse_norm, summary.hold_rmse_norm));
+  if (summary.apart_from_jumps) print_apart_from_jumps(summary, *summary.apart_from_jumps, out);
   if (!summary.bounded) return;
   if (summary.is_guarantee_broken()) {
     out << "  GUARANTEE BROKEN: the error was larger than its guaranteed bound at "
@@ -138,6 +155,17 @@ void write_json(const ReplaySummary& summary, const std::string& path) {
   json["rmse_norm"] = number(summary.rmse_norm);
   json["hold_rmse"] = by_name(summary.compared, summary.hold_rmse);
   json["hold_rmse_norm"] = number(summary.hold_rmse_norm);
+  if (summary.apart_from_jumps) {
+    const ErrorsApart& apart = *summary.apart_from_jumps;
+    json["apart_from_jumps"] = {{"around", apart.around},
+                                {"jumps", apart.jumps},
+                                {"compared_stamps", apart.stamps},
+                                {"rmse", by_name(summary.compared, apart.rmse)},
+                                {"rmse_norm", number(apart.rmse_norm)},
+                                {"largest", number(apart.largest)},
+                                {"peak", number(apart.peak)},
+                                {"peak_free", number(apart.peak_free)}};
+  }
   json["guarantee"] = summary.guarantee;
   json["inputs_or_jumps_after_bound"] = summary.after_bound;
   if (summary.bound_lost_at) {

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "replay/jump_neighbourhood.h"
+
 namespace sampled_data_observers {
 
 /// One curve or cloud of a picture: times [s since the first truth, or estimate] and values.
@@ -65,6 +67,9 @@ struct ReplaySummary {
   std::vector<std::optional<double>> hold_rmse;
   std::optional<double> rmse_norm;
   std::optional<double> hold_rmse_norm;
+
+  /// Apart from jumps, where that was asked for.
+  std::optional<ErrorsApart> apart_from_jumps;
 
   /// Theorem and guarantee of a certificate that holds; empty without.
   std::string guarantee;

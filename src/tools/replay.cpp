@@ -60,6 +60,9 @@ sdo::ReplayOptions options_of(const Arguments& arguments) {
     if (T1 > T2) throw sdo::UsageError("--thin", "T1 <= T2 must hold");
     options.thinning = sdo::ReplayOptions::Thinning{T1, T2, arguments.seed};
   }
+  if (options.around_jumps && options.truth_topic.empty() && !options.thinning) {
+    throw sdo::UsageError("--around-jumps", "needs a truth, by --truth or --thin");
+  }
   if (!arguments.assignments.empty() && options.truth_topic.empty()) {
     throw sdo::UsageError("--compare", "needs --truth");
   }
@@ -116,6 +119,10 @@ void declare(Arguments& arguments, sdo::CommandLine& tool) {
       .check(sdo::number_at_least(0));
   tool.option("--to SECONDS", arguments.to, "Compare up to this time [s after the first truth]")
       .check(sdo::number_at_least(0));
+  tool.option("--around-jumps SECONDS", options.around_jumps,
+              "Tell errors up to so long before and after jumps apart from others (default "
+              "jumps/stamp_error)")
+      .check(sdo::number_between(0.0, 1e6));
   tool.flag("--no-input", options.may_lack_input,
             "The bag need not have the topic of the input, which is zero then");
   tool.option("--plot FILE", arguments.plot,

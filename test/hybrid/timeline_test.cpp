@@ -101,6 +101,19 @@ TEST_F(TimelineTest, EveryOrderOfEventsWithOneStampGivesTheSameBits) {
   } while (std::next_permutation(events.begin(), events.end(), less));
 }
 
+TEST_F(TimelineTest, KnowsOfJumpsAfterAStamp) {
+  Timeline timeline = make();
+  EXPECT_FALSE(timeline.has_jump(0, kStart));
+  const OwnedEvent jump = {kStart + 10, EventKind::kJump, 0, {}};
+  timeline.insert(sample(kStart).view());
+  timeline.insert(jump.view());
+  timeline.insert(sample(kStart + 20).view());
+  EXPECT_TRUE(timeline.has_jump(kStart + 9, kStart + 10));
+  EXPECT_TRUE(timeline.has_jump(kStart - 5, kStart + 100));
+  EXPECT_FALSE(timeline.has_jump(kStart + 10, kStart + 100));
+  EXPECT_FALSE(timeline.has_jump(kStart - 5, kStart + 9));
+}
+
 /// Remembers the last value to the bit.
 class LastValue : public HybridSystem {
  public:

@@ -34,6 +34,18 @@ gains: {L: [[0.5], [0.5]]}
 JUMPING = SCENARIO.replace("B: [[0], [1]]}",
                            "B: [[0], [1]], jump_map: {A_d: [[1, 0], [0, 1]]}}\njumps: {}")
 
+# A mass that turns round every half second.
+BOUNCING = """
+plant: {states: [p, v], A: [[0, 1], [0, 0]], jump_map: {A_d: [[1, 0], [0, -1]]}}
+sensors: {position: {C: [[1, 0]], source: {topic: position}}}
+jumps: {}
+scenario:
+  duration: 3
+  initial_state: {p: 1, v: 1}
+  sensors: {position: {schedule: {period: 0.1}}}
+  jumps: {schedule: {period: 0.5}}
+"""
+
 # Its model escapes to infinity within 1 s of the start; the true plant starts elsewhere, and stays.
 ESCAPING = """
 plant: {states: [x], flow: {x: "x^2 - 1"}, integration: {step: 0.001}}
@@ -142,6 +154,28 @@ class ToolsTest(FolderTest):
         self.simulate()
         self.assertIn("jumps       none: the bag has no topic /jumps\n",
                       self.succeed("replay", *self.replay()))
+
+    def test_errors_around_jumps_are_told_apart(self):
+        self.scenario = self.write("scenario.yaml", BOUNCING)
+        self.observer = self.write("observer.yaml", OBSERVER.replace("DELAY", "0"))
+        self.simulate()
+        truth = ["--truth", "truth", "--json", self.path("summary.json")]
+        self.assertNotIn("around", self.succeed("replay", *self.replay(*truth)))
+        text = self.succeed("replay", *self.replay(*truth, "--around-jumps", "0.02"))
+        self.assertIn("but for 0.02 s around each of 6 jumps, at ", text)
+        with open(self.path("summary.json")) as summary:
+            apart = json.load(summary)["apart_from_jumps"]
+        self.assertEqual(apart["jumps"], 6)
+        self.assertLess(apart["compared_stamps"], 300)
+        self.assertLessEqual(apart["peak_free"], apart["peak"])
+        self.assertGreater(apart["rmse_norm"], 0.0)
+        self.observer = self.write("observer.yaml", OBSERVER.replace("DELAY", "0") +
+                                   "jumps: {stamp_error: 0.01}\n")
+        self.scenario = self.write("plant.yaml", BOUNCING.replace("jumps: {}\n", ""))
+        self.assertIn("but for 0.01 s around each of 6 jumps, at ",
+                      self.succeed("replay", *self.replay(*truth)))
+        self.assertIn("--around-jumps: needs a truth",
+                      self.refuse("replay", *self.replay("--around-jumps", "1")))
 
     def test_a_comparison_that_begins_after_the_bag_is_refused(self):
         self.simulate()
