@@ -18,7 +18,7 @@ const char* describe(BoundLoss loss) {
     case BoundLoss::kUnknownJump:
       return "a jump was rejected, so that the estimate lacks it";
     case BoundLoss::kStillOnTheirWay:
-      return "events may still be on their way (error_assumptions/latency)";
+      return "events may still be on their way (error_assumptions/latency, jumps/stamp_error)";
     case BoundLoss::kNearJump:
       return "a jump was told so near to it that the plant may have made it before or after "
              "(jumps/stamp_error)";

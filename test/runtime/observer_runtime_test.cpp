@@ -229,5 +229,27 @@ TEST_F(BoundedRuntimeTest, KeepsItsBoundOverAPauseInWhichNoInputCame) {
   }
 }
 
+TEST(UncertainJumpsRuntimeTest, AJumpStampedALittleAfterABoundMayHaveBeenBeforeIt) {
+  const ObserverConfig config =
+      test::CertifiedGains("config/examples/bernard2022_impulsive/gains.yaml")
+          .with("{rate: 100, publish_delay: 0.05, jumps: {stamp_error: 0.05}}")
+          .assuming("{initial_error: 1, noise: 0}")
+          .config();
+  ObserverRuntime runtime(config);
+  const auto jump = [&](Stamp stamp, Stamp now) {
+    const double y = 0.0;
+    return runtime.receive({stamp, EventKind::kJump, 0, &y, 1}, now);
+  };
+  EXPECT_TRUE(jump(1'000'000'000, 1'000'000'000).used());
+  double bound = 0.0;
+  while (const Estimate* estimate = runtime.next_due(1'500'000'000)) {
+    bound = runtime.bound(*estimate).value;
+    EXPECT_EQ(estimate->stamp <= 1'050'000'000, std::isinf(bound)) << estimate->stamp;
+  }
+  EXPECT_TRUE(std::isfinite(bound));  // of 1.45 s
+  EXPECT_FALSE(jump(1'500'000'001, 1'501'000'000).came_after_bound);
+  EXPECT_TRUE(jump(1'500'000'000, 1'501'000'000).came_after_bound);
+}
+
 }  // namespace
 }  // namespace sampled_data_observers
