@@ -1,19 +1,17 @@
 """What tests in python need of ROS: the package's tools, and launches with a roscore of their own."""
 import os
 import signal
-import socket
 import subprocess
 
 PACKAGE = "sampled_data_observers"
+FREE_PORT = os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..", "scripts", "free_port")
 
 # A shell has what it starts in the background ignore Ctrl-C, and so all that this starts.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 def free_port():
-    with socket.socket() as probe:
-        probe.bind(("", 0))
-        return probe.getsockname()[1]
+    return int(subprocess.check_output([FREE_PORT]))
 
 
 def find_tool(name):
