@@ -33,7 +33,7 @@ class Run {
       largest = std::max(largest, bound(now_));
     }
     if (jumps_) {
-      bound_.jump(0.0, now_.data());  // none is told twice
+      bound_.jump({}, now_.data());  // none is told twice, or at a wrong time
     } else {
       bound_.sample(now_.data(), workspace_.data());
     }
