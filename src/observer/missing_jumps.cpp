@@ -15,8 +15,8 @@ void require_for_watch(bool holds, const char* what) {
   if (!holds) throw std::invalid_argument(std::string("MissingJumpsWatch: ") + what);
 }
 
-StateSet without_margins(StateSet set) {
-  set.margins.setZero();
+StateSet with_margins_times(double factor, StateSet set) {
+  set.margins *= factor;
   return set;
 }
 
@@ -32,7 +32,8 @@ MissingJumpsWatch::MissingJumpsWatch(const std::shared_ptr<const ObserverLaw>& i
                                      MissingJumps options)
     : LawDecorator(inner),
       options_(std::move(options)),
-      flow_set_(without_margins(options_.flow_set)) {
+      flow_set_(with_margins_times(0.0, options_.flow_set)),
+      inner_set_(with_margins_times(-1.0, options_.flow_set)) {
   require_for_watch(options_.flow_set.formulas->size() == options_.flow_set.margins.size() &&
                         options_.flow_set.margins.minCoeff() >= 0.0,
                     "one margin, not negative, for each formula of the flow set");
@@ -56,6 +57,7 @@ void MissingJumpsWatch::initialize(double* state) const {
   since_double_.restart(state);
   flowed_.set(0.0, state);
   is_noticed_.set(false, state);
+  is_doubted_.set(false, state);
   missing_.set(0.0, state);
 }
 
@@ -74,6 +76,7 @@ void MissingJumpsWatch::flow_step_of(Duration duration, double* state, double* w
     law().flow(duration, double_.of(state), workspace);
     flowed_.set(flowed_.of(state) + static_cast<double>(duration), state);
   }
+  if (is_doubted_.of(state)) return;
   if (is_inside(state, workspace)) {
     has_double_.set(false, state);
     is_noticed_.set(false, state);
@@ -130,12 +133,14 @@ Duration MissingJumpsWatch::time_of_leaving(Duration duration, double* trial,
 
 Effect MissingJumpsWatch::reset(const Event& event, double* state, double* workspace) const {
   forget_where_held(state);
+  const bool is_jump = event.kind == EventKind::kJump;
+  const bool is_doubtful = is_jump && !is_near_edge(state, workspace);
   const Effect effect = law().reset(event, state, workspace);
-  if (!has_double_.of(state)) return effect;
-  if (event.kind != EventKind::kJump) {
-    law().reset(event, double_.of(state), workspace);
-  } else if (took_effect(effect)) {
+  if (is_jump && took_effect(effect)) {
     has_double_.set(false, state);
+    is_doubted_.set(is_doubtful, state);
+  } else if (!is_jump && has_double_.of(state)) {
+    law().reset(event, double_.of(state), workspace);
   }
   return effect;
 }
@@ -150,6 +155,11 @@ bool MissingJumpsWatch::is_inside(const double* state, double* workspace) const 
 
 bool MissingJumpsWatch::is_within_margin(const double* state, double* workspace) const {
   return options_.flow_set.contains(state, observer().held_part(state), values_.of(workspace));
+}
+
+bool MissingJumpsWatch::is_near_edge(const double* state, double* workspace) const {
+  return is_within_margin(state, workspace) &&
+         !inner_set_.contains(state, observer().held_part(state), values_.of(workspace));
 }
 
 }  // namespace sampled_data_observers

@@ -30,6 +30,10 @@ struct MissingJumps {
 /// itself: one that jumped then. Both take all events. When the event of a jump comes, the double
 /// goes; when the estimate is beyond the margin, the double takes its place, and a guaranteed error
 /// bound is lost. What is seen depends on the events alone, however flows are divided.
+///
+/// An estimate that is wrong leaves the set at wrong times. So nothing is missing, nor made up,
+/// from a jump that has effect on while the estimate is not within the margin of the set's edge,
+/// inside or outside, until one has while it is.
 class MissingJumpsWatch : public LawDecorator, private JumpWatch {
  public:
   /// @throws std::invalid_argument for a step or margins out of range, and for kPredict where jumps
@@ -49,9 +53,11 @@ class MissingJumpsWatch : public LawDecorator, private JumpWatch {
   void forget_where_held(double* state) const;
   bool is_inside(const double* state, double* workspace) const;
   bool is_within_margin(const double* state, double* workspace) const;
+  bool is_near_edge(const double* state, double* workspace) const;
 
   MissingJumps options_;
-  StateSet flow_set_;  ///< without margins
+  StateSet flow_set_;   ///< without margins
+  StateSet inner_set_;  ///< with negative ones
 
   VectorSlot double_ = state_layout().vector(law().state_size());
   FlagSlot has_double_ = state_layout().flag();
@@ -60,6 +66,7 @@ class MissingJumpsWatch : public LawDecorator, private JumpWatch {
   TimerSlot since_double_ = state_layout().timer();
   NumberSlot flowed_ = state_layout().number();
   FlagSlot is_noticed_ = state_layout().flag();
+  FlagSlot is_doubted_ = state_layout().flag();
   NumberSlot missing_ = state_layout().number();
 
   VectorSlot before_ = scratch(law().state_size());

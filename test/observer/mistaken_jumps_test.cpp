@@ -105,9 +105,10 @@ class MistakenJumpsTest : public ::testing::Test {
   /// An estimate that begins with the fall, and takes the events.
   class Run {
    public:
-    Run(const ObserverConfig& config, const std::vector<OwnedEvent>& events)
+    Run(const ObserverConfig& config, const std::vector<OwnedEvent>& events,
+        const Eigen::Vector2d& start = {5.0, 0.0})
         : estimator_(config.law, config.options), estimate_(estimator_.make_estimate()) {
-      estimator_.restart(kStart, Eigen::Vector2d(5.0, 0.0));
+      estimator_.restart(kStart, start);
       for (const OwnedEvent& event : events) {
         outcomes.push_back(estimator_.submit(event.view(), kStart + 10 * kSecond).outcome);
       }
@@ -212,6 +213,31 @@ TEST_F(MistakenJumpsTest, AMissedBounceIsMadeUpWhenItWasDue) {
     EXPECT_EQ(0, predicted.count(EventOutcome::kNotPossible));
     EXPECT_LT(largest_error(predicted, to_seconds(due - kStart) + 0.25, 6.9), 1e-5) << missed;
   }
+}
+
+TEST_F(MistakenJumpsTest, AnEstimateThatIsWrongMissesNoJump) {
+  // High up at the first bounce, and then far too slow: it falls through the floor.
+  const Eigen::Vector2d wrong(0.1, 8.0);
+  Run plain(configure("{}"), bounces(), wrong);
+  Run predicted(configure("jumps: {missing: {margin: 0.6, action: predict}}"), bounces(), wrong);
+  double lowest = 0.0;
+  for (Stamp stamp = kStart; stamp < kStart + 7 * kSecond; stamp += kSecond / 50) {
+    lowest = std::min(lowest, plain.at(stamp)(0));
+    ASSERT_NEAR(0.0, (predicted.at(stamp) - plain.at(stamp)).norm(), 1e-6)
+        << to_seconds(stamp - kStart);
+  }
+  EXPECT_LT(lowest, -1.0);
+  EXPECT_EQ(0.0, predicted.missing_at(kStart + 7 * kSecond));
+}
+
+TEST_F(MistakenJumpsTest, AnEstimateThatWasRightAgainMissesJumps) {
+  std::vector<OwnedEvent> events = bounces();
+  const Stamp due = events.back().stamp;
+  events.pop_back();
+  Run run(configure("jumps: {missing: {margin: 0.6, action: predict}}"), events,
+          Eigen::Vector2d(6.0, 0.5));
+  EXPECT_EQ(0.0, run.missing_at(due));
+  EXPECT_EQ(1.0, run.missing_at(due + kSecond / 2));
 }
 
 TEST_F(MistakenJumpsTest, WhatIsMissingIsReportedOnce) {
