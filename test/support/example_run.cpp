@@ -13,23 +13,12 @@
 namespace sampled_data_observers::test {
 namespace {
 
-/// How long after its stamp the last event can arrive.
-Duration longest_latency(const Scenario& scenario) {
-  Duration longest = 0;
-  for (const SensorScenario& sensor : scenario.sensors) {
-    longest = std::max(longest, sensor.delivery.longest);
-  }
-  if (scenario.jumps) longest = std::max(longest, scenario.jumps->delivery.longest);
-  return longest;
-}
-
 /// Gives the messages of a simulation to an estimator, as the nodelets do, and asks it for the
 /// estimates at the stamps of the truth and of the jumps once all events up to these have come.
 class Runner {
  public:
   Runner(Scenario scenario, const ObserverConfig& config, bool from_zero)
       : config_(config),
-        latency_(longest_latency(scenario)),
         start_(scenario.start),
         simulator_(std::move(scenario)),
         estimator_(config.law, config.options),
@@ -38,12 +27,23 @@ class Runner {
     if (from_zero) estimator_.restart(start_ - 1);
   }
 
-  ExampleRun run() {
-    while (const auto message = simulator_.next()) {
-      while (!questions_.empty() && questions_.begin()->first + latency_ < message->arrival) {
+  ExampleRun run(const std::function<void(ToldJumps&)>& change) {
+    std::vector<SimulatedMessage> messages;
+    while (auto message = simulator_.next()) messages.push_back(std::move(*message));
+    if (change) {
+      ToldJumps jumps(simulator_, std::move(messages));
+      change(jumps);
+      messages = std::move(jumps).messages();
+    }
+    Duration longest_latency = 0;
+    for (const SimulatedMessage& message : messages) {
+      longest_latency = std::max(longest_latency, message.arrival - message.stamp);
+    }
+    for (const SimulatedMessage& message : messages) {
+      while (!questions_.empty() && questions_.begin()->first + longest_latency < message.arrival) {
         answer_next();
       }
-      take(*message);
+      take(message);
     }
     while (!questions_.empty()) answer_next();
     run_.end = simulator_.end();
@@ -125,7 +125,6 @@ class Runner {
   }
 
   const ObserverConfig& config_;
-  Duration latency_;
   Stamp start_;
   Simulator simulator_;
   Estimator estimator_;
@@ -146,6 +145,11 @@ Example& Example::from_zero() {
 
 Example& Example::change_scenario(std::function<void(Scenario&)> change) {
   changes_.push_back(std::move(change));
+  return *this;
+}
+
+Example& Example::tell(std::function<void(ToldJumps&)> change) {
+  tell_ = std::move(change);
   return *this;
 }
 
@@ -193,7 +197,8 @@ ObserverConfig Example::observer(const std::string& scenario_file,
 }
 
 ExampleRun Example::run(const std::string& scenario_file, const std::string& observer_file) const {
-  return Runner(scenario(scenario_file), observer(scenario_file, observer_file), from_zero_).run();
+  return Runner(scenario(scenario_file), observer(scenario_file, observer_file), from_zero_)
+      .run(tell_);
 }
 
 }  // namespace sampled_data_observers::test

@@ -9,6 +9,7 @@
 #include "sampled_data_observers/config/observer_config.h"
 #include "simulation/scenario.h"
 #include "simulation/simulator.h"
+#include "support/told_jumps.h"
 #include "support/trajectory.h"
 
 namespace sampled_data_observers::test {
@@ -30,7 +31,7 @@ struct ExampleRun {
   Trajectory error;        ///< estimate minus truth
   Trajectory error_bound;  ///< the guaranteed one
   std::vector<double> sample_times;
-  std::vector<Jump> jumps;
+  std::vector<Jump> jumps;  ///< of which the observer was told
   Simulator::End end = Simulator::End::kNone;
   double end_time = 0.0;
   /// Events that came twice, and those that were refused or had no effect for another reason.
@@ -52,6 +53,8 @@ class Example {
   /// event.
   Example& from_zero();
   Example& change_scenario(std::function<void(Scenario&)> change);
+  /// Changes what the observer is told of the jumps of the plant, which jumps as it does.
+  Example& tell(std::function<void(ToldJumps&)> change);
   Example& seed(std::uint64_t seed);
   Example& duration(double seconds);
   /// Replaces keys of the observer's files by those of a YAML text.
@@ -74,6 +77,7 @@ class Example {
   std::string gains_;
   bool from_zero_ = false;
   std::vector<std::function<void(Scenario&)>> changes_;
+  std::function<void(ToldJumps&)> tell_;
   ConfigNode overriding_;
 };
 
