@@ -111,6 +111,25 @@ TEST(MistakenBounces, AKalmanFilterThatKnowsOfJitterRecoversInThreeBounces) {
   }
 }
 
+// So a replay, in which nothing is late, gives what was estimated live.
+TEST(MistakenBounces, WhatIsMadeUpAndRefusedIsTheSameHoweverLateTheEventsAre) {
+  Example example("bernard2022_bouncing_ball", "gains_kalman_jitter.yaml");
+  example.tell([](ToldJumps& jumps) {
+    jumps.drop(3);
+    jumps.repeat(5, 2 * kMillisecond);
+    jumps.add(4.2);
+    jumps.jitter(2, 8, 20 * kMillisecond);
+  });
+  const ExampleRun at_once = example.run("scenario.yaml", "observer_guarded.yaml");
+  example.change_scenario([](Scenario& scenario) {
+    scenario.jumps->delivery.shortest = kNanosecondsPerSecond / 10;
+    scenario.jumps->delivery.longest = kNanosecondsPerSecond;
+  });
+  const ExampleRun late = example.run("scenario.yaml", "observer_guarded.yaml");
+  EXPECT_EQ(2u, at_once.refused);
+  EXPECT_TRUE(are_same(at_once, late));
+}
+
 /// Its error is below 1e-4 m before the tenth jump, at about 37 s.
 Recovery impulsive(const std::string& gains) {
   return {Example("bernard2022_impulsive", gains), 30 * kMillisecond, "observer.yaml"};

@@ -12,6 +12,15 @@
 
 namespace sampled_data_observers::test {
 
+/// Whether two runs have the same estimates, bit for bit.
+inline bool are_same(const ExampleRun& a, const ExampleRun& b) {
+  if (a.estimate.size() != b.estimate.size()) return false;
+  for (std::size_t i = 0; i < a.estimate.size(); ++i) {
+    if (a.estimate.value(i) != b.estimate.value(i)) return false;
+  }
+  return true;
+}
+
 /// An example that hears of some jumps wrongly, beside the same one that hears of them as they are.
 class Recovery {
  public:
