@@ -14,7 +14,7 @@
 namespace sampled_data_observers::test {
 namespace {
 
-const char kImpulsive[] = "config/examples/bernard2022_impulsive/gains.yaml";
+const char kImpulsiveGains[] = "config/examples/bernard2022_impulsive/gains.yaml";
 const char kBall[] = "config/examples/bernard2022_bouncing_ball/gains.yaml";
 const char kTwoOutputs[] = "test/certificate/attack/impulsive/bernard2022_corollary5_2.yaml";
 const char kEquation26[] = "test/certificate/bernard2022_bouncing_ball_equation26.yaml";
@@ -172,18 +172,19 @@ TEST_P(JumpStampErrorTest, UndeclaredItBreaksTheBound) {
 
 INSTANTIATE_TEST_SUITE_P(
     Attacks, JumpStampErrorTest,
-    ::testing::Values(Attack{kImpulsive, kFast, 0.05, 0.0, 0.0, 0.0, 2.0, 5.0, 0.2},
-                      Attack{kImpulsive, kFast, 0.001, 0.0, 0.0, 0.0, 2.0, 5.0, 0.2},
-                      Attack{kImpulsive, kAtRest, 0.01, 1.0, 0.0, 0.0, 2.0, 5.0, 0.2},
-                      Attack{kImpulsive, kFast, 0.001, 0.1, 0.01, 0.0, 2.0, 5.0, 0.2},
-                      Attack{kImpulsive, kAtRest, 0.2, 0.0, 0.0, 0.5, 2.0, 5.0, 0.1},
+    ::testing::Values(Attack{kImpulsiveGains, kFast, 0.05, 0.0, 0.0, 0.0, 2.0, 5.0, 0.2},
+                      Attack{kImpulsiveGains, kFast, 0.001, 0.0, 0.0, 0.0, 2.0, 5.0, 0.2},
+                      Attack{kImpulsiveGains, kAtRest, 0.01, 1.0, 0.0, 0.0, 2.0, 5.0, 0.2},
+                      Attack{kImpulsiveGains, kFast, 0.001, 0.1, 0.01, 0.0, 2.0, 5.0, 0.2},
+                      Attack{kImpulsiveGains, kAtRest, 0.2, 0.0, 0.0, 0.5, 2.0, 5.0, 0.1},
                       Attack{kBall, kFalling, 0.005, 0.0, 0.0, 0.0, 0.3, 2.0, 0.02},
                       Attack{kBall, kFalling, 0.001, 0.5, 0.01, 0.0, 0.1, 2.0, 0.02},
                       Attack{kEquation26, kFalling, 0.002, 0.0, 0.001, 0.0, 0.2, 1.0, 0.01},
                       Attack{kTwoOutputs, kFast, 0.02, 0.0, 0.01, 0.0, 0.3, 0.5, 0.01}));
 
 TEST(JumpStampErrorRunTest, TheBoundIsKnownSoMuchLaterAndNotAroundAJump) {
-  const ObserverConfig config = config_of({kImpulsive, kFast, 0.1, 0.5, 0.0, 0.0, 2.0, 5.0, 0.0});
+  const ObserverConfig config =
+      config_of({kImpulsiveGains, kFast, 0.1, 0.5, 0.0, 0.0, 2.0, 5.0, 0.0});
   TrueRun run(config, Eigen::Vector3d(0.3, 0.0, 0.4));
   run.jump(3.0, 0.0, 0.1);
   run.tell(4.0);
@@ -203,7 +204,8 @@ TEST(JumpStampErrorRunTest, TheBoundIsKnownSoMuchLaterAndNotAroundAJump) {
 
 TEST(JumpStampErrorRunTest, JumpsToldTooNearToOneAnotherLoseIt) {
   for (const double apart : {0.2, 0.201}) {
-    const ObserverConfig config = config_of({kImpulsive, kFast, 0.1, 0.5, 0.0, 0.0, 2.0, 5.0, 0.0});
+    const ObserverConfig config =
+        config_of({kImpulsiveGains, kFast, 0.1, 0.5, 0.0, 0.0, 2.0, 5.0, 0.0});
     TrueRun run(config, Eigen::Vector3d(0.3, 0.0, 0.4));
     run.jump(3.0, 0.0);
     run.jump(3.0 + apart, 0.0);
@@ -219,7 +221,7 @@ TEST(JumpStampErrorRunTest, OutsideOfTheTimesInQuestionErrorAndBoundAreOfTheirOr
   double bound_per_second = 0.0;
   for (const double delta : {0.001, 0.00025, 0.0000625}) {
     // The times between stamps, too, lie within [T1, T2].
-    const Attack attack{kImpulsive, kFast, delta, 0.0, 0.0, 0.0, 2.1, 4.9, 0.0};
+    const Attack attack{kImpulsiveGains, kFast, delta, 0.0, 0.0, 0.0, 2.1, 4.9, 0.0};
     const ObserverConfig config = config_of(attack);
     Found found;
     for (std::uint64_t seed = 0; seed < 30; ++seed)
@@ -234,7 +236,7 @@ TEST(JumpStampErrorRunTest, OutsideOfTheTimesInQuestionErrorAndBoundAreOfTheirOr
 }
 
 TEST(JumpStampErrorRunTest, InputsLoseIt) {
-  const ObserverConfig config = CertifiedGains(kImpulsive)
+  const ObserverConfig config = CertifiedGains(kImpulsiveGains)
                                     .with("plant: {inputs: [u], B: [[0], [1], [0]]}")
                                     .with("jumps: {stamp_error: 0.1}")
                                     .with_own_hash()
@@ -248,7 +250,8 @@ TEST(JumpStampErrorRunTest, InputsLoseIt) {
 }
 
 TEST(JumpStampErrorRunTest, ANewLawGoesOnFromWhatIsKnownAlsoNearAJump) {
-  const ObserverConfig config = config_of({kImpulsive, kFast, 0.1, 0.5, 0.0, 0.0, 2.0, 5.0, 0.0});
+  const ObserverConfig config =
+      config_of({kImpulsiveGains, kFast, 0.1, 0.5, 0.0, 0.0, 2.0, 5.0, 0.0});
   for (const double reload : {2.85, 3.05, 3.5}) {
     TrueRun run(config, Eigen::Vector3d(0.3, 0.0, 0.4));
     run.jump(3.0, 0.0, 0.1);
@@ -267,7 +270,7 @@ TEST(JumpStampErrorRunTest, ANewLawGoesOnFromWhatIsKnownAlsoNearAJump) {
 
 TEST(JumpStampErrorRunTest, ItMustFitIntoTheHistoryWhereThereAreBounds) {
   const auto config = [](const std::string& stamp_error) {
-    return CertifiedGains(kImpulsive)
+    return CertifiedGains(kImpulsiveGains)
         .with("history: {duration: 1, max_events: 10}")
         .with("future_tolerance: 0.1")
         .with("jumps: {stamp_error: " + stamp_error + "}")

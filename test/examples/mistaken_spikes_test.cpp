@@ -9,6 +9,7 @@
 #include <string>
 
 #include "support/example_run.h"
+#include "support/long_tests.h"
 #include "support/recovery.h"
 
 namespace sampled_data_observers::test {
@@ -70,8 +71,9 @@ TEST_F(MistakenSpikesOfHighGainNeuron, FalseSpikesAreNotTaken) {
 }
 
 TEST_F(MistakenSpikesOfHighGainNeuron, JitterCostsNoMore) {
+  const std::uint64_t seeds = long_tests_are_wanted() ? 3 : 1;
   for (const double jitter : {0.02, 0.1, 0.5, 1.0}) {
-    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
       EXPECT_LT(after(guarded(), 3, [=](ToldJumps& jumps) { jumps.jitter(1, 3, jitter, seed); }),
                 kRecovery)
           << jitter << ' ' << seed;

@@ -31,7 +31,7 @@ std::shared_ptr<const HybridKalmanFilter> filter(const PlantDescription& descrip
       ObserverContext{plant, start, Eigen::VectorXd::Zero(0)}, covariances);
 }
 
-Eigen::MatrixXd covariance(const ObserverLaw& law, const LawRunner& runner) {
+Eigen::MatrixXd covariance_of(const ObserverLaw& law, const LawRunner& runner) {
   const Eigen::Index n = law.estimate_size();
   return Eigen::Map<const Eigen::MatrixXd>(law.observer().covariance(runner.state().data()), n, n);
 }
@@ -74,17 +74,17 @@ TEST(UncertainJumpStampsTest, AddTheSaltationOfTheJumpToTheVariance) {
   // Into mode 2: s = b - r a.
   EXPECT_DOUBLE_EQ(r * 4.0 + c, runner.estimate()(0));
   double P = r * r * 2.0 + 0.01 + std::pow(sigma * (b - r * a), 2);
-  EXPECT_NEAR(P, covariance(*law, runner)(0, 0), 1e-15);
+  EXPECT_NEAR(P, covariance_of(*law, runner)(0, 0), 1e-15);
   // Back, without jump map: s = a - b.
   runner.jump({}, 1.0);
   P += 0.01 + std::pow(sigma * (a - b), 2);
-  EXPECT_NEAR(P, covariance(*law, runner)(0, 0), 1e-15);
+  EXPECT_NEAR(P, covariance_of(*law, runner)(0, 0), 1e-15);
   // A jump that changes neither state nor field says nothing of its time.
   const auto still = filter(scalar_plant(a, a, 1.0, 0.0), Eigen::VectorXd::Constant(1, 4.0),
                             scalar_covariances(2.0, 0.3, 0.0, sigma));
   LawRunner unmoved(still);
   unmoved.jump({}, 2.0);
-  EXPECT_DOUBLE_EQ(2.0, covariance(*still, unmoved)(0, 0));
+  EXPECT_DOUBLE_EQ(2.0, covariance_of(*still, unmoved)(0, 0));
 }
 
 TEST(UncertainJumpStampsTest, OutputsAtAJumpTellOfItsTime) {
@@ -101,7 +101,7 @@ TEST(UncertainJumpStampsTest, OutputsAtAJumpTellOfItsTime) {
   const Eigen::RowVector2d onward(r, b - r * a);
   joint = ((Eigen::Matrix2d::Identity() - K * C) * joint).eval();
   EXPECT_NEAR(r * 4.0 + c + (onward * K)(0, 0) * 0.2, runner.estimate()(0), 1e-14);
-  EXPECT_NEAR((onward * joint * onward.transpose())(0, 0) + Q_d, covariance(*law, runner)(0, 0),
+  EXPECT_NEAR((onward * joint * onward.transpose())(0, 0) + Q_d, covariance_of(*law, runner)(0, 0),
               1e-14);
 }
 
@@ -207,7 +207,7 @@ double mean_nees(double stamp_deviation, bool has_contact) {
         truth.flow(kApart);
         flow_filter_to(kApart);
         const Eigen::Vector2d error = truth.x() - Eigen::Vector2d(runner.estimate());
-        sum += error.dot(test::inverse(covariance(*law, runner)) * error);
+        sum += error.dot(test::inverse(covariance_of(*law, runner)) * error);
         ++count;
       }
       Ball seen = plant;

@@ -13,7 +13,9 @@
 namespace sampled_data_observers {
 namespace {
 
-constexpr Stamp kFirst = 1000 * kNanosecondsPerSecond;
+using test::kFirst;
+using test::same;
+
 constexpr Duration kMillisecond = 1'000'000;
 
 /// It jumps every 0.1 s; x is the time since the start, and impact has a topic of its own.
@@ -51,13 +53,6 @@ struct SimulatedRun {
   Simulator simulator;
   std::vector<SimulatedMessage> messages;
 };
-
-bool same(const std::vector<SimulatedMessage>& a, const std::vector<SimulatedMessage>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& m, const auto& n) {
-    return m.stamp == n.stamp && m.arrival == n.arrival && m.values == n.values &&
-           m.mode == n.mode && m.jumps == n.jumps;
-  });
-}
 
 /// Of the jump at 0.1 s, 0.2 s ... that is nearest.
 Duration error_of(const SimulatedMessage& jump) {

@@ -8,7 +8,8 @@
 namespace sampled_data_observers {
 namespace {
 
-constexpr Stamp kFirst = 1000 * kNanosecondsPerSecond;
+using test::kFirst;
+
 constexpr double kGravity = 9.81;
 
 /// A ball that falls from 5 m and keeps 0.8 of its speed at each impact.

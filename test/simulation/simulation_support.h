@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,9 @@
 #include "simulation/simulator.h"
 
 namespace sampled_data_observers::test {
+
+/// Where a scenario begins.
+inline constexpr Stamp kFirst = 1000 * kNanosecondsPerSecond;
 
 inline Scenario parse_scenario(const std::string& text) {
   const auto no_plugins = [](const std::string&) -> std::shared_ptr<const PlantPlugin> {
@@ -39,6 +43,14 @@ inline std::vector<SimulatedMessage> on_topic(const Simulator& simulator,
     if (simulator.channels()[message.channel].topic == topic) found.push_back(message);
   }
   return found;
+}
+
+/// Whether two simulations sent the same.
+inline bool same(const std::vector<SimulatedMessage>& a, const std::vector<SimulatedMessage>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& m, const auto& n) {
+    return m.channel == n.channel && m.stamp == n.stamp && m.arrival == n.arrival &&
+           m.values == n.values && m.mode == n.mode && m.jumps == n.jumps;
+  });
 }
 
 }  // namespace sampled_data_observers::test

@@ -10,7 +10,9 @@
 namespace sampled_data_observers {
 namespace {
 
-constexpr Stamp kStart = 1000 * kNanosecondsPerSecond;
+using test::same;
+
+constexpr Stamp kStart = test::kFirst;
 
 const char kCart[] = R"yaml(
 plant:
@@ -34,17 +36,6 @@ scenario:
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
   return text.replace(text.find(from), from.size(), to);
-}
-
-bool same(const std::vector<SimulatedMessage>& a, const std::vector<SimulatedMessage>& b) {
-  if (a.size() != b.size()) return false;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    if (a[i].channel != b[i].channel || a[i].stamp != b[i].stamp || a[i].arrival != b[i].arrival ||
-        a[i].values != b[i].values) {
-      return false;
-    }
-  }
-  return true;
 }
 
 TEST(SimulatorTest, TheSameSeedGivesTheSameBitsAndAnotherDoesNot) {
