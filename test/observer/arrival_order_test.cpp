@@ -18,6 +18,7 @@
 #include "observer/missing_jumps.h"
 #include "observer/numbered_jumps.h"
 #include "observer/possible_jumps.h"
+#include "support/long_tests.h"
 #include "support/stamps.h"
 #include "support/type_examples.h"
 
@@ -28,7 +29,8 @@ using test::kSecond;
 using test::kStart;
 using test::OwnedEvent;
 
-constexpr double kEventSets = 500.0;
+constexpr double kEventSets = 250.0;
+constexpr double kEventSetsOfLongTests = 5000.0;
 /// In which each set comes, to a log with place for all and to one without.
 constexpr int kOrders = 4;
 constexpr Duration kSpan = kSecond / 2;
@@ -57,7 +59,8 @@ std::vector<std::string> subjects() {
 
 std::size_t sets_for_each_subject() {
   const char* text = std::getenv("SDO_EVENT_SETS");
-  const double sets = text == nullptr ? kEventSets : std::strtod(text, nullptr);
+  const double usual = test::long_tests_are_wanted() ? kEventSetsOfLongTests : kEventSets;
+  const double sets = text == nullptr ? usual : std::strtod(text, nullptr);
   return static_cast<std::size_t>(std::ceil(sets / static_cast<double>(subjects().size())));
 }
 
