@@ -10,7 +10,7 @@ using Kind = JumpDetector::Kind;
 using Options = JumpDetector::Options;
 
 constexpr double kLargest = 1e100;
-constexpr double kLongest = 1e6;  // s
+constexpr double kLongestSpan = 1e6;  // s
 constexpr std::size_t kLongestWindow = 1000;
 constexpr std::size_t kFewestForScale = 20;
 constexpr std::size_t kMostForScale = 10000;
@@ -89,7 +89,7 @@ DetectorConfig read_detector(ConfigSection& section, const std::vector<std::stri
   if (section.has("mode")) detector.mode = formulas.read_text(section, "mode");
   Options& options = detector.options;
   read_jump(section, options);
-  options.refractory = from_seconds(section.number_in("refractory", 0.0, kLongest, 0.0));
+  options.refractory = from_seconds(section.number_in("refractory", 0.0, kLongestSpan, 0.0));
   if (section.has("energy")) {
     ConfigSection energy = section.section("energy");
     detector.energy = formulas.read_text(energy, "formula");
