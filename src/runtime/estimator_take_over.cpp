@@ -1,0 +1,96 @@
+// How an estimator goes on from another one, whose law was at work before: late events of that time
+// are applied by that law.
+#include <algorithm>
+#include <utility>
+
+#include "sampled_data_observers/observer/plant_observer.h"
+#include "sampled_data_observers/runtime/estimator.h"
+
+namespace sampled_data_observers {
+
+/// Whether what was taken over can still be changed by a late event.
+bool Estimator::has_earlier() const {
+  return taken_over_at_ && timeline_.earliest() == taken_over_at_;
+}
+
+/// Whether an event of that stamp belongs to what was taken over, and inside the window.
+bool Estimator::is_earlier(Stamp stamp) const {
+  if (!has_earlier() || stamp > *taken_over_at_) return false;
+  const std::optional<Stamp> newest = timeline_.newest();
+  return !newest || stamp >= *newest - options_.history.history;
+}
+
+/// Applies an event of before the take-over by the law of its time, and all since then anew.
+EventReport Estimator::submit_earlier(const Event& event, Stamp now) {
+  EventReport report = earlier_->submit(event, now);
+  if (report.outcome == EventOutcome::kDuplicate) return report;
+  if (event.kind == EventKind::kInput) {
+    if (report.used()) {
+      learn_input(event.stamp);
+    } else {
+      miss_input(event.stamp);
+    }
+  }
+  if (report.outcome == EventOutcome::kTooOld) mark_what_is_unseen(event.kind, event.stamp);
+  go_on_from_earlier();
+  if (timeline_.size() == 0) return report;
+  report.rewound += timeline_.size();
+  if (report.outcome == EventOutcome::kUsed) report.outcome = EventOutcome::kUsedLate;
+  return report;
+}
+
+/// What was taken over may be able to mark something only behind its end.
+void Estimator::mark_what_is_unseen(EventKind kind, Stamp stamp) {
+  if (earlier_->timeline_.earliest_insertion().value_or(0) > *taken_over_at_) {
+    insert_rejected(kind, stamp);
+  }
+}
+
+const Estimator& Estimator::at(Stamp stamp) const {
+  return has_earlier() && stamp < *taken_over_at_ ? earlier_->at(stamp) : *this;
+}
+
+Estimator& Estimator::responsible_for(Stamp stamp) {
+  return has_earlier() && stamp < *taken_over_at_ ? earlier_->responsible_for(stamp) : *this;
+}
+
+void Estimator::take_over(Estimator& other, Stamp stamp) {
+  awaits_sample_ = other.awaits_sample_;
+  input_unknown_since_ = other.input_unknown_since_;
+  began_at_ = other.began_at_;
+  taken_over_at_ = std::max({stamp, other.timeline_.earliest().value_or(stamp),
+                             other.timeline_.newest().value_or(stamp)});
+  earlier_ = std::make_unique<Estimator>(std::move(other));
+  const bool begins = prepare_take_over();
+  if (begins) timeline_.restart(*taken_over_at_, restart_state_, earlier_->before_restart_.held);
+  if (!begins || awaits_sample_) {
+    taken_over_at_.reset();
+    other.earlier_ = std::move(earlier_);  // NOLINT(bugprone-use-after-move): it is assigned to
+    return;
+  }
+  Estimator* oldest = earlier_.get();
+  for (int kept = 1; kept < kEarlierLaws && oldest->has_earlier(); ++kept) {
+    oldest = oldest->earlier_.get();
+  }
+  oldest->taken_over_at_.reset();
+  // Whoever destroys it frees that, too. NOLINTNEXTLINE(bugprone-use-after-move)
+  other.earlier_ = std::move(oldest->earlier_);
+}
+
+/// After a change of what was taken over.
+void Estimator::go_on_from_earlier() {
+  if (prepare_take_over())
+    timeline_.rebase(*taken_over_at_, restart_state_, earlier_->before_restart_.held);
+}
+
+/// Sets the state to start from where what was taken over ends.
+bool Estimator::prepare_take_over() {
+  if (!prepare_restart(*earlier_, *taken_over_at_)) return false;
+  const double* before = earlier_->before_restart_.state.data();
+  const ObserverLaw& law = *earlier_->law_;
+  law_->observer().start_from(before, restart_state_.data());
+  law_->keep_bound(law.known_bound(before), restart_state_.data());
+  return true;
+}
+
+}  // namespace sampled_data_observers
