@@ -83,20 +83,29 @@ void MissingJumpsWatch::flow_step_of(Duration duration, double* state, double* w
     return;
   }
   const bool predicts = options_.action == MissingJumps::Action::kPredict;
-  if (predicts && !has_double_.of(state)) {
+  if (predicts && !has_double_.of(state) && leaves_further(state, workspace)) {
     has_double_.set(make_double(duration, state, workspace), state);
     since_double_.restart(state);
     flowed_.set(0.0, state);
   }
-  if (is_noticed_.of(state) || is_within_margin(state, workspace)) return;
-  missing_.set(missing_.of(state) + 1.0, state);
-  if (has_double_.of(state)) {
+  if (is_within_margin(state, workspace)) return;
+  if (!is_noticed_.of(state)) missing_.set(missing_.of(state) + 1.0, state);
+  const bool is_made_up = has_double_.of(state);
+  if (is_made_up) {
     std::copy_n(double_.of(state), double_.size(), state);
     has_double_.set(false, state);
     law().distrust(state);
-  } else {
-    is_noticed_.set(true, state);
   }
+  is_noticed_.set(!is_made_up, state);
+}
+
+/// Whether the estimate was inside the flow set before the last step, or nearer to it. What comes
+/// back, as a ball that bounced too late, must not jump once more.
+bool MissingJumpsWatch::leaves_further(const double* state, double* workspace) const {
+  const double* before = before_.of(workspace);
+  double* values = values_.of(workspace);
+  const double excess = flow_set_.excess(before, observer().held_part(before), values);
+  return excess <= 0.0 || !(flow_set_.excess(state, observer().held_part(state), values) < excess);
 }
 
 /// Sets the double to the estimate of before the last step, which jumps as soon as it is outside

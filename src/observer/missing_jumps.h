@@ -48,6 +48,7 @@ class MissingJumpsWatch : public LawDecorator, private JumpWatch {
   double missing_jumps(const double* state) const override { return missing_.of(state); }
 
   void flow_step_of(Duration duration, double* state, double* workspace) const;
+  bool leaves_further(const double* state, double* workspace) const;
   bool make_double(Duration duration, double* state, double* workspace) const;
   Duration time_of_leaving(Duration duration, double* trial, double* workspace) const;
   void forget_where_held(double* state) const;

@@ -28,7 +28,8 @@ void PossibleJumps::flow(Duration duration, double* state, double* workspace) co
 }
 
 Effect PossibleJumps::reset(const Event& event, double* state, double* workspace) const {
-  if (event.kind == EventKind::kJump) {
+  const bool is_made_up = event.stamp == 0;
+  if (event.kind == EventKind::kJump && !is_made_up) {
     const double* u = observer().held_part(state);
     const bool is_outside = !gate_.jump_set.contains(state, u, values_.of(workspace));
     if (kept_.judge(is_outside, state) == GateState::Verdict::kReject) return Effect::kNotPossible;

@@ -274,6 +274,20 @@ TEST_F(MistakenJumpsTest, BehindTheLastBounceTheBallRests) {
   EXPECT_LT(std::abs(run.at(kStart + 9 * kSecond + kSecond / 2)(0)), 0.65);
 }
 
+TEST_F(MistakenJumpsTest, WhatIsMadeUpNeedsNoLeaveOfTheGate) {
+  const ObserverConfig config = configure(
+      "plant: {jump_set: [height, -height, velocity]}\n"
+      "jumps: {gate: {margin: 0.1, recovery: {after: 2}}, missing: {margin: 0.3, action: "
+      "predict}}");
+  // Further below the floor than where the gate believes that a ball bounces.
+  const Stamp first = ball_.bounces().front();
+  std::vector<OwnedEvent> events = {bounce(first), bounce(ball_.bounces()[1])};
+  Run run(config, events);
+  for (Stamp stamp = first + 8 * kSecond; stamp < first + 30 * kSecond; stamp += kSecond / 10) {
+    ASSERT_NEAR(0.0, run.at(stamp)(0), 0.35) << to_seconds(stamp - first);
+  }
+}
+
 TEST_F(MistakenJumpsTest, AJumpWithoutAFiniteCorrectionIsAJumpAllTheSame) {
   const ObserverConfig config = configure("gains: {L_d: [[1.0e60], [0]]}");
   OwnedEvent measured = bounce(ball_.bounces().front());
