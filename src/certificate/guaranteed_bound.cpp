@@ -122,7 +122,9 @@ bool GuaranteedBound::accepts(const Event& event) const {
 }
 
 void GuaranteedBound::flow(Duration duration, double* state, double* workspace) const {
+  const double missing = law().missing_jumps(state);
   law().flow(duration, state, workspace);
+  if (law().missing_jumps(state) != missing) give_up(state);
   since_.advance(duration, state);
   since_start_.advance(duration, state);
   since_jump_.advance(duration, state);

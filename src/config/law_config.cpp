@@ -51,6 +51,7 @@ std::shared_ptr<const ObserverLaw> assemble(std::shared_ptr<const ObserverLaw> l
                                             const std::shared_ptr<const Plant>& plant,
                                             LawLayers layers) {
   if (layers.delays_jumps) law = std::make_shared<const DelayedJumps>(law);
+  if (layers.missing) law = std::make_shared<const MissingJumpsWatch>(law, *layers.missing);
   if (layers.jump_limits) {
     law = std::make_shared<const LimitedJumps>(law, *layers.jump_limits);
     if (layers.jump_gate) law = std::make_shared<const PossibleJumps>(law, *layers.jump_gate);
@@ -60,7 +61,6 @@ std::shared_ptr<const ObserverLaw> assemble(std::shared_ptr<const ObserverLaw> l
     law =
         std::make_shared<const GuaranteedBound>(law, std::move(layers.bound), plant, layers.noise);
   }
-  if (layers.missing) law = std::make_shared<const MissingJumpsWatch>(law, *layers.missing);
   const bool is_gated =
       std::any_of(layers.gates.begin(), layers.gates.end(),
                   [](const std::optional<Gate>& gate) { return gate.has_value(); });

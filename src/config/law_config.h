@@ -33,10 +33,10 @@ struct LawLayers {
   std::vector<std::optional<Gate>> gates;   ///< one per sensor
 };
 
-/// GatedSamples( MissingJumpsWatch( GuaranteedBound( NumberedJumps( PossibleJumps( LimitedJumps(
+/// GatedSamples( GuaranteedBound( NumberedJumps( PossibleJumps( LimitedJumps( MissingJumpsWatch(
 /// DelayedJumps( law ) ) ) ) ) ) ), each where it is asked for. Limits count jumps when they
-/// happen, whether delayed or not. The bound sees which of them were refused, and must not see the
-/// samples that a gate keeps out. A jump that is made up is one for all within.
+/// happen, whether delayed or not, and those only that are told. The bound sees which of them were
+/// refused and which are missing, and must not see the samples that a gate keeps out.
 std::shared_ptr<const ObserverLaw> assemble(std::shared_ptr<const ObserverLaw> law,
                                             const std::shared_ptr<const Plant>& plant,
                                             LawLayers layers);

@@ -7,8 +7,9 @@ const char* describe(BoundLoss loss) {
     case BoundLoss::kNone:
       return "it is finite";
     case BoundLoss::kNotVouched:
-      return "the estimate went on from one that nobody vouches for, after an overflow, without a "
-             "bound before new gains, or after a recovery by reset";
+      return "the estimate went on from one that nobody vouches for, after an overflow, a jump "
+             "that "
+             "no event told of, new gains without a bound before, or a recovery by reset";
     case BoundLoss::kAngle:
       return "the innovation of an angle may have been wrapped";
     case BoundLoss::kTooLarge:

@@ -28,8 +28,9 @@ struct MissingJumps {
 ///
 /// With Action::kPredict the estimate has a double from the time on at which it leaves the set
 /// itself: one that jumped then. Both take all events. When the event of a jump comes, the double
-/// goes; when the estimate is beyond the margin, the double takes its place, and a guaranteed error
-/// bound is lost. What is seen depends on the events alone, however flows are divided.
+/// goes; when the estimate is beyond the margin, the double takes its place. What is seen depends
+/// on the events alone, however flows are divided. No gate or limit of jumps may be within: they
+/// are about jumps that are told.
 ///
 /// An estimate that is wrong leaves the set at wrong times. So nothing is missing, nor made up,
 /// from a jump that has effect on while the estimate is not within the margin of the set's edge,

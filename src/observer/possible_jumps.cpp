@@ -28,13 +28,14 @@ void PossibleJumps::flow(Duration duration, double* state, double* workspace) co
 }
 
 Effect PossibleJumps::reset(const Event& event, double* state, double* workspace) const {
-  const bool is_made_up = event.stamp == 0;
-  if (event.kind == EventKind::kJump && !is_made_up) {
-    const double* u = observer().held_part(state);
-    const bool is_outside = !gate_.jump_set.contains(state, u, values_.of(workspace));
-    if (kept_.judge(is_outside, state) == GateState::Verdict::kReject) return Effect::kNotPossible;
-  }
-  return law().reset(event, state, workspace);
+  if (event.kind != EventKind::kJump) return law().reset(event, state, workspace);
+  const double* u = observer().held_part(state);
+  const bool is_outside = !gate_.jump_set.contains(state, u, values_.of(workspace));
+  const GateState::Verdict verdict = kept_.judge(is_outside, state);
+  if (verdict == GateState::Verdict::kReject) return Effect::kNotPossible;
+  const Effect effect = law().reset(event, state, workspace);
+  const bool recovers = verdict == GateState::Verdict::kRecover && effect == Effect::kApplied;
+  return recovers ? Effect::kPastGate : effect;
 }
 
 }  // namespace sampled_data_observers

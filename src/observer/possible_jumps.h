@@ -19,8 +19,7 @@ struct JumpGate {
 
 /// A law that takes no jump where its estimate says that the plant can't jump: false alarms of a
 /// detector, and jumps told twice. Which ones it takes is a function of the events, not of their
-/// arrival. When its gate is open, and when it recovers: see GateState. A jump that is made up, and
-/// has no stamp, it takes: nobody told of it.
+/// arrival. When its gate is open, and when it recovers: see GateState.
 class PossibleJumps : public LawDecorator {
  public:
   /// @throws std::invalid_argument for a gate out of range.

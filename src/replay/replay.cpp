@@ -278,6 +278,7 @@ class Replay {
   void finish(ReplaySummary& summary) const {
     if (summary.estimates > 0) {
       summary.final_stamp = estimate_message_.header.stamp.toSec();
+      summary.missing_jumps = estimate_message_.missing_jumps;
       for (std::size_t i = 0; i < estimate_message_.names.size(); ++i) {
         summary.final_state.emplace_back(estimate_message_.names[i], estimate_message_.state[i]);
       }

@@ -28,9 +28,9 @@ void print_apart_from_jumps(const ReplaySummary& summary, const ErrorsApart& apa
   };
   for (std::size_t i = 0; i < summary.compared.size(); ++i) row(summary.compared[i], apart.rmse[i]);
   row("norm", apart.rmse_norm);
-  out << "  largest norm of the error: " << shown(apart.largest) << " there, " << shown(apart.peak)
-      << " around jumps";
-  if (apart.peak_free) out << ", " << shown(apart.peak_free) << " there without the peak";
+  out << "  largest norm of the error: " << shown(apart.largest) << " away from them, "
+      << shown(apart.peak) << " around jumps";
+  if (apart.peak_free) out << ", " << shown(apart.peak_free) << " around them without the peak";
   out << "\n";
 }
 
@@ -107,6 +107,9 @@ void print_table(const ReplaySummary& summary, std::ostream& out) {
   out << "\n";
   if (summary.outputs_used > 0) out << "outputs     " << summary.outputs_used << " used\n";
   if (summary.jumps_used > 0) out << "jumps       " << summary.jumps_used << " used\n";
+  if (summary.missing_jumps > 0) {
+    out << "            " << summary.missing_jumps << " that no event told of (jumps/missing)\n";
+  }
   for (const auto& [channel, topic] : summary.not_recorded) {
     out << std::left << std::setw(12) << channel << std::right << "none: the bag has no topic "
         << topic << "\n";
@@ -139,6 +142,7 @@ void write_json(const ReplaySummary& summary, const std::string& path) {
   json["samples_late"] = summary.samples_late;
   json["samples_rejected"] = summary.samples_rejected;
   json["samples_withheld"] = summary.samples_withheld;
+  json["missing_jumps"] = summary.missing_jumps;
   json["rejected"] = summary.rejected;
   json["recovered"] = summary.recovered;
   json["events_used"] = summary.events_used;

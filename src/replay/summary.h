@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <ostream>
@@ -33,6 +34,7 @@ struct ReplaySummary {
 
   std::size_t samples_used = 0;
   std::size_t samples_withheld = 0;  ///< by thinning
+  std::uint64_t missing_jumps = 0;   ///< of the last estimate: that no event told of
   std::size_t samples_late = 0;      ///< of those used: before later events
   /// Number of rejected events by reason; samples alone and all events.
   std::map<std::string, std::size_t> rejected;

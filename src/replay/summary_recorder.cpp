@@ -34,10 +34,10 @@ void SummaryRecorder::count(const Event& event, const EventReport& report,
   ++summary_.events_used;
   if (event.kind == EventKind::kOutput) ++summary_.outputs_used;
   if (event.kind == EventKind::kJump) ++summary_.jumps_used;
+  if (report.recovers()) ++summary_.recovered[describe(report)];
   if (!is_sample) return;
   ++summary_.samples_used;
   if (report.outcome == EventOutcome::kUsedLate) ++summary_.samples_late;
-  if (report.recovers()) ++summary_.recovered[describe(report)];
   used_stamps_[static_cast<std::size_t>(event.sensor)].push_back(event.stamp);
 }
 

@@ -192,7 +192,7 @@ void EventSubscriptions::handle(const EventChannel& channel, const Event& event,
     log_.warn("%s", describe_old_stamps(channel.source.topic, latency).c_str());
   }
   if (report.recovers() && throttle_of(channel, report).admits()) {
-    log_.warn("sample of %s %s (stamp %.9f s)", channel.name.c_str(), describe(report),
+    log_.warn("event from %s %s (stamp %.9f s)", channel.name.c_str(), describe(report),
               to_seconds(event.stamp));
   }
   status_publisher_.publish(status);

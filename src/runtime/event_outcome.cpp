@@ -41,7 +41,7 @@ constexpr OutcomeText kTexts[kEventOutcomes] = {
     {EventOutcome::kDropped, "dropped, since 2000 later ones of its topic waited",
      "send fewer messages, or give the observer more of the machine"},
     {EventOutcome::kNotPossible,
-     "the estimate lies outside plant/jump_set, by more than jumps/gate",
+     "the estimate lies outside plant/jump_set, by more than jumps/gate/margin",
      "the detector of jumps erred, or the estimate did: see jumps/gate/recovery"},
     {EventOutcome::kRepeated, "a jump with the number of the one before",
      "one jump was told twice, with different stamps"},

@@ -7,6 +7,7 @@
 
 #include "certificate/certified_gains.h"
 #include "certificate/true_run.h"
+#include "support/stamps.h"
 
 namespace sampled_data_observers::test {
 namespace {
@@ -176,6 +177,29 @@ TEST(BoundRecoveryTest, AJumpSoonAfterAnotherCountsAsRealAndAsToldTwice) {
     const double after = hold_throughout(run, 2.29, 5.0).bound.value;
     EXPECT_GT(after, before) << is_real;
     EXPECT_LT(after_regular_jumps(run), after) << is_real;
+  }
+}
+
+TEST(BoundRecoveryTest, AJumpThatNobodyToldOfTakesTheBoundAway) {
+  for (const char* action : {"report", "predict"}) {
+    const ObserverConfig config =
+        CertifiedGains("test/certificate/bernard2022_bouncing_ball_equation26.yaml")
+            .with("plant: {flow_set: [-theta]}\njumps: {missing: {margin: 0.5, action: " +
+                  std::string(action) + "}}")
+            .assuming("{initial_error: 0.1, noise: 0}")
+            .config();
+    Estimator estimator(config.law, config.options);
+    estimator.restart(kStart, Eigen::Vector2d(5.0, 0.0));
+    Estimate estimate = estimator.make_estimate();
+    const auto bound_after = [&](double seconds) {
+      EXPECT_EQ(Timeline::Query::kOk,
+                estimator.estimate_at(kStart + from_seconds(seconds), estimate));
+      return config.law->error_bound(estimate.state.data());
+    };
+    EXPECT_TRUE(std::isfinite(bound_after(0.9))) << action;  // it is at the floor after 1.03 s
+    EXPECT_FALSE(std::isfinite(bound_after(1.5))) << action;
+    EXPECT_EQ(1.0, config.law->missing_jumps(estimate.state.data())) << action;
+    EXPECT_EQ(BoundLoss::kNotVouched, config.law->bound_loss(estimate.state.data())) << action;
   }
 }
 

@@ -122,6 +122,7 @@ class ArrivalOrderTest : public ::testing::TestWithParam<std::string> {
       law = {config_.law, &config_.law->observer()};
       if (config_.plant->jumps()) {
         if (in_one_of(2)) law = std::make_shared<const DelayedJumps>(law);
+        if (in_one_of(2)) law = std::make_shared<const MissingJumpsWatch>(law, any_watch(*law));
         const double most = any(3) == 0 ? 2.0 : 100.0;
         const JumpLimits limits{in_one_of(2) ? 0 : kSpan / 5, most};
         if (in_one_of(2)) law = std::make_shared<const LimitedJumps>(law, limits);
@@ -129,7 +130,6 @@ class ArrivalOrderTest : public ::testing::TestWithParam<std::string> {
           law = std::make_shared<const PossibleJumps>(law, JumpGate{any_set(), kSpan / 4});
         }
         if (in_one_of(2)) law = std::make_shared<const NumberedJumps>(law);
-        if (in_one_of(2)) law = std::make_shared<const MissingJumpsWatch>(law, any_watch(*law));
       }
     }
     if (in_one_of(2)) law = std::make_shared<const GatedSamples>(law, test::narrow_gates(config_));

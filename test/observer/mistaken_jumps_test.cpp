@@ -110,7 +110,9 @@ class MistakenJumpsTest : public ::testing::Test {
         : estimator_(config.law, config.options), estimate_(estimator_.make_estimate()) {
       estimator_.restart(kStart, start);
       for (const OwnedEvent& event : events) {
-        outcomes.push_back(estimator_.submit(event.view(), kStart + 10 * kSecond).outcome);
+        const EventReport report = estimator_.submit(event.view(), kStart + 100 * kSecond);
+        outcomes.push_back(report.outcome);
+        recovered += report.recovers() ? 1 : 0;
       }
     }
 
@@ -127,6 +129,7 @@ class MistakenJumpsTest : public ::testing::Test {
     }
 
     std::vector<EventOutcome> outcomes;
+    int recovered = 0;
 
    private:
     Estimator estimator_;
@@ -160,6 +163,20 @@ TEST_F(MistakenJumpsTest, AFalseBounceInFlightIsNotPossible) {
   EXPECT_EQ(EventOutcome::kNotPossible, gated.outcomes.back());
   EXPECT_EQ(1, gated.count(EventOutcome::kNotPossible));
   EXPECT_LT(largest_error(gated, 0.0, 5.0), 1e-6);
+}
+
+TEST_F(MistakenJumpsTest, TheGateRecoversAndSaysSo) {
+  const Stamp in_flight = ball_.bounces()[1] - kSecond;
+  const std::vector<OwnedEvent> events = {bounce(ball_.bounces()[0]), bounce(in_flight),
+                                          bounce(in_flight + 2 * kSecond - 1),
+                                          bounce(in_flight + 2 * kSecond)};
+  Run run(configure("plant: {jump_set: [height, -height, velocity]}\n"
+                    "jumps: {gate: {margin: 0.6, recovery: {after: 2}}}"),
+          events);
+  EXPECT_EQ(EventOutcome::kNotPossible, run.outcomes[1]);
+  EXPECT_EQ(EventOutcome::kNotPossible, run.outcomes[2]);
+  EXPECT_EQ(EventOutcome::kUsed, run.outcomes[3]);
+  EXPECT_EQ(1, run.recovered);
 }
 
 TEST_F(MistakenJumpsTest, ABounceToldTwiceIsTakenOnce) {
@@ -286,6 +303,19 @@ TEST_F(MistakenJumpsTest, WhatIsMadeUpNeedsNoLeaveOfTheGate) {
   for (Stamp stamp = first + 8 * kSecond; stamp < first + 30 * kSecond; stamp += kSecond / 10) {
     ASSERT_NEAR(0.0, run.at(stamp)(0), 0.35) << to_seconds(stamp - first);
   }
+}
+
+TEST_F(MistakenJumpsTest, WhatIsMadeUpLeavesTheLimitsToJumpsThatAreTold) {
+  // At rest a jump is made up each millisecond.
+  const ObserverConfig config =
+      configure("jumps: {max_per_second: 2, missing: {margin: 0.3, action: predict}}");
+  std::vector<OwnedEvent> events = bounces();
+  events.resize(1);
+  events.push_back(bounce(kStart + 30 * kSecond));
+  Run run(config, events);
+  EXPECT_GT(run.missing_at(kStart + 29 * kSecond), 100.0);
+  EXPECT_NEAR(0.0, run.at(kStart + 29 * kSecond)(0), 0.35);
+  EXPECT_EQ(EventOutcome::kUsed, run.outcomes.back());
 }
 
 TEST_F(MistakenJumpsTest, AJumpWithoutAFiniteCorrectionIsAJumpAllTheSame) {

@@ -43,7 +43,7 @@ struct EventReport {
 
   /// Whether the estimate rests on it.
   bool used() const { return outcome == EventOutcome::kUsed || outcome == EventOutcome::kUsedLate; }
-  /// Whether the sample was used since its gate had kept out all others for too long.
+  /// Whether the sample or jump was used since its gate had kept out all others for too long.
   bool recovers() const { return effect == Effect::kPastGate || effect == Effect::kRestarted; }
 };
 
