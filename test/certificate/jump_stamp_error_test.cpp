@@ -10,6 +10,7 @@
 
 #include "certificate/certified_gains.h"
 #include "certificate/true_run.h"
+#include "support/long_tests.h"
 
 namespace sampled_data_observers::test {
 namespace {
@@ -148,7 +149,8 @@ TEST_P(JumpStampErrorTest, NoErrorIsAboveItsBoundWhereverJumpsAreWithinTheirStam
   const ObserverConfig config = config_of(attack);
   Found found;
   Found of_strays;
-  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+  const std::uint64_t seeds = long_tests_are_wanted() ? 300 : 90;
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
     Attacker attacker(seed);
     const bool strays = seed % 3 == 2;
     attacker.run(attack, config, strays, strays ? of_strays : found);

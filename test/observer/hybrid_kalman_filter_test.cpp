@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+#include "linear_algebra/matrix_functions.h"
 #include "sampled_data_observers/runtime/estimator.h"
 #include "support/law_runner.h"
 #include "support/matrix_functions.h"
@@ -160,7 +161,7 @@ TEST_P(StampDeviationTest, TheCovarianceStaysSymmetricAndPositiveDefinite) {
     }
     const Eigen::Matrix3d P = covariance(*law, runner);
     ASSERT_EQ(P, P.transpose()) << i;
-    ASSERT_TRUE(test::is_positive_definite(P)) << i << "\n" << P;
+    ASSERT_TRUE(cholesky_root(P).allFinite()) << i << "\n" << P;
   }
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "linear_algebra/matrix_functions.h"
 #include "support/matrix_functions.h"
 
 namespace sampled_data_observers {
@@ -15,7 +16,7 @@ namespace {
 
 std::vector<double> sorted_real_eigenvalues(const Eigen::MatrixXd& M) {
   std::vector<double> result;
-  const Eigen::VectorXcd values = test::eigenvalues(M);
+  const Eigen::VectorXcd values = eigenvalues_of(M);
   for (Eigen::Index i = 0; i < values.size(); ++i) {
     EXPECT_NEAR(0.0, values(i).imag(), 1e-6);
     result.push_back(values(i).real());

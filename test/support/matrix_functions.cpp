@@ -4,21 +4,6 @@
 #include <unsupported/Eigen/MatrixFunctions>
 
 namespace sampled_data_observers::test {
-
-Eigen::MatrixXd exponential(const Eigen::MatrixXd& M) { return M.exp(); }
-
-Eigen::MatrixXd inverse(const Eigen::MatrixXd& M) { return M.inverse(); }
-
-Eigen::MatrixXd kernel(const Eigen::MatrixXd& M) { return M.fullPivLu().kernel(); }
-
-Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& M) { return M.eigenvalues(); }
-
-Eigen::VectorXd generalized_eigenvalues(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) {
-  return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(A, B).eigenvalues();
-}
-
-bool is_positive_definite(const Eigen::MatrixXd& M) { return M.llt().info() == Eigen::Success; }
-
 namespace extended {
 
 Matrix exponential(const Matrix& M) { return M.exp(); }
@@ -30,4 +15,17 @@ Matrix kernel(const Matrix& M) { return M.fullPivLu().kernel(); }
 Matrix cholesky_upper(const Matrix& M) { return M.llt().matrixU(); }
 
 }  // namespace extended
+
+Eigen::MatrixXd exponential(const Eigen::MatrixXd& M) {
+  return extended::exponential(M.cast<long double>()).cast<double>();
+}
+
+Eigen::MatrixXd inverse(const Eigen::MatrixXd& M) {
+  return extended::inverse(M.cast<long double>()).cast<double>();
+}
+
+Eigen::MatrixXd kernel(const Eigen::MatrixXd& M) {
+  return extended::kernel(M.cast<long double>()).cast<double>();
+}
+
 }  // namespace sampled_data_observers::test

@@ -2,7 +2,8 @@
 
 #include <Eigen/Core>
 
-/// Eigen's decompositions, compiled once: each takes seconds to compile, with sanitizers a minute.
+/// Eigen's decompositions in long double, compiled once: each takes seconds to compile, with
+/// sanitizers a minute.
 namespace sampled_data_observers::test {
 
 Eigen::MatrixXd exponential(const Eigen::MatrixXd& M);
@@ -11,15 +12,7 @@ Eigen::MatrixXd inverse(const Eigen::MatrixXd& M);
 /// A basis of the kernel, in columns.
 Eigen::MatrixXd kernel(const Eigen::MatrixXd& M);
 
-Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& M);
-
-/// The λ with A v = λ B v, ascending, for a symmetric A and a positive definite B.
-Eigen::VectorXd generalized_eigenvalues(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
-
-/// Whether Cholesky's factorization succeeds; the matrix is taken to be symmetric.
-bool is_positive_definite(const Eigen::MatrixXd& M);
-
-/// In long double. (Not overloads: an expression would fit both.)
+/// (Not overloads: an expression would fit both.)
 namespace extended {
 
 using Matrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
