@@ -173,6 +173,7 @@ class Ball {
 /// Mean normalized estimation error squared, eᵀ P⁻¹ e, shortly after the third bounce and those
 /// that follow; 2 where the covariance is that of the errors.
 /// @param has_contact  the bounces come with the height felt, and the camera is off
+/// @param runs  from the drop to the last bounce; the errors of four bounces count in each
 double mean_nees(double stamp_deviation, bool has_contact, int runs) {
   constexpr int kBounces = 7;
   std::mt19937_64 generator(11);
@@ -233,7 +234,7 @@ double mean_nees(double stamp_deviation, bool has_contact, int runs) {
   return sum / count;
 }
 
-// Of the errors four in a run depend on each other: by 200 runs 2 is met to some 10 %.
+// Errors of one run depend on each other: by 200 runs 2 is met to some 10 %, by 60 as well.
 TEST(UncertainJumpStampsTest, TheCovarianceIsThatOfTheErrorsOfABouncingBall) {
   const int runs = test::long_tests_are_wanted() ? 200 : 60;
   for (const bool has_contact : {false, true}) {
