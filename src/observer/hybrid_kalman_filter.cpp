@@ -1,9 +1,9 @@
 #include "observer/hybrid_kalman_filter.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "linear_algebra/joseph_update.h"
 #include "linear_algebra/ordered_linear_algebra.h"
 
 namespace sampled_data_observers {
@@ -86,63 +86,6 @@ void HybridKalmanFilter::jump(const Held& held, std::size_t next, const JumpOutp
   add_symmetric_product(A_d_P, A_d, n(), n(), P);
 }
 
-void HybridKalmanFilter::jump_of_uncertain_stamp(const Held& held, std::size_t next,
-                                                 const JumpOutputs& outputs, double* state,
-                                                 double* workspace) const {
-  const Eigen::Index size = variables();
-  double* P = P_.of(state);
-  double* joint = joint_.of(workspace);
-  std::fill_n(joint, joint_.size(), 0.0);
-  for (Eigen::Index j = 0; j < n(); ++j) std::copy_n(P + j * n(), n(), joint + j * size);
-  joint[size * size - 1] = matrices_.stamp_deviation * matrices_.stamp_deviation;
-
-  const PlantMode& mode = plant().modes()[held.mode];
-  double* before = field_before_.of(workspace);
-  mode.flow->evaluate(state, held.u, before);
-  double stamp_error = 0.0;
-  for (const std::size_t i : sensors_of(SensorTiming::kAtJumps)) {
-    const double* y_d = outputs.of(i);
-    if (y_d == nullptr) continue;
-    const Eigen::Index m = plant().sensors()[i].outputs();
-    const double* C = matrices_.outputs[held.mode][i].data();
-    double* rows = rows_.of(workspace);
-    double* innovation = innovation_.of(workspace);
-    normalized_innovation(i, y_d, held, state, innovation);
-    for (Eigen::Index j = 0; j < m; ++j) {
-      std::copy_n(C + j * n(), n(), rows + j * size);
-      const double per_stamp_error = -dot(C + j * n(), before, n());
-      rows[j * size + n()] = per_stamp_error;
-      innovation[j] -= per_stamp_error * stamp_error;
-    }
-    update(rows, m, size, joint, workspace);
-    const double* correction = correction_.of(workspace);
-    for (Eigen::Index j = 0; j < n(); ++j) state[j] += correction[j];
-    stamp_error += correction[n()];
-  }
-
-  mode.flow->evaluate(state, held.u, before);
-  apply_plant_jump(held, state, workspace);
-  double* after = field_after_.of(workspace);
-  plant().modes()[next].flow->evaluate(state, held.u, after);
-  double* transition = transition_.of(workspace);
-  double* saltation = transition + n() * n();
-  if (mode.jump) {
-    std::copy_n(mode.jump->affine()->M().data(), n() * n(), transition);
-  } else {
-    std::fill_n(transition, n() * n(), 0.0);
-    for (Eigen::Index i = 0; i < n(); ++i) transition[i * n() + i] = 1.0;
-  }
-  multiply(transition, n(), n(), before, 1, saltation);
-  for (Eigen::Index i = 0; i < n(); ++i) {
-    saltation[i] = after[i] - saltation[i];
-    state[i] += saltation[i] * stamp_error;
-  }
-  double* propagated = propagated_.of(workspace);
-  multiply(transition, n(), size, joint, size, propagated);
-  P_.set(matrices_.Q_d.data(), state);
-  add_symmetric_product(propagated, transition, n(), size, P);
-}
-
 /// The update of x̂ and P by the outputs y of a sensor.
 void HybridKalmanFilter::correct(std::size_t sensor, const double* y, const Held& held,
                                  double* state, double* workspace) const {
@@ -153,6 +96,16 @@ void HybridKalmanFilter::correct(std::size_t sensor, const double* y, const Held
   for (Eigen::Index i = 0; i < n(); ++i) state[i] += correction[i];
 }
 
+/// Takes the normalized innovation that stands in innovation_ into P (size x size), and leaves what
+/// it corrects in correction_.
+/// @param rows  of the outputs: size x outputs, transposed
+void HybridKalmanFilter::update(const double* rows, Eigen::Index outputs, Eigen::Index size,
+                                double* P, double* workspace) const {
+  joseph_update(
+      rows, outputs, size, innovation_.of(workspace), P,
+      {correction_.of(workspace), gain_.of(workspace), column_.of(workspace), rest_.of(workspace)});
+}
+
 /// The innovation of outputs whose noises are independent and of variance 1.
 void HybridKalmanFilter::normalized_innovation(std::size_t sensor, const double* y,
                                                const Held& held, const double* state,
@@ -160,40 +113,6 @@ void HybridKalmanFilter::normalized_innovation(std::size_t sensor, const double*
   const Eigen::Index m = plant().sensors()[sensor].outputs();
   compute_innovation(plant(), held.mode, sensor, y, state, held.u, innovation);
   solve_lower(matrices_.noise_roots[sensor].data(), m, m, innovation, 1);
-}
-
-/// Takes the normalized innovation that stands in innovation_ into P (size x size), in Joseph's
-/// form, and leaves what it corrects in correction_.
-/// @param rows  of the outputs: size x outputs, transposed
-void HybridKalmanFilter::update(const double* rows, Eigen::Index outputs, Eigen::Index size,
-                                double* P, double* workspace) const {
-  const double* innovation = innovation_.of(workspace);
-  double* correction = correction_.of(workspace);
-  double* gain = gain_.of(workspace);
-  double* column = column_.of(workspace);
-  double* rest = rest_.of(workspace);
-  for (Eigen::Index i = 0; i < size; ++i) correction[i] = 0.0;
-  for (Eigen::Index output = 0; output < outputs; ++output) {
-    const double* c = rows + output * size;
-    multiply(P, size, size, c, 1, column);
-    // Rounding may leave c P cᵀ a little below zero.
-    const double variance = 1.0 + std::max(0.0, dot(c, column, size));
-    const double left = innovation[output] - dot(c, correction, size);
-    for (Eigen::Index i = 0; i < size; ++i) {
-      gain[i] = column[i] / variance;
-      correction[i] += gain[i] * left;
-    }
-    for (Eigen::Index j = 0; j < size; ++j) {
-      for (Eigen::Index i = 0; i < size; ++i) P[j * size + i] -= gain[i] * column[j];
-    }
-    multiply(P, size, size, c, 1, rest);
-    for (Eigen::Index j = 0; j < size; ++j) {
-      for (Eigen::Index i = j; i < size; ++i) {
-        P[j * size + i] += (gain[i] - rest[i]) * gain[j];
-      }
-    }
-    mirror_lower(P, size);
-  }
 }
 
 }  // namespace sampled_data_observers
