@@ -7,6 +7,7 @@
 #include <sstream>
 #include <utility>
 
+#include "config/misspelling.h"
 #include "config/number_text.h"
 
 namespace sampled_data_observers {
@@ -80,8 +81,18 @@ ConfigError ConfigSection::error(const std::string& key, const std::string& expe
   return ConfigError(node != nullptr ? node->origin : node_.origin, path_of(key), expected, found);
 }
 
+std::string ConfigSection::absence_of(const std::string& key) const {
+  std::vector<std::string> others;
+  for (const auto& entry : node_.entries) {
+    if (asked_.count(entry.first) == 0) others.push_back(entry.first);
+  }
+  const std::string misspelt = misspelling_of(key, others);
+  return "nothing (the key is missing" +
+         (misspelt.empty() ? ")" : "; is '" + misspelt + "' a misspelling of it?)");
+}
+
 const ConfigNode& ConfigSection::required(const std::string& key, const std::string& expected) {
-  if (!has(key)) throw error(key, expected, "nothing (the key is missing)");
+  if (!has(key)) throw error(key, expected, absence_of(key));
   return *node_.find(key);
 }
 

@@ -9,7 +9,7 @@ constexpr double kLongestWait = 1000.0;  // s
 
 std::string read_frame(ConfigSection& section, const std::string& key) {
   const std::string expected = "a name of a frame, without a slash in front";
-  if (!section.has(key)) throw section.error(key, expected, "nothing (the key is missing)");
+  if (!section.has(key)) throw section.error(key, expected, section.absence_of(key));
   std::string frame = section.text(key);
   if (frame.empty() || frame.front() == '/') throw section.error(key, expected, "'" + frame + "'");
   return frame;

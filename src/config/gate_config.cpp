@@ -39,7 +39,8 @@ Gate read_gate(ConfigSection section, const Sensor& sensor, bool has_covariance)
   const bool is_absolute = section.has("innovation");
   if (is_absolute == section.has("mahalanobis")) {
     throw section.error(is_absolute ? "mahalanobis" : "innovation",
-                        "one of innovation and mahalanobis", is_absolute ? "both" : "none");
+                        "one of innovation and mahalanobis",
+                        is_absolute ? "both" : section.absence_of("innovation"));
   }
   if (is_absolute) {
     gate.innovation = read_limits(section, sensor.outputs());
@@ -70,10 +71,6 @@ std::vector<std::optional<Gate>> read_gates(ConfigSection& root, const Plant& pl
     gates.emplace_back();
     ConfigSection section = sensors.section(sensor.name);
     if (!section.has("gate")) continue;
-    if (sensor.timing != SensorTiming::kSampled) {
-      throw section.error("gate", "no gate: it takes samples, one by one (measured: sampled)",
-                          std::string("a sensor with measured: ") + to_string(sensor.timing));
-    }
     gates.back() = read_gate(section.section("gate"), sensor, has_covariance);
   }
   return gates;

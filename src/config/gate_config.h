@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "observer/gated_samples.h"
+#include "observer/gated_measurements.h"
 #include "sampled_data_observers/config/config_section.h"
 #include "sampled_data_observers/observer/observer_law.h"
 #include "sampled_data_observers/plant/plant.h"

@@ -64,7 +64,7 @@ std::shared_ptr<const ObserverLaw> assemble(std::shared_ptr<const ObserverLaw> l
   const bool is_gated =
       std::any_of(layers.gates.begin(), layers.gates.end(),
                   [](const std::optional<Gate>& gate) { return gate.has_value(); });
-  if (is_gated) law = std::make_shared<const GatedSamples>(law, std::move(layers.gates));
+  if (is_gated) law = std::make_shared<const GatedMeasurements>(law, std::move(layers.gates));
   return law;
 }
 

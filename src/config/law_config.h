@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "certificate/error_bound.h"
-#include "observer/gated_samples.h"
+#include "observer/gated_measurements.h"
 #include "observer/limited_jumps.h"
 #include "observer/missing_jumps.h"
 #include "observer/possible_jumps.h"
@@ -33,10 +33,11 @@ struct LawLayers {
   std::vector<std::optional<Gate>> gates;   ///< one per sensor
 };
 
-/// GatedSamples( GuaranteedBound( NumberedJumps( PossibleJumps( LimitedJumps( MissingJumpsWatch(
-/// DelayedJumps( law ) ) ) ) ) ) ), each where it is asked for. Limits count jumps when they
-/// happen, whether delayed or not, and those only that are told. The bound sees which of them were
-/// refused and which are missing, and must not see the samples that a gate keeps out.
+/// GatedMeasurements( GuaranteedBound( NumberedJumps( PossibleJumps( LimitedJumps(
+/// MissingJumpsWatch( DelayedJumps( law ) ) ) ) ) ) ), each where it is asked for. Limits count
+/// jumps when they happen, whether delayed or not, and those only that are told. The bound sees
+/// which of them were refused and which are missing, and must not see the samples that a gate keeps
+/// out.
 std::shared_ptr<const ObserverLaw> assemble(std::shared_ptr<const ObserverLaw> law,
                                             const std::shared_ptr<const Plant>& plant,
                                             LawLayers layers);

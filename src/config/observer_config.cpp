@@ -66,7 +66,7 @@ ObserverConfig read_observer_config(const ConfigNode& tree, const PlantPluginLoa
     throw root.error("observer",
                      "the type of the observer, which the gain file of 'design synthesize' names, "
                      "too: is that one missing beside the plant's?",
-                     "nothing");
+                     root.absence_of("observer"));
   }
   config.type = root.choice("observer", observer_types());
   const PlantConfig plant_config = read_plant(root, load_plugin);

@@ -65,7 +65,7 @@ void read_orientation(ConfigSection& outputs, const BodyNames& names, BodyStates
   for (const char* key : components) {
     if (!section.has(key)) {
       throw section.error(key, "all of x, y, z, w (a quaternion), or roll, pitch, yaw",
-                          "nothing (the key is missing)");
+                          section.absence_of(key));
     }
   }
   body.quaternion = read_body_numbers(section, components, names);
@@ -122,11 +122,11 @@ void require_frames(ConfigSection& section, const OutputsConfig& outputs) {
   if (outputs.world_frame.empty()) {
     throw ConfigError(section.origin(), "frame_id",
                       "the name of the world frame, since there are outputs",
-                      "nothing (the key is missing)");
+                      section.absence_of("frame_id"));
   }
   if (outputs.base_frame.empty() && (outputs.odometry || outputs.twist || outputs.transform)) {
     throw section.error("base_frame", "the name of the body's frame",
-                        "nothing (the key is missing)");
+                        section.absence_of("base_frame"));
   }
   if (outputs.base_frame == outputs.world_frame) {
     throw section.error("base_frame", "another frame than frame_id",

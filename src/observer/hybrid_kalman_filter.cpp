@@ -48,9 +48,30 @@ double HybridKalmanFilter::mahalanobis_distance(const Event& sample, const doubl
       S[j * m + i] = (i == j ? 1.0 : 0.0) + dot(C + i * n(), PC + j * n(), n());
     }
   }
+  if (plant().sensors()[sensor].timing == SensorTiming::kAtJumps) {
+    add_covariance_of_stamp(C, m, state, S, workspace);
+  }
   if (!factor_cholesky(S, m)) return std::numeric_limits<double>::quiet_NaN();
   solve_lower(S, m, m, nu, 1);
   return std::sqrt(dot(nu, nu, m));
+}
+
+/// Adds what the error of a jump's stamp makes of outputs measured at it, σ² (C f)(C f)ᵀ.
+/// @param C  of the normalized outputs: n x m, transposed
+/// @param S  m x m
+void HybridKalmanFilter::add_covariance_of_stamp(const double* C, Eigen::Index m,
+                                                 const double* state, double* S,
+                                                 double* workspace) const {
+  if (matrices_.stamp_deviation == 0.0) return;
+  const Held now = held(state);
+  double* speed = field_before_.of(workspace);
+  plant().modes()[now.mode].flow->evaluate(state, now.u, speed);
+  for (Eigen::Index j = 0; j < m; ++j) {
+    for (Eigen::Index i = 0; i < m; ++i) {
+      S[j * m + i] += matrices_.stamp_deviation * dot(C + i * n(), speed, n()) *
+                      matrices_.stamp_deviation * dot(C + j * n(), speed, n());
+    }
+  }
 }
 
 void HybridKalmanFilter::flow_constants(Duration duration, const Held& held, double* state,

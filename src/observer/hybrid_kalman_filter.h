@@ -54,6 +54,8 @@ class HybridKalmanFilter : public PlantObserver {
                       double* workspace) const override;
 
  private:
+  void add_covariance_of_stamp(const double* C, Eigen::Index m, const double* state, double* S,
+                               double* workspace) const;
   void correct(std::size_t sensor, const double* y, const Held& held, double* state,
                double* workspace) const;
   void jump_of_uncertain_stamp(const Held& held, std::size_t next, const JumpOutputs& outputs,

@@ -106,7 +106,14 @@ void print_table(const ReplaySummary& summary, std::ostream& out) {
   if (summary.samples_withheld > 0) out << ", " << summary.samples_withheld << " withheld";
   out << "\n";
   if (summary.outputs_used > 0) out << "outputs     " << summary.outputs_used << " used\n";
-  if (summary.jumps_used > 0) out << "jumps       " << summary.jumps_used << " used\n";
+  if (summary.jumps_used > 0) {
+    out << "jumps       " << summary.jumps_used << " used";
+    if (summary.jumps_without_outputs > 0) {
+      out << ", " << summary.jumps_without_outputs
+          << " of them without what was measured at them, or a part of it";
+    }
+    out << "\n";
+  }
   if (summary.missing_jumps > 0) {
     out << "            " << summary.missing_jumps << " that no event told of (jumps/missing)\n";
   }
@@ -148,6 +155,7 @@ void write_json(const ReplaySummary& summary, const std::string& path) {
   json["events_used"] = summary.events_used;
   json["outputs_used"] = summary.outputs_used;
   json["jumps_used"] = summary.jumps_used;
+  json["jumps_without_outputs"] = summary.jumps_without_outputs;
   json["not_recorded"] = summary.not_recorded;
   json["intervals"] = {{"count", summary.intervals},          {"min", summary.interval_min},
                        {"mean", summary.interval_mean},       {"max", summary.interval_max},

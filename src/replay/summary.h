@@ -44,6 +44,8 @@ struct ReplaySummary {
   std::size_t events_used = 0;
   std::size_t outputs_used = 0;  ///< of these: values of continuous outputs
   std::size_t jumps_used = 0;    ///< and jumps
+  /// Of these: without what was measured at them, or a part of it.
+  std::size_t jumps_without_outputs = 0;
   /// Topics that the bag does not have, by what would come on them: the input, jumps.
   std::map<std::string, std::string> not_recorded;
 

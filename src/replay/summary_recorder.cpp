@@ -34,6 +34,7 @@ void SummaryRecorder::count(const Event& event, const EventReport& report,
   ++summary_.events_used;
   if (event.kind == EventKind::kOutput) ++summary_.outputs_used;
   if (event.kind == EventKind::kJump) ++summary_.jumps_used;
+  if (report.outcome == EventOutcome::kJumpAlone) ++summary_.jumps_without_outputs;
   if (report.recovers()) ++summary_.recovered[describe(report)];
   if (!is_sample) return;
   ++summary_.samples_used;

@@ -191,7 +191,8 @@ void EventSubscriptions::handle(const EventChannel& channel, const Event& event,
     has_told_of_old_stamps_ = true;
     log_.warn("%s", describe_old_stamps(channel.source.topic, latency).c_str());
   }
-  if (report.recovers() && throttle_of(channel, report).admits()) {
+  const bool is_alone = report.outcome == EventOutcome::kJumpAlone;
+  if ((report.recovers() || is_alone) && throttle_of(channel, report).admits()) {
     log_.warn("event from %s %s (stamp %.9f s)", channel.name.c_str(), describe(report),
               to_seconds(event.stamp));
   }

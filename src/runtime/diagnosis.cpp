@@ -319,6 +319,10 @@ Finding Diagnosis::channel(std::size_t index) const {
     finding.message = std::to_string(rejected(statistics)) + " of " +
                       std::to_string(statistics.received()) +
                       " rejected: " + rejections(statistics);
+  } else if (const std::uint64_t alone = statistics.count(EventOutcome::kJumpAlone); alone > 0) {
+    finding.level = HealthLevel::kWarn;
+    finding.message = std::to_string(alone) + " of " + std::to_string(statistics.received()) + " " +
+                      with_remedy(EventOutcome::kJumpAlone, "");
   } else if (memory_[index].behind > 0) {
     finding.level = HealthLevel::kWarn;
     finding.message = describe_old_stamps(channel.topic, memory_[index].behind);
@@ -358,8 +362,8 @@ Finding Diagnosis::channel(std::size_t index) const {
   }
   for (std::size_t code = 0; code < kEventOutcomes; ++code) {
     const auto outcome = static_cast<EventOutcome>(code);
-    const bool counts = is_rejection(outcome) || outcome == EventOutcome::kDuplicate;
-    if (!counts || total.outcomes[code] == 0) continue;
+    const bool is_usual = outcome == EventOutcome::kUsed || outcome == EventOutcome::kUsedLate;
+    if (is_usual || total.outcomes[code] == 0) continue;
     finding.values.emplace_back(std::string("in all: ") + describe(outcome),
                                 std::to_string(total.outcomes[code]));
   }

@@ -38,6 +38,7 @@ EventOutcome outcome_of(const Timeline::InsertReport& report) {
     case Effect::kGated:
       return EventOutcome::kGated;
     case Effect::kWithoutOutputs:
+    case Effect::kOutputsGated:
       return EventOutcome::kJumpAlone;
     case Effect::kApplied:
     case Effect::kPastGate:

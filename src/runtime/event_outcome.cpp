@@ -46,8 +46,8 @@ constexpr OutcomeText kTexts[kEventOutcomes] = {
     {EventOutcome::kRepeated, "a jump with the number of the one before",
      "one jump was told twice, with different stamps"},
     {EventOutcome::kJumpAlone,
-     "jumped, but what was measured at the jump gives no finite correction and was skipped",
-     "the value is far off, or the estimate diverged: reset it"},
+     "jumped, but what was measured at the jump, or a part of it, was skipped",
+     "the value is far off, or the estimate is wrong: reset it, or see gate/recovery"},
 };
 
 constexpr bool is_in_order() {
@@ -68,9 +68,13 @@ const char* describe(EventOutcome outcome) { return text_of(outcome).words; }
 
 const char* remedy(EventOutcome outcome) { return text_of(outcome).remedy; }
 
+bool is_use(EventOutcome outcome) {
+  return outcome == EventOutcome::kUsed || outcome == EventOutcome::kUsedLate ||
+         outcome == EventOutcome::kJumpAlone;
+}
+
 bool is_rejection(EventOutcome outcome) {
-  return outcome != EventOutcome::kUsed && outcome != EventOutcome::kUsedLate &&
-         outcome != EventOutcome::kDuplicate;
+  return !is_use(outcome) && outcome != EventOutcome::kDuplicate;
 }
 
 }  // namespace sampled_data_observers

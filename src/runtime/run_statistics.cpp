@@ -25,6 +25,14 @@ std::uint64_t ChannelStatistics::received() const {
   return std::accumulate(outcomes.begin(), outcomes.end(), std::uint64_t{0});
 }
 
+std::uint64_t ChannelStatistics::used() const {
+  std::uint64_t sum = 0;
+  for (std::size_t code = 0; code < kEventOutcomes; ++code) {
+    if (is_use(static_cast<EventOutcome>(code))) sum += outcomes[code];
+  }
+  return sum;
+}
+
 void ChannelStatistics::add(const ChannelStatistics& other) {
   for (std::size_t i = 0; i < outcomes.size(); ++i) outcomes[i] += other.outcomes[i];
   latency.add(other.latency);

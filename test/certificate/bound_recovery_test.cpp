@@ -180,6 +180,30 @@ TEST(BoundRecoveryTest, AJumpSoonAfterAnotherCountsAsRealAndAsToldTwice) {
   }
 }
 
+TEST(BoundRecoveryTest, TheBoundHoldsOfJumpsWhoseOutputsAGateKeepsOut) {
+  const char kSensor[] =
+      "sensors: {position: {gate: {innovation: 0.2, recovery: {after: 100, action: accept}}}}";
+  const ObserverConfig config =
+      with_plant(kImpulsive, kSensor).assuming("{initial_error: 1, noise: 0}").config();
+  TrueRun run(config, Eigen::Vector3d(0.1, -0.5, 0.1));
+  double before = 0.0;
+  for (int i = 1; i <= 20; ++i) {
+    const bool is_outlier = i == 10;
+    run.jump(2.5 * i, 0.0, 0.0, is_outlier ? 50.0 : 0.0);
+    run.tell(2.5 * i);
+    EXPECT_EQ(is_outlier ? EventOutcome::kJumpAlone : EventOutcome::kUsed,
+              run.reports().back().outcome);
+    for (const double after : {0.0, 1.0, 2.4}) {
+      EXPECT_TRUE(run.compare(2.5 * i + after).holds()) << i;
+    }
+    const double bound = run.compare(2.5 * i).bound.value;
+    if (i > 2) {
+      EXPECT_EQ(is_outlier, bound > before) << i;
+    }
+    before = bound;
+  }
+}
+
 TEST(BoundRecoveryTest, AJumpThatNobodyToldOfTakesTheBoundAway) {
   for (const char* action : {"report", "predict"}) {
     const ObserverConfig config =

@@ -11,7 +11,7 @@
 #include <limits>
 
 #include "certificate/certified_gains.h"
-#include "observer/gated_samples.h"
+#include "observer/gated_measurements.h"
 #include "observer/limited_jumps.h"
 #include "support/allocation_counter.h"
 #include "support/law_runner.h"
@@ -77,7 +77,7 @@ TEST(GuaranteedBoundTest, AGatedSampleDoesNotShortenItAndARecoveryByResetLosesIt
   gate.innovation = Eigen::VectorXd::Constant(1, 1.0);
   gate.recover_after = 2 * kSecond;
   gate.recovery = Gate::Recovery::kReset;
-  const auto law = std::make_shared<const GatedSamples>(bounded(example_law()), gates);
+  const auto law = std::make_shared<const GatedMeasurements>(bounded(example_law()), gates);
   LawRunner runner(law);
   const auto bound = [&] { return law->error_bound(runner.state().data()); };
   EXPECT_TRUE(runner.sample(0, {runner.estimate()(0)}));

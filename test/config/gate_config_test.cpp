@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "observer/gated_samples.h"
+#include "observer/gated_measurements.h"
 #include "support/config_faults.h"
 
 namespace sampled_data_observers {
@@ -35,7 +35,7 @@ gains: {P0: [[1, 0], [0, 1]], R: {d: [[1]], s: [[0.1]]}, Q: [[0, 0], [0, 1]], Q_
 
 TEST(GateConfigTest, ReadsBothKinds) {
   for (const char* text : {kGated, kFilter}) {
-    EXPECT_NE(nullptr, std::dynamic_pointer_cast<const GatedSamples>(parse(text).law));
+    EXPECT_NE(nullptr, std::dynamic_pointer_cast<const GatedMeasurements>(parse(text).law));
   }
 }
 
@@ -75,22 +75,48 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         Fault{"innovation: 0.5", "innovation: 0", {"test.yaml:5", "sensors/a/gate/innovation"}},
         Fault{"innovation: 0.5", "innovation: big", {"a/gate/innovation", "'big'"}},
-        Fault{"innovation: 0.5", "inovation: 0.5", {"a/gate/innovation", "one of", "none"}},
+        Fault{"innovation: 0.5",
+              "inovation: 0.5",
+              {"a/gate/innovation", "one of", "is 'inovation' a misspelling"}},
         Fault{"innovation: 0.5", "innovation: 1, mahalanobis: 3", {"a/gate/mahalanobis", "both"}},
         Fault{"innovation: 0.5",
               "mahalanobis: 3",
               {"a/gate/mahalanobis", "HybridKalmanFilter", "innovation"}},
         Fault{"innovation: [1, 2]", "innovation: [1]", {"b/gate/innovation", "list of 2"}},
         Fault{"innovation: [1, 2]", "innovation: [1, -2]", {"b/gate/innovation", "positive"}},
-        Fault{"recovery: {after: 2, ", "recovry: {after: 2, ", {"a/gate/recovery", "missing"}},
+        Fault{"recovery: {after: 2, ",
+              "recovry: {after: 2, ",
+              {"a/gate/recovery", "missing; is 'recovry' a misspelling of it?"}},
         Fault{"after: 2", "after: 0", {"a/gate/recovery/after", "found 0"}},
         Fault{"after: 2, ", "", {"a/gate/recovery/after", "missing"}},
         Fault{"action: reset", "action: retry", {"b/gate/recovery/action", "accept, reset"}},
         Fault{"action: reset", "action: reset, x: 1", {"b/gate/recovery/x", "unknown key"}},
-        Fault{"mahalanobis: 3", "mahalanobis: -3", {"s/gate/mahalanobis", "found -3"}},
-        Fault{"measured: at_jumps, ",
-              "measured: at_jumps, gate: {innovation: 1, recovery: {after: 2, action: accept}}, ",
-              {"sensors/d/gate", "no gate", "at_jumps"}}));
+        Fault{"mahalanobis: 3", "mahalanobis: -3", {"s/gate/mahalanobis", "found -3"}}));
+
+TEST(GateConfigTest, SensorsThatMeasureAtJumpsOrContinuouslyMayHaveGatesToo) {
+  const char* gate = "gate: {mahalanobis: 3, recovery: {after: 2, action: accept}}, ";
+  const ObserverConfig config =
+      parse(replaced(kFilter, "measured: at_jumps, ", std::string("measured: at_jumps, ") + gate));
+  Estimator estimator(config.law, config.options);
+  const auto jump = [&](double seconds, double y) {
+    const Stamp stamp = from_seconds(1000.0 + seconds);
+    return estimator.submit({stamp, EventKind::kJump, 0, &y, 1, 0}, stamp);
+  };
+  EXPECT_EQ(EventOutcome::kUsed, jump(0.0, 0.0).outcome);
+  EXPECT_EQ(EventOutcome::kJumpAlone, jump(0.1, 50.0).outcome);
+  const ObserverConfig continuous = parse(R"(
+observer: SynchronizedObserver
+plant: {states: [p], A: [[0]]}
+sensors:
+  c:
+    C: [[1]]
+    measured: continuous
+    gate: {innovation: 0.5, recovery: {after: 2, action: reset}}
+    source: {topic: c}
+gains: {L_c: [[1]]}
+)");
+  EXPECT_NE(nullptr, std::dynamic_pointer_cast<const GatedMeasurements>(continuous.law));
+}
 
 }  // namespace
 }  // namespace sampled_data_observers

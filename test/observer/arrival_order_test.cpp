@@ -132,7 +132,8 @@ class ArrivalOrderTest : public ::testing::TestWithParam<std::string> {
         if (in_one_of(2)) law = std::make_shared<const NumberedJumps>(law);
       }
     }
-    if (in_one_of(2)) law = std::make_shared<const GatedSamples>(law, test::narrow_gates(config_));
+    if (in_one_of(2))
+      law = std::make_shared<const GatedMeasurements>(law, test::narrow_gates(config_));
     return law;
   }
 

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <map>
 
-#include "observer/gated_samples.h"
+#include "observer/gated_measurements.h"
 #include "support/allocation_counter.h"
 #include "support/config_faults.h"
 #include "support/stamps.h"
@@ -18,19 +18,11 @@ using test::kSecond;
 using test::kStart;
 using test::OwnedEvent;
 
-std::vector<std::string> sampled_types() {
-  std::vector<std::string> result;
-  for (const std::string& type : test::type_examples()) {
-    if (test::read_example(type).plant->outputs(SensorTiming::kSampled) > 0) result.push_back(type);
-  }
-  return result;
-}
-
 class GatedTypeTest : public ::testing::TestWithParam<std::string> {
  protected:
   GatedTypeTest()
       : config_(test::read_example(GetParam())),
-        law_(std::make_shared<const GatedSamples>(config_.law, test::narrow_gates(config_))) {
+        law_(std::make_shared<const GatedMeasurements>(config_.law, test::narrow_gates(config_))) {
     config_.options.history = {100 * kSecond, 500};
   }
 
@@ -94,7 +86,7 @@ TEST_P(GatedTypeTest, NothingIsAllocated) {
   EXPECT_EQ(before, test::allocations());
 }
 
-INSTANTIATE_TEST_SUITE_P(Types, GatedTypeTest, ::testing::ValuesIn(sampled_types()),
+INSTANTIATE_TEST_SUITE_P(Types, GatedTypeTest, ::testing::ValuesIn(test::type_examples()),
                          [](const auto& info) { return info.param; });
 
 /// A mass on a spring whose position is measured every 0.1 to 0.2 s.

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "observer/gated_samples.h"
+#include "observer/gated_measurements.h"
 #include "sampled_data_observers/config/observer_config.h"
 #include "sampled_data_observers/observer/plant_observer.h"
 #include "support/random_events.h"
@@ -39,7 +39,7 @@ inline ObserverConfig read_example(const std::string& name) {
       no_plant_plugins);
 }
 
-/// Narrow gates on all samples of an observer, which recover by turns in both ways.
+/// Narrow gates on all measurements of an observer, which recover by turns in both ways.
 inline std::vector<std::optional<Gate>> narrow_gates(const ObserverConfig& config) {
   Eigen::VectorXd state(config.law->state_size());
   config.law->initialize(state.data());
@@ -48,7 +48,6 @@ inline std::vector<std::optional<Gate>> narrow_gates(const ObserverConfig& confi
   bool reset = false;
   for (const Sensor& sensor : config.plant->sensors()) {
     gates.emplace_back();
-    if (sensor.timing != SensorTiming::kSampled) continue;
     Gate gate;
     gate.recover_after = kNanosecondsPerSecond / 5;
     gate.recovery = reset ? Gate::Recovery::kReset : Gate::Recovery::kAccept;

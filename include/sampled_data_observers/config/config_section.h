@@ -92,6 +92,10 @@ class ConfigSection {
   ConfigError error(const std::string& key, const std::string& expected,
                     const std::string& found) const;
 
+  /// What is found where a key is missing, for a ConfigError: nothing, or a key that was not asked
+  /// for yet and is likely to be a misspelling of it.
+  std::string absence_of(const std::string& key) const;
+
  private:
   const ConfigNode& required(const std::string& key, const std::string& expected);
 

@@ -16,17 +16,19 @@ enum class Effect : std::uint8_t {
   kRefused,         ///< nothing: a jump that comes too soon after others
   kNotPossible,     ///< nothing: a jump where the estimate lies outside the jump set
   kRepeated,        ///< nothing: a jump with the number of the one before
-  kGated,           ///< nothing: a sample whose innovation lies outside its gate
+  kGated,           ///< nothing: a measurement whose innovation lies outside its gate
   kPastGate,        ///< applied although it lies outside its gate: so did all others for too long
   kRestarted,       ///< the same, to an estimate that began anew
   kWithoutOutputs,  ///< a jump, applied without what was measured at it: no finite correction
+  kOutputsGated,    ///< a jump, applied without those of its outputs that lie outside their gates
   kNotFinite        ///< nothing: the result would not have been finite
 };
 
 /// Whether the event reset the state.
 constexpr bool took_effect(Effect effect) {
   return effect == Effect::kApplied || effect == Effect::kPastGate ||
-         effect == Effect::kRestarted || effect == Effect::kWithoutOutputs;
+         effect == Effect::kRestarted || effect == Effect::kWithoutOutputs ||
+         effect == Effect::kOutputsGated;
 }
 
 /// A hybrid system whose jumps are driven by events: it flows between them and is reset at them.

@@ -86,12 +86,13 @@ class PlantObserver : public ObserverLaw {
   /// where the observer has none.
   virtual const double* covariance(const double* state) const;
 
-  /// The innovation y − h(x̂, u) of a sample, angles wrapped: event.size entries.
-  void innovation(const Event& sample, const double* state, double* innovation) const;
+  /// The innovation y − h(x̂, u) of what a sensor measured, angles wrapped: event.size entries. For
+  /// an output measured at a jump the state is that before the jump.
+  void innovation(const Event& measured, const double* state, double* innovation) const;
 
-  /// The Mahalanobis distance √(νᵀ S⁻¹ ν) of a sample's innovation ν, whose covariance is S; NaN
-  /// where the observer has no covariance.
-  virtual double mahalanobis_distance(const Event& sample, const double* state,
+  /// The Mahalanobis distance √(νᵀ S⁻¹ ν) of the innovation ν, whose covariance is S, of what a
+  /// sensor measured; NaN where the observer has no covariance.
+  virtual double mahalanobis_distance(const Event& measured, const double* state,
                                       double* workspace) const;
 
   /// Whether a state of the estimate stands at a bound that the observer keeps it within.

@@ -26,7 +26,7 @@ enum class EventOutcome : std::uint8_t {
   kDropped = 16,       ///< more messages came than could be taken in: never looked at
   kNotPossible = 17,   ///< taken in without effect: a jump where the estimate can't jump
   kRepeated = 18,      ///< taken in without effect: a jump with the number of the one before
-  kJumpAlone = 19      ///< a jump taken in without what was measured at it: no finite correction
+  kJumpAlone = 19      ///< a jump taken in without what was measured at it, or a part of it
 };
 
 /// How many outcomes there are: their codes lie below.
@@ -37,6 +37,9 @@ const char* describe(EventOutcome outcome);
 
 /// What a person can do about events with this outcome; empty where nothing need be done.
 const char* remedy(EventOutcome outcome);
+
+/// Whether the estimate rests on events with this outcome.
+bool is_use(EventOutcome outcome);
 
 /// Whether events with this outcome are lost: neither used nor known already.
 bool is_rejection(EventOutcome outcome);

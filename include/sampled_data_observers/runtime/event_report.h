@@ -42,12 +42,12 @@ struct EventReport {
   InnovationTrend trend = InnovationTrend::kSteady;
 
   /// Whether the estimate rests on it.
-  bool used() const { return outcome == EventOutcome::kUsed || outcome == EventOutcome::kUsedLate; }
-  /// Whether the sample or jump was used since its gate had kept out all others for too long.
+  bool used() const { return is_use(outcome); }
+  /// Whether the measurement or jump was used since its gate had kept out all others for too long.
   bool recovers() const { return effect == Effect::kPastGate || effect == Effect::kRestarted; }
 };
 
-/// The outcome in a few words, and whether a gate recovered.
+/// The outcome in a few words, whether a gate recovered, and why outputs were skipped.
 const char* describe(const EventReport& report);
 
 }  // namespace sampled_data_observers

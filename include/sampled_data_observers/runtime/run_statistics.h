@@ -46,7 +46,7 @@ struct ChannelStatistics {
     return outcomes[static_cast<std::size_t>(outcome)];
   }
   /// Number of events on which the estimate rests.
-  std::uint64_t used() const { return count(EventOutcome::kUsed) + count(EventOutcome::kUsedLate); }
+  std::uint64_t used() const;
 
   /// Joins what happened later.
   void add(const ChannelStatistics& other);

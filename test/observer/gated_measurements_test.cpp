@@ -1,5 +1,5 @@
 // Gates: which samples are kept out, how a gate recovers, and what the Kalman filter's measure.
-#include "observer/gated_samples.h"
+#include "observer/gated_measurements.h"
 
 #include <gtest/gtest.h>
 
@@ -76,11 +76,11 @@ class Runner {
 
 std::shared_ptr<const ObserverLaw> gated(std::optional<Gate> position,
                                          std::optional<Gate> pose = std::nullopt) {
-  return std::make_shared<const GatedSamples>(
+  return std::make_shared<const GatedMeasurements>(
       test::example_law(), std::vector<std::optional<Gate>>{std::move(position), std::move(pose)});
 }
 
-TEST(GatedSamplesTest, ASampleOutsideHasNoEffectAndOneInsideHasTheUsualOne) {
+TEST(GatedMeasurementsTest, ASampleOutsideHasNoEffectAndOneInsideHasTheUsualOne) {
   Runner runner(gated(absolute({0.5})));
   Runner plain(test::example_law());
   for (Runner* each : {&runner, &plain}) {
@@ -97,7 +97,7 @@ TEST(GatedSamplesTest, ASampleOutsideHasNoEffectAndOneInsideHasTheUsualOne) {
   EXPECT_EQ(plain.estimate(), runner.estimate());
 }
 
-TEST(GatedSamplesTest, EachOutputHasItsLimitAndAnglesAreWrapped) {
+TEST(GatedMeasurementsTest, EachOutputHasItsLimitAndAnglesAreWrapped) {
   Runner runner(gated(std::nullopt, absolute({1.0, 0.2})));
   EXPECT_EQ(Effect::kApplied, runner.sample_off(kPose, {0.0, 0.0}));
   EXPECT_EQ(Effect::kGated, runner.sample_off(kPose, {0.9, 0.21}));
@@ -106,7 +106,7 @@ TEST(GatedSamplesTest, EachOutputHasItsLimitAndAnglesAreWrapped) {
   EXPECT_EQ(Effect::kApplied, runner.sample_off(kPosition, {50.0}));  // no gate
 }
 
-TEST(GatedSamplesTest, AGateIsOpenUntilASampleLiesInsideIt) {
+TEST(GatedMeasurementsTest, AGateIsOpenUntilASampleLiesInsideIt) {
   Runner runner(gated(absolute({0.5})));
   EXPECT_EQ(Effect::kApplied, runner.sample_off(kPosition, {30.0}));
   EXPECT_EQ(Effect::kApplied, runner.sample_off(kPosition, {-30.0}));
@@ -114,7 +114,7 @@ TEST(GatedSamplesTest, AGateIsOpenUntilASampleLiesInsideIt) {
   EXPECT_EQ(Effect::kGated, runner.sample_off(kPosition, {30.0}));
 }
 
-TEST(GatedSamplesTest, AfterRejectionsOnlySamplesAreUsedAgain) {
+TEST(GatedMeasurementsTest, AfterRejectionsOnlySamplesAreUsedAgain) {
   Runner runner(gated(absolute({0.5}, 2 * kSecond)));
   runner.sample_off(kPosition, {0.0});
   runner.flow(10 * kSecond);  // no rejection yet: this time does not count
@@ -128,7 +128,7 @@ TEST(GatedSamplesTest, AfterRejectionsOnlySamplesAreUsedAgain) {
   EXPECT_EQ(Effect::kGated, runner.sample_off(kPosition, {3.0}));
 }
 
-TEST(GatedSamplesTest, ASampleInsideEndsTheTimeOfRejections) {
+TEST(GatedMeasurementsTest, ASampleInsideEndsTheTimeOfRejections) {
   Runner runner(gated(absolute({0.5}, 2 * kSecond)));
   runner.sample_off(kPosition, {0.0});
   EXPECT_EQ(Effect::kGated, runner.sample_off(kPosition, {3.0}));
@@ -138,7 +138,7 @@ TEST(GatedSamplesTest, ASampleInsideEndsTheTimeOfRejections) {
   EXPECT_EQ(Effect::kGated, runner.sample_off(kPosition, {3.0}));
 }
 
-TEST(GatedSamplesTest, ItMayBeginAnewInstead) {
+TEST(GatedMeasurementsTest, ItMayBeginAnewInstead) {
   const auto law = gated(absolute({0.5}, kSecond, Gate::Recovery::kReset), absolute({0.1, 0.1}));
   Runner runner(law);
   runner.sample_off(kPosition, {0.0});
@@ -162,7 +162,7 @@ TEST(GatedSamplesTest, ItMayBeginAnewInstead) {
   EXPECT_EQ(expected.estimate(), runner.estimate());
 }
 
-TEST(GatedSamplesTest, ItsSamplesAreReportedAndNotCounted) {
+TEST(GatedMeasurementsTest, ItsSamplesAreReportedAndNotCounted) {
   Estimator::Options options;
   options.history = {100 * kSecond, 3};
   options.sampling = {kSecond / 10, kSecond};
@@ -194,7 +194,7 @@ TEST(GatedSamplesTest, ItsSamplesAreReportedAndNotCounted) {
   EXPECT_EQ(IntervalCheck::kLong, report.interval_check);
 }
 
-TEST(GatedSamplesTest, RefusesGatesThatMakeNoSense) {
+TEST(GatedMeasurementsTest, RefusesGatesThatMakeNoSense) {
   const auto fault = [](const Gate& gate) -> std::string {
     try {
       gated(gate);
@@ -211,7 +211,7 @@ TEST(GatedSamplesTest, RefusesGatesThatMakeNoSense) {
   mahalanobis.mahalanobis = 3.0;
   mahalanobis.recover_after = kSecond;
   EXPECT_NE(std::string::npos, fault(mahalanobis).find("covariance"));
-  EXPECT_THROW(GatedSamples(test::example_law(), {absolute({0.5})}), std::invalid_argument);
+  EXPECT_THROW(GatedMeasurements(test::example_law(), {absolute({0.5})}), std::invalid_argument);
 }
 
 /// A filter of two states with one sensor of two outputs.
@@ -295,7 +295,8 @@ TEST_F(KalmanGateTest, TheGateWidensWithTheCovariance) {
   Gate gate;
   gate.mahalanobis = 3.0;
   gate.recover_after = 1000 * kSecond;
-  Runner runner(std::make_shared<const GatedSamples>(law_, std::vector<std::optional<Gate>>{gate}));
+  Runner runner(
+      std::make_shared<const GatedMeasurements>(law_, std::vector<std::optional<Gate>>{gate}));
   for (int i = 0; i < 20; ++i) {
     runner.flow(kSecond / 10);
     EXPECT_EQ(Effect::kApplied, runner.sample_off(0, {0.0, 0.0}));
