@@ -28,18 +28,20 @@ std::shared_ptr<const ObserverLaw> build_time_varying_gain(ConfigSection& gains,
 
 std::shared_ptr<const ObserverLaw> build_high_gain(ConfigSection& gains,
                                                    const LawContext& context) {
-  auto [form, saturation, ell, K, maps] = read_high_gains(gains, context);
+  const auto [form, settings, maps, damping] = read_high_gains(gains, context);
   switch (form) {
     case HighGains::Form::kTransformed:
-      return std::make_shared<const TransformedHighGainObserver>(context.observer, saturation, ell,
-                                                                 K.front(), std::move(maps));
-    case HighGains::Form::kOriginal:
-      return std::make_shared<const OriginalHighGainObserver>(context.observer, saturation, ell,
-                                                              K.front(), std::move(maps.T));
+      return std::make_shared<const TransformedHighGainObserver>(context.observer, settings, maps);
+    case HighGains::Form::kOriginal: {
+      std::vector<std::shared_ptr<const VectorMap>> T;
+      for (const TransformedHighGainObserver::Maps& of_mode : maps) T.push_back(of_mode.T);
+      return std::make_shared<const OriginalHighGainObserver>(context.observer, settings, T,
+                                                              damping);
+    }
     case HighGains::Form::kLinear:
       break;
   }
-  return std::make_shared<const LinearHighGainObserver>(context.observer, saturation, ell, K);
+  return std::make_shared<const LinearHighGainObserver>(context.observer, settings);
 }
 
 std::map<std::string, LawBuilder>& builders() {

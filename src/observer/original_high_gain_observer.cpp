@@ -3,25 +3,32 @@
 #include <algorithm>
 #include <utility>
 
-#include "linear_algebra/ordered_solve.h"
 #include "observer/gain_requirement.h"
-#include "observer/observable_form.h"
 #include "plant/differentiation.h"
 
 namespace sampled_data_observers {
 
 OriginalHighGainObserver::OriginalHighGainObserver(const ObserverContext& context,
-                                                   Saturation saturation, double ell,
-                                                   const Eigen::VectorXd& K,
-                                                   std::shared_ptr<const VectorMap> T)
-    : HighGainObserver(context, std::move(saturation), ell, {K}, {"T"}),
+                                                   const HighGainSettings& settings,
+                                                   std::vector<std::shared_ptr<const VectorMap>> T,
+                                                   double damping)
+    : HighGainObserver(context, settings, {"T"}),
       T_(std::move(T)),
-      gain_(scaled_gain(ell, K)) {
-  require_one_output();
-  require_of_gains(gain_.size() == n(), "K: as many entries as the plant has states");
-  require_of_gains(T_ && T_->size() == n(), "T: as many entries as the plant has states");
+      gain_(scaled_gains(settings, plant())),
+      damping_(damping),
+      inverse_(settings.ell, settings.saturation.scales(), damping) {
+  require_of_gains(gain_.front().size() == n(), "K: as many entries as the plant has states");
+  require_of_gains(T_.size() == gain_.size(), "T: one per mode of the plant");
+  for (const auto& T_q : T_) {
+    require_of_gains(T_q && T_q->size() == n(), "T: as many entries as the plant has states");
+  }
   build_flow();
   check_start();
+}
+
+LawGains OriginalHighGainObserver::gains() const {
+  LawGains all = HighGainObserver::gains();
+  return all.add("damping", damping_);
 }
 
 void OriginalHighGainObserver::derivative(const Held& held, const double* s, double* ds,
@@ -35,9 +42,9 @@ void OriginalHighGainObserver::derivative(const Held& held, const double* s, dou
   compute_innovation(plant(), held.mode, 0, held.y_c, s, held.u, &innovation);
   double* correction = correction_.of(workspace);
   double* J = J_.of(workspace);
-  for (Eigen::Index i = 0; i < n(); ++i) correction[i] = gain_(i) * innovation;
-  differentiate(*T_, s, held.u, saturation().scales(), J, differences_.of(workspace));
-  solve_in_place(J, correction, n());
+  for (Eigen::Index i = 0; i < n(); ++i) correction[i] = gain_[held.mode](i) * innovation;
+  differentiate(*T_[held.mode], x, held.u, saturation().scales(), J, differences_.of(workspace));
+  inverse_.apply(J, correction, solving_.of(workspace));
   for (Eigen::Index i = 0; i < n(); ++i) ds[i] += correction[i];
 }
 

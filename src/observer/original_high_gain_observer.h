@@ -2,35 +2,45 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <vector>
 
+#include "observer/damped_inverse.h"
 #include "observer/high_gain_observer.h"
 
 namespace sampled_data_observers {
 
 /// Example 4.3 in the plant's own coordinates, for one continuous output and d = n:
 ///
-///   ẋ̂ = f(sat(x̂), u) + (∂T/∂x(x̂))⁻¹ ℓ 𝓛(ℓ) K (y_c − h(x̂))
+///   ẋ̂ = f(sat(x̂), u) + (∂T/∂x(sat(x̂)))⁻¹ ℓ 𝓛(ℓ) K (y_c − h(x̂))
 ///
-/// The Jacobian is taken by central differences. Where it is singular the derivative is NaN.
+/// with a DampedInverse, and x̂ brought back to its bounds, sat(x̂), after each step of the
+/// integration. The Jacobian is taken by central differences.
 class OriginalHighGainObserver final : public HighGainObserver {
  public:
-  /// @param T  n to n
-  /// @param K  n numbers, as for TransformedHighGainObserver
-  /// @throws std::invalid_argument as TransformedHighGainObserver, and where ∂T/∂x is singular at
-  /// the initial estimate.
-  OriginalHighGainObserver(const ObserverContext& context, Saturation saturation, double ell,
-                           const Eigen::VectorXd& K, std::shared_ptr<const VectorMap> T);
+  /// @param settings  K: n numbers, as for TransformedHighGainObserver
+  /// @param T         per mode: n to n
+  /// @param damping   δ of the DampedInverse
+  /// @throws std::invalid_argument as TransformedHighGainObserver, and, without damping, where
+  /// ∂T/∂x is singular at the initial estimate.
+  OriginalHighGainObserver(const ObserverContext& context, const HighGainSettings& settings,
+                           std::vector<std::shared_ptr<const VectorMap>> T, double damping);
+
+  LawGains gains() const override;
 
  protected:
   bool flow_is_affine() const override { return false; }
   void derivative(const Held& held, const double* s, double* ds, double* workspace) const override;
+  void confine(double* s) const override { saturation().apply(s); }
 
  private:
-  std::shared_ptr<const VectorMap> T_;
-  Eigen::VectorXd gain_;         ///< ℓ 𝓛(ℓ) K
+  std::vector<std::shared_ptr<const VectorMap>> T_;
+  std::vector<Eigen::VectorXd> gain_;  ///< per mode: ℓ 𝓛(ℓ) K
+  double damping_;
+  DampedInverse inverse_;
   VectorSlot x_ = scratch(n());  ///< sat(x̂)
   VectorSlot J_ = scratch(n() * n());
   VectorSlot differences_ = scratch(3 * n());
+  VectorSlot solving_ = scratch(inverse_.workspace_size());
   VectorSlot correction_ = scratch(n());
 };
 

@@ -124,6 +124,8 @@ void PlantObserver::initialize(double* state) const {
   start_from(initial_estimate_.data(), state);
 }
 
+void PlantObserver::keep_mode(std::size_t mode, double* state) const { mode_.set(mode, state); }
+
 void PlantObserver::start_from(const double* estimate, double* state) const {
   if (estimate != state) std::copy_n(estimate, n(), state);
 }
@@ -261,6 +263,8 @@ void PlantObserver::derivative(const Held& held, const double* s, double* ds, do
   plant_->modes()[held.mode].flow->evaluate(s, held.u, ds);
   std::fill(ds + n(), ds + flow_size(), 0.0);
 }
+
+void PlantObserver::confine(double*) const {}
 
 void PlantObserver::sample(std::size_t, const double*, const Held&, double*, double*) const {}
 

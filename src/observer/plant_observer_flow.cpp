@@ -15,6 +15,7 @@ class PlantObserver::Field : public VectorField {
   void evaluate(const double* x, double* dx) const override {
     law_.derivative(held_, x, dx, workspace_);
   }
+  void confine(double* x) const override { law_.confine(x); }
 
  private:
   const PlantObserver& law_;

@@ -4,58 +4,65 @@
 #include <utility>
 
 #include "observer/gain_requirement.h"
-#include "observer/observable_form.h"
 
 namespace sampled_data_observers {
 
 TransformedHighGainObserver::TransformedHighGainObserver(const ObserverContext& context,
-                                                         Saturation saturation, double ell,
-                                                         const Eigen::VectorXd& K, Maps maps)
-    : HighGainObserver(context, std::move(saturation), ell, {K}, {"T", "Phi", "Theta"}, K.size()),
+                                                         const HighGainSettings& settings,
+                                                         std::vector<Maps> maps)
+    : HighGainObserver(context, settings, {"T", "Phi", "Theta"},
+                       order_of_one_output(settings, *context.plant)),
       maps_(std::move(maps)),
-      gain_(scaled_gain(ell, K)) {
-  require_one_output();
-  require_of_gains(maps_.T && maps_.T->size() == gain_.size(), "T: as many entries as K");
-  require_of_gains(maps_.Phi && maps_.Phi->size() == 1, "Phi: one entry");
-  require_of_gains(maps_.Theta && maps_.Theta->size() == n(), "Theta: one entry per state");
+      gain_(scaled_gains(settings, plant())) {
+  require_of_gains(maps_.size() == gain_.size(), "T, Phi and Theta: of each mode of the plant");
+  for (const Maps& of_mode : maps_) {
+    require_of_gains(of_mode.T && of_mode.T->size() == d_, "T: as many entries as K");
+    require_of_gains(of_mode.Phi && of_mode.Phi->size() == 1, "Phi: one entry");
+    require_of_gains(of_mode.Theta && of_mode.Theta->size() == n(), "Theta: one entry per state");
+  }
   build_flow();
   check_start();
 }
 
 void TransformedHighGainObserver::start_from(const double* estimate, double* state) const {
   HighGainObserver::start_from(estimate, state);
-  maps_.T->evaluate(state, held(state).u, z_.of(state));
+  maps_[mode_of(state)].T->evaluate(state, held(state).u, z_.of(state));
+}
+
+void TransformedHighGainObserver::keep_mode(std::size_t mode, double* state) const {
+  HighGainObserver::keep_mode(mode, state);
+  start_from(state, state);
 }
 
 void TransformedHighGainObserver::derivative(const Held& held, const double* s, double* ds,
                                              double* workspace) const {
-  const Eigen::Index d = gain_.size();
+  const Maps& maps = maps_[held.mode];
   const double* z = z_.of(s);
   double* dz = z_.of(ds);
   std::fill_n(ds, n(), 0.0);  // x̂ is computed from z
   double* argument = argument_.of(workspace);
-  double* x = argument + d;
-  maps_.Theta->evaluate(z, held.u, x);
+  double* x = argument + d_;
+  maps.Theta->evaluate(z, held.u, x);
   saturation().apply(x);
-  maps_.T->evaluate(x, held.u, argument);
-  for (Eigen::Index i = 0; i + 1 < d; ++i) dz[i] = z[i + 1];
-  maps_.Phi->evaluate(argument, held.u, dz + d - 1);
+  maps.T->evaluate(x, held.u, argument);
+  for (Eigen::Index i = 0; i + 1 < d_; ++i) dz[i] = z[i + 1];
+  maps.Phi->evaluate(argument, held.u, dz + d_ - 1);
   if (held.y_c == nullptr) return;
   const double difference = held.y_c[0] - z[0];
   const double innovation =
       plant().sensors().front().angular.front() ? wrap_angle(difference) : difference;
-  for (Eigen::Index i = 0; i < d; ++i) dz[i] += gain_(i) * innovation;
+  for (Eigen::Index i = 0; i < d_; ++i) dz[i] += gain_[held.mode](i) * innovation;
 }
 
 void TransformedHighGainObserver::jump(const Held& held, std::size_t next,
                                        const JumpOutputs& outputs, double* state,
                                        double* workspace) const {
   HighGainObserver::jump(held, next, outputs, state, workspace);
-  maps_.T->evaluate(state, held.u, z_.of(state));
+  maps_[next].T->evaluate(state, held.u, z_.of(state));
 }
 
 void TransformedHighGainObserver::complete(const Held& held, double* state, double*) const {
-  maps_.Theta->evaluate(z_.of(state), held.u, state);
+  maps_[held.mode].Theta->evaluate(z_.of(state), held.u, state);
   saturation().apply(state);
 }
 

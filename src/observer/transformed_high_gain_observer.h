@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <vector>
 
 #include "observer/high_gain_observer.h"
 
@@ -12,7 +13,8 @@ namespace sampled_data_observers {
 ///   ż = A z + B Φ(T(x̂), x̂, u) + ℓ 𝓛(ℓ) K (y_c − z_1),  x̂ = sat(Θ(z)),  z⁺ = T(sat(g(x̂)))
 ///
 /// A (d x d) shifts up, B = (0 … 0 1), 𝓛(ℓ) = diag(1, ℓ, …, ℓ^(d−1)). Φ = L_f^d h is taken at x̂,
-/// not at z, so that the saturations bound it, as they must.
+/// not at z, so that the saturations bound it, as they must. The maps and K of a switched plant
+/// are those of its mode, and z⁺ is taken by T of the next one (51).
 class TransformedHighGainObserver final : public HighGainObserver {
  public:
   struct Maps {
@@ -21,14 +23,16 @@ class TransformedHighGainObserver final : public HighGainObserver {
     std::shared_ptr<const VectorMap> Theta;  ///< z to x: d to n; Θ(T(x)) = x
   };
 
-  /// @param K  d numbers: the eigenvalues of A − K H, H = (1 0 … 0), are the zeros of
-  ///           s^d + k_1 s^(d−1) + … + k_d
+  /// @param settings  K: d numbers, the same d in each mode: the eigenvalues of A − K H,
+  ///                  H = (1 0 … 0), are the zeros of s^d + k_1 s^(d−1) + … + k_d
+  /// @param maps      per mode
   /// @throws std::invalid_argument for maps that do not fit, a K that does not make A − K H
   /// Hurwitz, and other than one continuous output.
-  TransformedHighGainObserver(const ObserverContext& context, Saturation saturation, double ell,
-                              const Eigen::VectorXd& K, Maps maps);
+  TransformedHighGainObserver(const ObserverContext& context, const HighGainSettings& settings,
+                              std::vector<Maps> maps);
 
   void start_from(const double* estimate, double* state) const override;
+  void keep_mode(std::size_t mode, double* state) const override;
 
  protected:
   bool flow_is_affine() const override { return false; }
@@ -38,10 +42,11 @@ class TransformedHighGainObserver final : public HighGainObserver {
   void complete(const Held& held, double* state, double* workspace) const override;
 
  private:
-  Maps maps_;
-  Eigen::VectorXd gain_;  ///< ℓ 𝓛(ℓ) K
-  VectorSlot z_ = flowing(gain_.size());
-  VectorSlot argument_ = scratch(gain_.size() + n());  ///< (T(x), x)
+  std::vector<Maps> maps_;
+  std::vector<Eigen::VectorXd> gain_;  ///< per mode: ℓ 𝓛(ℓ) K
+  Eigen::Index d_ = gain_.front().size();
+  VectorSlot z_ = flowing(d_);
+  VectorSlot argument_ = scratch(d_ + n());  ///< (T(x), x)
 };
 
 }  // namespace sampled_data_observers

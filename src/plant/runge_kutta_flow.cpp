@@ -12,6 +12,8 @@ struct RungeKuttaFlow::Stepper {
   State x;
 };
 
+void VectorField::confine(double*) const {}
+
 RungeKuttaFlow::RungeKuttaFlow(Eigen::Index states, Duration step)
     : step_(step), stepper_(std::make_unique<Stepper>()) {
   stepper_->x.resize(static_cast<std::size_t>(states));
@@ -29,6 +31,7 @@ void RungeKuttaFlow::apply(const VectorField& field, Duration duration, double* 
   while (duration > 0) {
     const Duration step = std::min(duration, step_);
     stepper_->stepper.do_step(system, state, 0.0, to_seconds(step));
+    field.confine(state.data());
     duration -= step;
   }
   std::copy_n(state.begin(), state.size(), x);

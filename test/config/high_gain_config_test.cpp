@@ -40,6 +40,33 @@ gains:
   saturations: {x1: [-2, 2]}
 )";
 
+const char kOriginal[] = R"(
+observer: HighGainObserver
+plant:
+  states: [x1, x2]
+  flow: {x1: x2, x2: -x1^3}
+sensors: {y: {h: [x1], measured: continuous, source: {topic: y}}}
+sampling: {T1: 0.01, T2: 0.01}
+gains: {form: original, ell: 3, K: [2, 1], T: [x1, x2], damping: 0.01}
+)";
+
+const char kSwitchedOriginal[] = R"(
+observer: HighGainObserver
+plant:
+  states: [x1, x2]
+  modes:
+    1: {flow: {x1: x2, x2: -x1^3}}
+    4: {flow: {x1: x2, x2: -x1}}
+sensors: {y: {h: [x1], measured: continuous, source: {topic: y}}}
+sampling: {T1: 0.01, T2: 0.01}
+gains:
+  form: original
+  ell: 3
+  modes:
+    1: {K: [2, 1], T: [x1, x2]}
+    4: {K: [3, 2], T: [x1, x2]}
+)";
+
 struct FaultyText {
   const char* text;
   test::Fault change;
@@ -90,6 +117,19 @@ INSTANTIATE_TEST_SUITE_P(
         FaultyText{kTransformed, {"[{cube: z1^3}]", "[{cube: x1^3}]", {"gains/definitions", "x1"}}},
         FaultyText{kTransformed, {"{k: 2}", "{k: 2, z2: 1}", {"gains/form", "'z2'"}}},
         FaultyText{kTransformed, {"form: transformed", "form: original", {"gains/definitions"}}},
+        FaultyText{kOriginal, {"damping: 0.01", "damping: -1", {"gains", "damping: a number"}}},
+        FaultyText{kLinear,
+                   {"form: linear", "form: linear, damping: 1", {"gains/damping", "unknown"}}},
+        FaultyText{kOriginal, {"[x1, x2], damping", "[x1, x2, 0], damping", {"gains/K", "3"}}},
+        FaultyText{kSwitchedOriginal,
+                   {"4: {K: [3, 2], T: [x1, x2]}", "", {"gains/modes/4", "missing"}}},
+        FaultyText{kSwitchedOriginal,
+                   {"4: {K: [3, 2]", "4: {ell: 3, K: [3, 2]", {"gains/modes/4/ell", "unknown"}}},
+        FaultyText{kSwitchedOriginal,
+                   {"    4: {K",
+                    "    2: {K: [2, 1], T: [x1, x2]}\n    4: {K",
+                    {"gains/modes/2", "unknown"}}},
+        FaultyText{kSwitchedOriginal, {"ell: 3", "ell: 3\n  K: [2, 1]", {"gains/K", "unknown"}}},
         FaultyText{kTransformed,
                    {"h: [x1]", "h: [x1, x2]", {"one continuous sensor with one output"}}}));
 

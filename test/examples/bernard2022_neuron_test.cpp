@@ -128,5 +128,19 @@ TEST(Bernard2022NeuronHighGain, FindsTheParametersBy20) {
   EXPECT_LT(b.from(50.0).max(), 6e-4);
 }
 
+// In the plant's own coordinates, through Jacobians that are singular.
+TEST(Bernard2022NeuronHighGain, TheOriginalFormFindsTheParameters) {
+  const ExampleRun run = Example("bernard2022_neuron_high_gain", "gains_original.yaml").run();
+  ASSERT_EQ(6001u, run.error.size());
+  const Trajectory a = run.error.component(2);
+  const Trajectory b = run.error.component(3);
+  EXPECT_GT(a.from(0.1, 3.0).max(), 0.2);  // at its bound
+  EXPECT_LT(a.from(20.0, 36.0).max(), 4e-4);
+  EXPECT_LT(b.from(20.0, 36.0).max(), 3e-3);
+  EXPECT_LT(run.error.component(1).from(10.0, 36.0).max(), 1e-3);
+  EXPECT_LT(a.from(55.0).max(), 1e-3);
+  EXPECT_LT(b.from(55.0).max(), 5e-3);
+}
+
 }  // namespace
 }  // namespace sampled_data_observers::test

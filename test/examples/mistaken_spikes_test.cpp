@@ -106,6 +106,21 @@ TEST_F(MistakenSpikesOfHighGainNeuron, TheBoundsOfThePotentialChangeNoBit) {
   }
 }
 
+// The estimate stays within its bounds, so that the output brings it back without a guard.
+TEST(MistakenSpikesOfOriginalForm, AreForgottenWithinFiftySeconds) {
+  Example example("bernard2022_neuron_high_gain", "gains_original.yaml");
+  example.duration(100);
+  const Recovery neuron(example, kNear, "observer.yaml");
+  constexpr double kSmall = 0.02;  // mV; a and b are 0.02 and 0.2
+  const auto after = [&](const std::function<void(ToldJumps&)>& mistake) {
+    return neuron.recovered_at(mistake, kSmall) - neuron.jump(1);
+  };
+  EXPECT_LT(after([](ToldJumps& jumps) { jumps.drop(1); }), 10.0);
+  EXPECT_LT(after([&](ToldJumps& jumps) { jumps.add(between(neuron, 1)); }), 45.0);
+  EXPECT_LT(after([](ToldJumps& jumps) { jumps.repeat(1, 0.002); }), 50.0);
+  EXPECT_LT(after([](ToldJumps& jumps) { jumps.jitter(1, 1, 1.0, 2); }), 50.0);
+}
+
 TEST_F(MistakenSpikesOfHighGainNeuron, WhatIsMadeUpIsTheSameHoweverLateTheEventsAre) {
   Example example("bernard2022_neuron_high_gain");
   example.duration(80).tell([](ToldJumps& jumps) {

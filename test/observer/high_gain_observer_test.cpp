@@ -44,12 +44,18 @@ std::shared_ptr<const Plant> cart(bool angular) {
 
 Saturation no_bounds() { return Saturation(2); }
 
+/// Of a plant with one mode.
+HighGainSettings settings(const Saturation& saturation, double ell,
+                          const std::vector<Eigen::VectorXd>& K) {
+  return {saturation, ell, {K}};
+}
+
 /// Eigenvalues −ℓ and −2 ℓ.
 std::shared_ptr<const LinearHighGainObserver> cart_observer(
     double ell, const Saturation& saturation = no_bounds(), bool angular = false) {
   const ObserverContext context{cart(angular), Eigen::Vector2d(1.0, -2.0), Eigen::VectorXd(0)};
   return std::make_shared<const LinearHighGainObserver>(
-      context, saturation, ell, std::vector<Eigen::VectorXd>{Eigen::Vector2d(2.0, 3.0)});
+      context, settings(saturation, ell, {Eigen::Vector2d(2.0, 3.0)}));
 }
 
 /// A law with its state.
@@ -73,8 +79,8 @@ TEST(LinearHighGainTest, TheErrorDecaysExactlyAsTheEigenvaluesSay) {
   // e1 = c1 e^{-ℓt} + c2 e^{-2ℓt}, e2 = 2ℓ c1 e^{-ℓt} + ℓ c2 e^{-2ℓt}.
   for (const double ell : {0.5, 3.0, 20.0}) {
     const auto law = cart_observer(ell);
-    EXPECT_NEAR(3.0 * ell, law->L_c()[0](0, 0), 1e-12 * ell);
-    EXPECT_NEAR(2.0 * ell * ell, law->L_c()[0](1, 0), 1e-12 * ell * ell);
+    EXPECT_NEAR(3.0 * ell, law->L_c()[0][0](0, 0), 1e-12 * ell);
+    EXPECT_NEAR(2.0 * ell * ell, law->L_c()[0][0](1, 0), 1e-12 * ell * ell);
     Body body(law);
     body.take(EventKind::kOutput, {3.0});
     const Eigen::Vector2d e(3.0 - 1.0, 0.0 + 2.0);
@@ -140,8 +146,8 @@ TEST(LinearHighGainTest, SensorsCorrectTogether) {
   const std::vector<Eigen::VectorXd> K = {Eigen::Vector2d(2.0, 3.0),
                                           Eigen::VectorXd::Constant(1, 1.5)};
   const auto law = std::make_shared<const LinearHighGainObserver>(
-      ObserverContext{std::make_shared<const Plant>(plant), x, Eigen::VectorXd(0)}, Saturation(3),
-      4.0, K);
+      ObserverContext{std::make_shared<const Plant>(plant), x, Eigen::VectorXd(0)},
+      settings(Saturation(3), 4.0, K));
 
   Body body(law);
   Eigen::Vector3d slope;
@@ -156,6 +162,8 @@ TEST(LinearHighGainTest, SensorsCorrectTogether) {
   const Eigen::MatrixXd L_c = high_gain(A, H, observable_form(A, H), 4.0, K);
   expect_slope(A * x + L_c * (y - H * x));
 }
+
+using Formulas = std::vector<std::shared_ptr<const VectorMap>>;
 
 std::shared_ptr<const VectorMap> formulas(std::vector<std::string> names,
                                           const std::vector<std::string>& texts) {
@@ -192,14 +200,16 @@ const Eigen::Vector2d kK(2.0, 1.0);  // (s + 1)²
 
 std::shared_ptr<const ObserverLaw> transformed(const Eigen::Vector2d& start,
                                                const Saturation& bounds = no_bounds()) {
-  return std::make_shared<const TransformedHighGainObserver>(oscillator(start), bounds, 5.0, kK,
-                                                             oscillator_maps());
+  return std::make_shared<const TransformedHighGainObserver>(
+      oscillator(start), settings(bounds, 5.0, {kK}),
+      std::vector<TransformedHighGainObserver::Maps>{oscillator_maps()});
 }
 
 std::shared_ptr<const ObserverLaw> original(const Eigen::Vector2d& start,
-                                            const Saturation& bounds = no_bounds()) {
-  return std::make_shared<const OriginalHighGainObserver>(oscillator(start), bounds, 5.0, kK,
-                                                          oscillator_T());
+                                            const Saturation& bounds = no_bounds(),
+                                            double damping = 0.0) {
+  return std::make_shared<const OriginalHighGainObserver>(
+      oscillator(start), settings(bounds, 5.0, {kK}), Formulas{oscillator_T()}, damping);
 }
 
 TEST(NonlinearHighGainTest, BothFormsAreOneObserverWhereNothingSaturates) {
@@ -242,6 +252,159 @@ TEST(NonlinearHighGainTest, BothFormsConvergeThroughJumps) {
     EXPECT_LT((body.state.head(2) - plant.state.head(2)).norm(), 0.02);
     EXPECT_GT(plant.state.head(2).norm(), 0.3);
   }
+}
+
+TEST(OriginalHighGainTest, StaysWithinTheBounds) {
+  Saturation bounds(2);
+  bounds.bound(0, -3.0, 3.0);
+  bounds.bound(1, -0.25, 0.25);
+  Body body(original(Eigen::Vector2d(0.0, 0.0), bounds));
+  body.take(EventKind::kOutput, {10.0});
+  body.flow(2.0);
+  EXPECT_EQ(3.0, body.state(0));
+  EXPECT_EQ(0.25, body.state(1));
+}
+
+TEST(OriginalHighGainTest, DampingTakesItThroughSingularJacobians) {
+  // y = x1, ẋ1 = x2²/2: ∂T/∂x = diag(1, x2) is singular at x2 = 0, where the estimate starts.
+  PlantDescription plant;
+  plant.state_names = {"x1", "x2"};
+  plant.sensors = {{"y", SensorTiming::kContinuous, {false}}};
+  PlantMode mode;
+  mode.flow = formulas({"x1", "x2"}, {"0.5*x2^2", "1 - 0.2*x2"});
+  mode.outputs = {formulas({"x1", "x2"}, {"x1"})};
+  plant.modes = {mode};
+  Saturation bounds(2);
+  bounds.bound(1, -10.0, 10.0);
+  const ObserverContext context{std::make_shared<const Plant>(plant), Eigen::Vector2d(0.0, 0.0),
+                                Eigen::VectorXd(0)};
+  const auto make = [&](double damping) {
+    return std::make_shared<const OriginalHighGainObserver>(
+        context, settings(bounds, 5.0, {kK}), Formulas{formulas({"x1", "x2"}, {"x1", "0.5*x2^2"})},
+        damping);
+  };
+  EXPECT_THROW(make(0.0), std::invalid_argument);
+  EXPECT_THROW(make(-1.0), std::invalid_argument);
+  Body body(make(0.01));
+  Body truth(make(0.01));  // without outputs it is the plant
+  const Eigen::Vector2d x0(1.0, 2.0);
+  truth.law->observer().start_from(x0.data(), truth.state.data());
+  for (int i = 0; i < 4000; ++i) {
+    body.take(EventKind::kOutput, {truth.state(0)});
+    body.flow(0.001);
+    truth.flow(0.001);
+  }
+  EXPECT_LT((body.state.head(2) - truth.state.head(2)).norm(), 0.02);
+}
+
+TEST(DampedInverseTest, MinimizesWhatItSays) {
+  Eigen::Matrix3d J;
+  J << 2.0, -1.0, 0.5, 3.0, 0.2, 1.0, 5.0, -0.8, 1.5;  // the third row is the sum of the others
+  const Eigen::Vector3d r(1.0, -2.0, 4.0);
+  const Eigen::Vector3d scales(0.5, 3.0, 1.0);
+  const double ell = 2.0;
+  const double delta = 0.1;
+  const DampedInverse inverse(ell, scales, delta);
+  Eigen::Matrix3d destroyed = J;
+  Eigen::Vector3d c = r;
+  Eigen::VectorXd workspace(inverse.workspace_size());
+  inverse.apply(destroyed.data(), c.data(), workspace.data());
+  const Eigen::Vector3d powers(1.0, 0.5, 0.25);
+  const Eigen::Matrix3d scaled = powers.asDiagonal() * J * scales.asDiagonal();
+  const Eigen::Vector3d step = c.cwiseQuotient(scales);
+  // The gradient of what is minimized.
+  const Eigen::Vector3d gradient = scaled.transpose() * (scaled * step - powers.cwiseProduct(r)) +
+                                   delta * delta * scaled.row(0).squaredNorm() * step;
+  EXPECT_LT(gradient.norm(), 1e-12);
+  EXPECT_GT(step.norm(), 0.1);
+
+  destroyed.fill(std::numeric_limits<double>::quiet_NaN());
+  inverse.apply(destroyed.data(), c.data(), workspace.data());
+  EXPECT_EQ(0.0, c.norm());
+}
+
+/// A plant that switches between two oscillators, of which the second shows 2 x1 + x2.
+std::shared_ptr<const Plant> two_modes() {
+  PlantDescription plant;
+  plant.state_names = {"x1", "x2"};
+  plant.sensors = {{"y", SensorTiming::kContinuous, {false}}};
+  PlantMode first;
+  first.label = 1;
+  first.flow = formulas({"x1", "x2"}, {"x2", "-x1"});
+  first.jump = formulas({"x1", "x2"}, {"x1 + 0.1", "x2"});
+  first.outputs = {formulas({"x1", "x2"}, {"x1"})};
+  PlantMode second;
+  second.label = 2;
+  second.flow = formulas({"x1", "x2"}, {"2*x2", "-x1"});
+  second.outputs = {formulas({"x1", "x2"}, {"2*x1 + x2"})};
+  plant.modes = {first, second};
+  return std::make_shared<const Plant>(plant);
+}
+
+TEST(SwitchedHighGainTest, TheCoordinatesAreThoseOfTheModeThatFollows) {
+  const ObserverContext context{two_modes(), Eigen::Vector2d(0.5, -1.0), Eigen::VectorXd(0)};
+  const std::vector<std::string> z = {"z1", "z2"};
+  const std::vector<std::string> z_and_x = {"z1", "z2", "x1", "x2"};
+  const TransformedHighGainObserver::Maps first{
+      formulas({"x1", "x2"}, {"x1", "x2"}), formulas(z_and_x, {"-x1"}), formulas(z, {"z1", "z2"})};
+  // z = (2 x1 + x2, 4 x2 − x1), ż2 = −4 x1 − 2 x2
+  const TransformedHighGainObserver::Maps second{formulas({"x1", "x2"}, {"2*x1 + x2", "4*x2 - x1"}),
+                                                 formulas(z_and_x, {"-4*x1 - 2*x2"}),
+                                                 formulas(z, {"(4*z1 - z2)/9", "(z1 + 2*z2)/9"})};
+  const HighGainSettings both{no_bounds(), 5.0, {{kK}, {Eigen::Vector2d(3.0, 2.0)}}};
+  const auto law = std::make_shared<const TransformedHighGainObserver>(
+      context, both, std::vector<TransformedHighGainObserver::Maps>{first, second});
+  Body body(law);
+  const auto expect = [&body](double x1, double x2, double z1, double z2) {
+    EXPECT_NEAR(x1, body.state(0), 1e-14);
+    EXPECT_NEAR(x2, body.state(1), 1e-14);
+    EXPECT_NEAR(z1, body.state(2), 1e-14);
+    EXPECT_NEAR(z2, body.state(3), 1e-14);
+  };
+  expect(0.5, -1.0, 0.5, -1.0);
+  OwnedEvent jump{kStart, EventKind::kJump, 0, {}};
+  jump.mode = 2.0;
+  law->reset(jump.view(), body.state.data(), body.workspace.data());
+  expect(0.6, -1.0, 0.2, -4.6);  // T of mode 2 at g of mode 1: (51)
+  law->keep_mode(0, body.state.data());
+  expect(0.6, -1.0, 0.6, -1.0);
+  law->keep_mode(1, body.state.data());
+  expect(0.6, -1.0, 0.2, -4.6);
+
+  HighGainSettings unequal = both;
+  unequal.K[1] = {Eigen::Vector3d(3.0, 3.0, 1.0)};
+  EXPECT_THROW(TransformedHighGainObserver(context, unequal, {first, second}),
+               std::invalid_argument);
+  EXPECT_THROW(TransformedHighGainObserver(context, both, {first}), std::invalid_argument);
+}
+
+TEST(SwitchedHighGainTest, TheLinearFormHasTheGainsOfEachMode) {
+  PlantDescription plant;
+  plant.state_names = {"p", "v"};
+  plant.sensors = {{"y", SensorTiming::kContinuous, {false}}};
+  std::vector<Eigen::MatrixXd> A;
+  std::vector<Eigen::MatrixXd> C;
+  for (int q = 0; q < 2; ++q) {
+    A.emplace_back((Eigen::Matrix2d() << 0.0, 1.0, -q, -0.3 * q).finished());
+    C.emplace_back((Eigen::RowVector2d() << 1.0, q).finished());
+    PlantMode mode;
+    mode.label = q + 1;
+    mode.flow = std::make_shared<const AffineMap>(A.back());
+    mode.outputs = {std::make_shared<const AffineMap>(C.back())};
+    plant.modes.push_back(mode);
+  }
+  const ObserverContext context{std::make_shared<const Plant>(plant), Eigen::Vector2d(1.0, 1.0),
+                                Eigen::VectorXd(0)};
+  const HighGainSettings both{no_bounds(), 2.0, {{kK}, {Eigen::Vector2d(6.0, 5.0)}}};
+  const LinearHighGainObserver law(context, both);
+  for (std::size_t q = 0; q < 2; ++q) {
+    // s² + k_2 ℓ s + k_1 ℓ²
+    const Eigen::Matrix2d closed = A[q] - law.L_c()[q][0] * C[q];
+    EXPECT_NEAR(-2.0 * both.K[q][0](1), closed.trace(), 1e-9);
+    EXPECT_NEAR(4.0 * both.K[q][0](0), closed(0, 0) * closed(1, 1) - closed(0, 1) * closed(1, 0),
+                1e-9);
+  }
+  EXPECT_NE(nullptr, law.gains().find("modes/2/K"));
 }
 
 TEST(TransformedHighGainTest, JumpsAndStartsInItsCoordinates) {
@@ -324,18 +487,17 @@ std::string fault(Make make) {
 TEST(HighGainObserverTest, RefusesWhatDoesNotFit) {
   const ObserverContext linear{cart(false), Eigen::Vector2d::Zero(), Eigen::VectorXd(0)};
   const ObserverContext nonlinear = oscillator(Eigen::Vector2d::Zero());
-  using Lists = std::vector<Eigen::VectorXd>;
   const auto contains = [](const std::string& text, const char* part) {
     EXPECT_NE(std::string::npos, text.find(part)) << text;
   };
-  contains(fault([&] { LinearHighGainObserver(linear, Saturation(3), 1.0, Lists{kK}); }),
+  contains(fault([&] { LinearHighGainObserver(linear, settings(Saturation(3), 1.0, {kK})); }),
            "saturations");
-  contains(fault([&] { LinearHighGainObserver(nonlinear, no_bounds(), 1.0, Lists{kK}); }),
+  contains(fault([&] { LinearHighGainObserver(nonlinear, settings(no_bounds(), 1.0, {kK})); }),
            "a flow by matrices");
   const auto make_transformed = [&](double ell, const Eigen::VectorXd& K,
                                     TransformedHighGainObserver::Maps maps) {
     return fault(
-        [&] { TransformedHighGainObserver(nonlinear, no_bounds(), ell, K, std::move(maps)); });
+        [&] { TransformedHighGainObserver(nonlinear, settings(no_bounds(), ell, {K}), {maps}); });
   };
   TransformedHighGainObserver::Maps maps = oscillator_maps();
   EXPECT_EQ("no fault", make_transformed(1.0, kK, maps));
@@ -348,8 +510,8 @@ TEST(HighGainObserverTest, RefusesWhatDoesNotFit) {
   maps.Theta = formulas({"z1", "z2"}, {"z1", "z2/z1"});
   contains(make_transformed(1.0, kK, maps), "not defined at the initial estimate");
   contains(fault([&] {
-             OriginalHighGainObserver(nonlinear, no_bounds(), 1.0, kK,
-                                      formulas({"x1", "x2"}, {"x1", "x1"}));
+             OriginalHighGainObserver(nonlinear, settings(no_bounds(), 1.0, {kK}),
+                                      {formulas({"x1", "x2"}, {"x1", "x1"})}, 0.0);
            }),
            "not defined at the initial estimate");
 }

@@ -19,6 +19,7 @@ inline std::vector<std::string> type_examples() {
           "constant_gain_nonlinear",
           "high_gain_linear",
           "high_gain_original",
+          "high_gain_switched",
           "high_gain_transformed",
           "hybrid_kalman_filter",
           "hybrid_kalman_filter_switched",

@@ -70,8 +70,9 @@ class PlantObserver : public ObserverLaw {
   /// The mode that holds in a state, as its position among the plant's.
   std::size_t mode_of(const double* state) const { return mode_.of(state); }
 
-  /// Takes over a mode, as mode_of() of an observer of the same plant gives it.
-  void keep_mode(std::size_t mode, double* state) const { mode_.set(mode, state); }
+  /// Takes over a mode, as mode_of() of an observer of the same plant gives it, without a jump. An
+  /// observer that keeps its estimate in coordinates of the mode brings them up to date.
+  virtual void keep_mode(std::size_t mode, double* state) const;
 
   /// Moves the estimate of an initialized state the least (in the norm |·|) so that it fits a
   /// sample of a sensor whose output is affine in the state; leaves it where it is for other
@@ -162,6 +163,10 @@ class PlantObserver : public ObserverLaw {
 
   /// ds ← ṡ
   virtual void derivative(const Held& held, const double* s, double* ds, double* workspace) const;
+
+  /// Brings s, after a step of an integrated flow, back to where it may be. By default it may be
+  /// anywhere.
+  virtual void confine(double* s) const;
 
   /// Reset map of a sample y of a sensor that is sampled. By default nothing, for observers that
   /// take no such sensor.

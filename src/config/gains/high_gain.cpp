@@ -71,26 +71,47 @@ TransformedHighGainObserver::Maps read_maps(ConfigSection& gains, const LawConte
   return maps;
 }
 
+/// Reads what each mode has, of a switched plant in gains/modes/LABEL, else in `gains` itself.
+template <class Read>
+void for_each_mode(ConfigSection& gains, const Plant& plant, const Read& read) {
+  if (!plant.switches()) {
+    read(gains);
+    return;
+  }
+  ConfigSection modes = gains.section("modes");
+  for (const PlantMode& mode : plant.modes()) {
+    ConfigSection section = modes.section(std::to_string(mode.label));
+    read(section);
+    section.finish();
+  }
+  modes.finish();
+}
+
 }  // namespace
 
 HighGains read_high_gains(ConfigSection& gains, const LawContext& context) {
   using Form = HighGains::Form;
-  const std::string form = gains.choice("form", {"linear", "transformed", "original"});
+  const std::string name = gains.choice("form", {"linear", "transformed", "original"});
+  const Form form = name == "linear"        ? Form::kLinear
+                    : name == "transformed" ? Form::kTransformed
+                                            : Form::kOriginal;
   const double ell = gains.number("ell");
   HighGains result{
-      Form::kLinear, read_saturations(gains, context.plant().state_names()), ell, {}, {}};
-  if (form == "linear") {
-    result.K = gains.vectors("K");
-    return result;
-  }
-  if (form == "transformed") {
-    result.form = Form::kTransformed;
-    result.maps = read_maps(gains, context);
-  } else {
-    result.form = Form::kOriginal;
-    result.maps.T = read_T(gains, context.names);
-  }
-  result.K = {gains.vector("K", result.maps.T->size())};
+      form, {read_saturations(gains, context.plant().state_names()), ell, {}}, {}, 0.0};
+  for_each_mode(gains, context.plant(), [&](ConfigSection& section) {
+    if (form == Form::kLinear) {
+      result.settings.K.push_back(section.vectors("K"));
+      return;
+    }
+    TransformedHighGainObserver::Maps& maps = result.maps.emplace_back();
+    if (form == Form::kTransformed) {
+      maps = read_maps(section, context);
+    } else {
+      maps.T = read_T(section, context.names);
+    }
+    result.settings.K.push_back({section.vector("K", maps.T->size())});
+  });
+  if (form == Form::kOriginal && gains.has("damping")) result.damping = gains.number("damping");
   return result;
 }
 

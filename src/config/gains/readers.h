@@ -27,10 +27,10 @@ struct TimeVaryingGains {
 struct HighGains {
   enum class Form { kLinear, kTransformed, kOriginal };
   Form form = Form::kLinear;
-  Saturation saturation;
-  double ell = 0.0;
-  std::vector<Eigen::VectorXd> K;          ///< one, unless the form is linear
-  TransformedHighGainObserver::Maps maps;  ///< of the original form T only
+  HighGainSettings settings;
+  /// Per mode, unless the form is linear; of the original form T only.
+  std::vector<TransformedHighGainObserver::Maps> maps;
+  double damping = 0.0;  ///< of the original form
 };
 
 /// L of each sampled sensor: of a ConstantGainObserver and of a SampleAndHoldObserver.
