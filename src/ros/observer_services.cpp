@@ -1,45 +1,13 @@
 #include "sampled_data_observers/ros/observer_services.h"
 
-#include <algorithm>
-#include <chrono>
-#include <thread>
 #include <utility>
 
 #include "messages/runtime_messages.h"
 #include "messages/time_conversion.h"
+#include "ros/paced_steps.h"
 #include "sampled_data_observers/runtime/no_clock.h"
 
 namespace sampled_data_observers {
-namespace {
-
-/// How much of a long computation is done in each use of the runtime: what takes a few tens of
-/// microseconds. Between two uses it rests nine times as long: where a thread is preempted that has
-/// the runtime, all others wait for it, so that should be rare.
-class PacedSteps {
- public:
-  std::int64_t steps() const { return steps_; }
-  void begin() { began_ = Clock::now(); }
-  void end() {
-    took_ = Clock::now() - began_;
-    if (took_ < kPart / 2) {
-      steps_ *= 2;
-    } else if (took_ > kPart) {
-      steps_ = std::max<std::int64_t>(1, steps_ / 2);
-    }
-  }
-  void rest() const { std::this_thread::sleep_for(std::min<Clock::duration>(9 * took_, kLongest)); }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  static constexpr std::chrono::microseconds kPart{50};
-  static constexpr std::chrono::milliseconds kLongest{5};
-
-  std::int64_t steps_ = SharedRuntime::kSteps;
-  Clock::time_point began_;
-  Clock::duration took_{0};
-};
-
-}  // namespace
 
 ObserverServices::ObserverServices(const ros::NodeHandle& handle, SharedRuntime& runtime,
                                    GainReloader& gains, NodeLog log)
@@ -101,7 +69,7 @@ std::string ObserverServices::compute_estimate(const ros::Time& at, StateEstimat
     if (objection != nullptr) return objection;
     frame_id = access->setup().frame_id;
   }
-  for (PacedSteps pace; !is_stopping_; pace.rest()) {
+  for (PacedSteps pace(SharedRuntime::kSteps); !is_stopping_; pace.rest()) {
     const SharedRuntime::Access access = runtime_.access();
     pace.begin();
     if (query.proceed(pace.steps())) break;
