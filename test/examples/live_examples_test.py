@@ -16,7 +16,7 @@ EXAMPLES = os.path.join(ROOT, "config", "examples")
 # potential 500 and 1000 times a second.
 USUAL = (20, 8)
 SPECIAL = {"bernard2022_neuron_high_gain": (10, 2), "bernard2022_neuron_jump_based": (10, 2),
-           "bernard2022_impulsive": (40, 16), "sferlazza2019_aircraft_1_3": (40, 8),
+           "bernard2022_clutch": (10, 4), "bernard2022_impulsive": (40, 16), "sferlazza2019_aircraft_1_3": (40, 8),
            "sferlazza2019_aircraft_4_8": (40, 8)}
 
 # How many of the estimates must rest on the same events live and replayed, in percent. The others had
