@@ -6,8 +6,7 @@ namespace sampled_data_observers {
 
 HighGainObserver::HighGainObserver(const ObserverContext& context, const HighGainSettings& settings,
                                    const std::vector<std::string>& maps, Eigen::Index flowing)
-    : PlantObserver(context, {SensorTiming::kContinuous}, flowing),
-      saturation_(settings.saturation) {
+    : PlantObserver(context, {SensorTiming::kContinuous}, flowing), settings_(settings) {
   check_settings(settings, plant());
   listed_ = list_gains(settings, plant(), maps);
 }
@@ -31,7 +30,7 @@ void HighGainObserver::check_start() const {
 void HighGainObserver::jump(const Held& held, std::size_t next, const JumpOutputs& outputs,
                             double* state, double* workspace) const {
   PlantObserver::jump(held, next, outputs, state, workspace);
-  saturation_.apply(state);
+  saturation().apply(state);
 }
 
 }  // namespace sampled_data_observers

@@ -20,7 +20,10 @@ namespace sampled_data_observers {
 class HighGainObserver : public PlantObserver {
  public:
   LawGains gains() const override { return listed_; }
-  bool is_saturated(const double* state) const override { return saturation_.is_active(state); }
+  bool is_saturated(const double* state) const override { return saturation().is_active(state); }
+
+  const HighGainSettings& settings() const { return settings_; }
+  const Saturation& saturation() const { return settings_.saturation; }
 
  protected:
   /// @param maps     the names of what a form is given by formulas
@@ -32,14 +35,12 @@ class HighGainObserver : public PlantObserver {
   void jump(const Held& held, std::size_t next, const JumpOutputs& outputs, double* state,
             double* workspace) const override;
 
-  const Saturation& saturation() const { return saturation_; }
-
   /// To be called at the end of the constructor of a form that may be undefined at some estimates.
   /// @throws std::invalid_argument where it is at the initial one.
   void check_start() const;
 
  private:
-  Saturation saturation_;
+  HighGainSettings settings_;
   LawGains listed_;
 };
 

@@ -25,6 +25,9 @@ class OriginalHighGainObserver final : public HighGainObserver {
   OriginalHighGainObserver(const ObserverContext& context, const HighGainSettings& settings,
                            std::vector<std::shared_ptr<const VectorMap>> T, double damping);
 
+  /// Per mode
+  const std::vector<std::shared_ptr<const VectorMap>>& T() const { return T_; }
+
   LawGains gains() const override;
 
  protected:

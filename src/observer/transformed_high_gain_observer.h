@@ -31,6 +31,9 @@ class TransformedHighGainObserver final : public HighGainObserver {
   TransformedHighGainObserver(const ObserverContext& context, const HighGainSettings& settings,
                               std::vector<Maps> maps);
 
+  /// Per mode
+  const std::vector<Maps>& maps() const { return maps_; }
+
   void start_from(const double* estimate, double* state) const override;
   void keep_mode(std::size_t mode, double* state) const override;
 

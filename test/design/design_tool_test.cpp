@@ -512,5 +512,31 @@ TEST_F(DesignTool, ExplainsItsExitStatus) {
   EXPECT_GT(run("").status, 99);
 }
 
+TEST_F(DesignTool, ChecksEllOnTheBoxOfTheSaturations) {
+  const std::string folder = SDO_SOURCE_DIR "/config/examples/bernard2022_clutch/";
+  const ToolRun clutch = run("check_ell --points 300 " + folder + "scenario.yaml " + folder +
+                             "observer.yaml " + folder + "gains.yaml");
+  EXPECT_TRUE(clutch.says("ell = 8, mode 1")) << clutch.output;
+  EXPECT_TRUE(clutch.says("each T_i+1 the derivative of T_i")) << clutch.output;
+  const std::string puck = SDO_SOURCE_DIR "/config/examples/bernard2022_puck/";
+  const ToolRun linear =
+      run("check_ell " + puck + "scenario.yaml " + puck + "observer.yaml " + puck + "gains.yaml");
+  EXPECT_EQ(1, linear.status);
+  EXPECT_TRUE(linear.says("The linear form converges with any ell")) << linear.output;
+}
+
+TEST_F(DesignTool, TellsWhetherJumpsShowTheState) {
+  const std::string ball =
+      SDO_SOURCE_DIR "/config/examples/bernard2022_bouncing_ball/scenario.yaml";
+  const ToolRun seen = run("jump_observability --T1 0.5 --T2 1.5 " + ball);
+  EXPECT_EQ(0, seen.status);
+  EXPECT_TRUE(seen.says("before 2 intervals of flow in [0.5, 1.5] s")) << seen.output;
+  EXPECT_TRUE(seen.says("  observable: least eigenvalue")) << seen.output;
+  const ToolRun one = run("jump_observability --jumps 1 " + ball);
+  EXPECT_EQ(2, one.status);
+  EXPECT_TRUE(one.says("NOT OBSERVABLE")) << one.output;
+  EXPECT_EQ(1, run("jump_observability --T1 2 --T2 1 " + ball).status);
+}
+
 }  // namespace
 }  // namespace sampled_data_observers

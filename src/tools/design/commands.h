@@ -7,7 +7,9 @@
 namespace sampled_data_observers {
 
 // Each adds a subcommand, with what it does, to the tool `design`.
+void add_check_ell(CommandLine& tool);
 void add_explain(CommandLine& tool);
+void add_jump_observability(CommandLine& tool);
 void add_sweep(CommandLine& tool, const std::string& command_line);
 void add_synthesize(CommandLine& tool, const std::string& command_line);
 void add_analyze(CommandLine& tool, const std::string& command_line);

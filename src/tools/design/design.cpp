@@ -24,6 +24,8 @@ int run(int argc, char** argv) {
   sdo::add_verify(tool);
   sdo::add_sweep(tool, command_line);
   sdo::add_explain(tool);
+  sdo::add_check_ell(tool);
+  sdo::add_jump_observability(tool);
   try {
     return tool.run(argc, argv);
   } catch (const sdo::ExitStatus& exit) {
