@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "config/contraction_check.h"
+#include "config/event_times.h"
 #include "config/gate_config.h"
 #include "config/guarantee_config.h"
 #include "config/integration_check.h"
@@ -23,13 +24,13 @@ constexpr double kLongest = 1e6;    // s
 /// Required where samples come; a plant that is measured in the flow or at jumps only has none.
 SamplingBounds read_sampling(ConfigSection& root, const Plant& plant) {
   const bool is_sampled = plant.outputs(SensorTiming::kSampled) > 0;
-  if (!is_sampled && !root.has("sampling")) return {1, from_seconds(kLongest)};
+  if (!is_sampled && !root.has("sampling")) return {0, kNoLongestTime};
   ConfigSection section = root.section("sampling");
-  const double T1 = section.number_in("T1", kShortest, kLongest, std::nullopt);
-  const double T2 = section.number_in("T2", kShortest, kLongest, std::nullopt);
+  const double T1 = section.number_in("T1", 0.0, kLongest, std::nullopt);
+  const double T2 = read_longest_time(section, kShortest);
   if (T1 > T2) throw section.error("T2", "a number not less than T1", "T1 > T2");
   section.finish();
-  return {from_seconds(T1), from_seconds(T2)};
+  return {from_seconds(T1), longest_from_seconds(T2)};
 }
 
 Timeline::Limits read_history(ConfigSection& root) {

@@ -28,6 +28,8 @@ std::string shown(double value) {
 
 std::string seconds(Duration duration) { return shown(to_seconds(duration)) + " s"; }
 
+std::string longest(Duration duration) { return shown(longest_to_seconds(duration)) + " s"; }
+
 /// All digits that matter: six would not do for the seconds since 1970.
 std::string instant(Stamp stamp) {
   std::ostringstream out;
@@ -130,7 +132,7 @@ std::optional<Diagnosis::Suspension> Diagnosis::find_suspension() const {
           statistics.violations.smallest,
           "a time between events of " + subject_.channels[i].name + " of " +
               seconds(is_long ? statistics.interval.largest : statistics.interval.smallest) +
-              (is_long ? ", above T2 = " + seconds(subject_.sampling.T2)
+              (is_long ? ", above T2 = " + longest(subject_.sampling.T2)
                        : ", below T1 = " + seconds(subject_.sampling.T1))};
     }
     if (statistics.after_bound > 0) {
@@ -146,7 +148,7 @@ std::optional<Diagnosis::Suspension> Diagnosis::find_suspension() const {
     if (is_silent) {
       return Suspension{memory_[i].used,
                         "no sample of " + subject_.channels[i].name +
-                            " for longer than T2 = " + seconds(subject_.sampling.T2)};
+                            " for longer than T2 = " + longest(subject_.sampling.T2)};
     }
   }
   return std::nullopt;
@@ -335,7 +337,7 @@ Finding Diagnosis::channel(std::size_t index) const {
     finding.message = "used, but " +
                       std::to_string(statistics.short_intervals + statistics.long_intervals) +
                       " times between samples are outside of [" + seconds(subject_.sampling.T1) +
-                      ", " + seconds(subject_.sampling.T2) + "]";
+                      ", " + longest(subject_.sampling.T2) + "]";
   } else {
     finding.message = statistics.received() > 0 ? "used" : "nothing lately";
   }
@@ -390,7 +392,7 @@ Finding Diagnosis::certificate() const {
   }
   finding.values = {{"guarantee", subject_.guarantee.empty() ? "none" : subject_.guarantee},
                     {"T1", seconds(subject_.sampling.T1)},
-                    {"T2", seconds(subject_.sampling.T2)},
+                    {"T2", longest(subject_.sampling.T2)},
                     {"error bound", shown(window_.error_bound)}};
   return finding;
 }

@@ -101,8 +101,8 @@ Estimator::Estimator(std::shared_ptr<const ObserverLaw> law, const Options& opti
       is_sampled_(law_->observer().plant().outputs(SensorTiming::kSampled) > 0),
       has_other_events_(law_->observer().plant().inputs() > 0 || law_->observer().plant().jumps()),
       answer_(make_estimate()) {
-  if (options_.sampling.T1 <= 0 || options_.sampling.T1 > options_.sampling.T2) {
-    throw std::invalid_argument("Estimator: 0 < T1 <= T2 must hold");
+  if (options_.sampling.T1 < 0 || options_.sampling.T1 > options_.sampling.T2) {
+    throw std::invalid_argument("Estimator: 0 <= T1 <= T2 must hold");
   }
   if (options_.future_tolerance < 0) {
     throw std::invalid_argument("Estimator: future_tolerance must not be negative");

@@ -22,8 +22,8 @@ bool is_admissible(const Eigen::Ref<const Eigen::VectorXd>& values);
 /// The bounds T1 <= T2 on the time between samples, or between jumps where there are no samples,
 /// for which the gains were designed [ns].
 struct SamplingBounds {
-  Duration T1 = 0;  ///< the shortest, > 0
-  Duration T2 = 0;  ///< the longest
+  Duration T1 = 0;  ///< the shortest, >= 0
+  Duration T2 = 0;  ///< the longest; kNoLongestTime where there is none
 };
 
 /// An estimate and what it rests on.
