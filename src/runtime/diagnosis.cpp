@@ -59,6 +59,10 @@ std::uint64_t rejected(const ChannelStatistics& statistics) {
   return sum;
 }
 
+std::uint64_t growth(std::uint64_t before, std::uint64_t now) {
+  return now > before ? now - before : 0;
+}
+
 /// An outcome in words, what it was about (which may be empty), and what to do.
 std::string with_remedy(EventOutcome outcome, const std::string& detail) {
   const std::string advice = remedy(outcome);
@@ -92,9 +96,9 @@ void Diagnosis::update(const RunStatistics& window, Stamp now, Duration elapsed)
     restored_ = 0;
   }
   window_ = window;
-  newly_missing_ = window.missing_jumps > totals_.missing_jumps
-                       ? window.missing_jumps - totals_.missing_jumps
-                       : 0;
+  newly_missing_ = growth(totals_.missing_jumps, window.missing_jumps);
+  newly_skipped_ = growth(totals_.skipped_jumps, window.skipped_jumps);
+  new_dwell_violations_ = growth(totals_.dwell_violations, window.dwell_violations);
   totals_.add(window);
   now_ = now;
   elapsed_ = elapsed;
@@ -124,6 +128,8 @@ void Diagnosis::set_published_type(std::size_t channel, std::string type) {
 std::optional<Diagnosis::Suspension> Diagnosis::find_suspension() const {
   if (subject_.guarantee.empty()) return std::nullopt;
   if (window_.bound_lost_since) return Suspension{*window_.bound_lost_since, why_bound_is_lost()};
+  if (newly_skipped_ > 0) return Suspension{now_, describe(BoundLoss::kUnknownJump)};
+  if (new_dwell_violations_ > 0) return Suspension{now_, describe(BoundLoss::kDwellTimes)};
   for (std::size_t i = 0; i < subject_.channels.size(); ++i) {
     const ChannelStatistics& statistics = window_.channels[i];
     if (statistics.violations.count > 0) {
@@ -265,6 +271,17 @@ Finding Diagnosis::estimates() const {
     finding = {HealthLevel::kWarn,
                std::to_string(newly_missing_) + " jumps that no event told of (jumps/missing)",
                {}};
+  } else if (newly_skipped_ > 0) {
+    finding = {HealthLevel::kWarn,
+               std::to_string(newly_skipped_) +
+                   " jumps were lost: their numbers (index) are missing among those told",
+               {}};
+  } else if (new_dwell_violations_ > 0) {
+    finding = {HealthLevel::kWarn,
+               std::to_string(new_dwell_violations_) +
+                   " times, jumps came at others than jumps/dwell_time, average_dwell_time or "
+                   "reverse_average_dwell_time say",
+               {}};
   } else if (!growing.empty()) {
     finding = {HealthLevel::kWarn, growing, {}};
   } else if (published < kLowestRate * expected - 1.0) {
@@ -290,6 +307,8 @@ Finding Diagnosis::estimates() const {
       {"held", std::to_string(window_.held)},
       {"saturated", std::to_string(window_.saturated)},
       {"missing jumps in all", std::to_string(totals_.missing_jumps)},
+      {"lost jumps in all", std::to_string(totals_.skipped_jumps)},
+      {"jumps at other times in all", std::to_string(totals_.dwell_violations)},
       {"CPU time per tick, mean", in_milliseconds(cpu.mean())},
       {"CPU time per tick, most", in_milliseconds(cpu.count > 0 ? cpu.largest : 0)},
   };

@@ -108,6 +108,17 @@ gains: {L: [[0.5]]}
   EXPECT_FALSE(config.jumps);
 }
 
+TEST(ObserverConfigTest, EstimatesBeginWhereTheyAreToBegin) {
+  const std::string at = "start: {at: ";
+  EXPECT_EQ(from_seconds(12.5), parse(kGood + (at + "12.5}")).options.start);
+  EXPECT_EQ(std::nullopt, parse(kGood + (at + "first_event}")).options.start);
+  EXPECT_EQ(std::nullopt, parse(kGood).options.start);
+  for (const char* bad : {"0", "-1", "5e9", "now", "[1]"}) {
+    const std::string found = fault(kGood + (at + bad + "}"));
+    EXPECT_NE(std::string::npos, found.find("start/at")) << found;
+  }
+}
+
 class BadConfigTest : public ::testing::TestWithParam<Fault> {};
 
 TEST_P(BadConfigTest, IsRefusedWithAMessageThatHelps) {
