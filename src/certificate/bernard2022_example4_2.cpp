@@ -2,6 +2,7 @@
 #include <stdexcept>
 
 #include "certificate/bernard2022.h"
+#include "certificate/modal_bound.h"
 #include "certificate/theorems.h"
 #include "observer/observable_form.h"
 
@@ -19,8 +20,6 @@ class Example42 : public Theorem {
            "of P, for all times between jumps of T1 or more, with the continuous output known at "
            "all times";
   }
-
-  TheoremTimes times() const override { return TheoremTimes::kFromT1; }
 
   std::vector<std::string> observer_types() const override { return {"HighGainObserver"}; }
 
@@ -67,10 +66,18 @@ class Example42 : public Theorem {
     return all;
   }
 
-  std::unique_ptr<const ErrorBound> error_bound(const CertificateSubject&, const NamedMatrices&,
-                                                const ErrorAssumptions&) const override {
-    // y_c is taken as known at all times. It comes in messages and is held between them.
-    return nullptr;
+  std::unique_ptr<const ErrorBound> error_bound(
+      const CertificateSubject& subject, const NamedMatrices& values,
+      const ErrorAssumptions& assumptions) const override {
+    // Stated maps of the error take outputs as known at all times, which come in messages.
+    if (!subject.plant.stated.is_empty()) return nullptr;
+    const ModeMatrices& plant = subject.plant.mode();
+    const ObservableForm form = observable_form(plant.A, plant.C_c);
+    const double ell = scalar_value(values, "ell");
+    const Eigen::VectorXd K = values.at("K").transpose();
+    const Eigen::MatrixXd L_c = high_gain(plant.A, plant.C_c, form, ell, {K});
+    return held_output_bound(subject, {{values.at("P"), L_c, Eigen::MatrixXd()}},
+                             scalar_value(values, "flow_decay"), assumptions);
   }
 
  private:

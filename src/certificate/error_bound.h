@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
+#include <optional>
 
 namespace sampled_data_observers {
 
@@ -12,6 +14,8 @@ struct ErrorAssumptions {
   /// |θ| of what an observer with intersample injection adds before its first sample.
   double initial_injection = 0.0;
   double jump_stamp_error = 0.0;  ///< by how much the stamps of jumps may be off [s]
+  /// How far a continuous output moves per second at most, between jumps: units of the outputs/s.
+  std::optional<double> output_rate = std::nullopt;
 };
 
 /// What a jump of the plant does to an estimate.
@@ -22,6 +26,14 @@ struct JumpMotion {
   // Where the stamps of jumps may be off:
   double speed_before = 0.0;  ///< |f(x̂)|, f the plant's flow
   double speed_after = 0.0;   ///< |f(g(x̂))|
+  std::size_t mode = 0;       ///< the one that follows, by its position among the plant's
+};
+
+/// What a law does from an event on, as far as its error depends on it.
+struct LawAtWork {
+  std::size_t mode = 0;  ///< of the plant, by its position
+  /// |y_c − C_c x̂| of the continuous output that the law holds; nothing where it holds none.
+  std::optional<double> innovation = std::nullopt;
 };
 
 /// How a certificate bounds the norm of the estimation error |x − x̂| along flow and events: a small
@@ -55,9 +67,10 @@ class ErrorBound {
   /// The same where |x − x̂| <= error is known of it. @pre error >= 0, finite
   virtual void begin(double error, double* state) const = 0;
 
-  /// Carries the state over `duration` >= 0 [s], the time since the last sample or jump: the double
-  /// nearest to a whole number of nanoseconds, so that it compares with T1 and T2 as they are
-  /// written. It is not split: GuaranteedBound starts again from that sample or jump.
+  /// Carries the state over `duration` >= 0 [s], the time since the last sample, jump or message
+  /// that holds_outputs() is about: the double nearest to a whole number of nanoseconds, so that it
+  /// compares with T1 and T2 as they are written. It is not split: GuaranteedBound starts again
+  /// from that event.
   virtual void flow(double duration, double* state) const = 0;
 
   /// At a sample of the sensor.
@@ -69,6 +82,21 @@ class ErrorBound {
 
   /// By how much the stamps of jumps may be off [s].
   virtual double jump_stamp_error() const { return 0.0; }
+
+  /// Whether look_at() is to be called.
+  virtual bool follows_law() const { return false; }
+
+  /// Told where an interval begins, before the flow or jump that follows, once or more often.
+  virtual void look_at(const LawAtWork& law, double* state) const {
+    static_cast<void>(law);
+    static_cast<void>(state);
+  }
+
+  /// Whether intervals begin at messages of a continuous output, too, which is held between them.
+  virtual bool holds_outputs() const { return false; }
+
+  /// At such a message.
+  virtual void output(double* state) const { static_cast<void>(state); }
 
   /// At a jump of the plant.
   virtual void jump(const JumpMotion& motion, double* state) const = 0;

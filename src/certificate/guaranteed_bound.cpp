@@ -123,10 +123,9 @@ bool GuaranteedBound::accepts(const Event& event) const {
 
 void GuaranteedBound::flow(Duration duration, double* state, double* workspace) const {
   const double missing = law().missing_jumps(state);
-  const double violations = law().dwell_violations(state);
+  look_at_law(state, workspace);
   law().flow(duration, state, workspace);
   if (law().missing_jumps(state) != missing) give_up(state);
-  if (law().dwell_violations(state) != violations) give_up(state, BoundLoss::kDwellTimes);
   since_.advance(duration, state);
   since_start_.advance(duration, state);
   since_jump_.advance(duration, state);
@@ -156,16 +155,13 @@ Effect GuaranteedBound::reset(const Event& event, double* state, double* workspa
     give_up(state, is_input ? BoundLoss::kUnknownInput : BoundLoss::kUnknownJump);
     return Effect::kApplied;
   }
+  look_at_law(state, workspace);
   const bool is_sample = event.kind == EventKind::kSample;
   const bool is_wrapped = is_sample && may_be_wrapped(event, state, workspace);
   if ((is_sample || is_jump || is_output) && !comes_to_jump) {
     before_.set(state, state);
   }
-  const double skipped = law().skipped_jumps(state);
-  const double violations = law().dwell_violations(state);
   const Effect effect = law().reset(event, state, workspace);
-  if (law().skipped_jumps(state) > skipped) give_up(state, BoundLoss::kUnknownJump);
-  if (law().dwell_violations(state) != violations) give_up(state, BoundLoss::kDwellTimes);
   if (is_jump) note_stamp_of_jump(state, workspace);
   if (!took_effect(effect)) {
     if (is_jump) refuse_jump(state);
@@ -188,8 +184,21 @@ Effect GuaranteedBound::reset(const Event& event, double* state, double* workspa
     if (effect != Effect::kWithoutOutputs) take_jump(state);
   } else if (is_output && moved_since_before(state) > 0.0) {
     go_on_from_moved(state);
+  } else if (event.kind == EventKind::kOutput && bound_->holds_outputs()) {
+    begin_interval(state);
+    bound_->output(then_.bound.of(state));
+    go_on_from_then(state);
   }
   return effect;
+}
+
+/// Where an interval begins: nothing flowed since.
+void GuaranteedBound::look_at_law(double* state, double* workspace) const {
+  if (!bound_->follows_law() || since_.of(state) != 0.0 || awaiting_.of(state)) return;
+  if (then_.loss.of(state) != BoundLoss::kNone) return;
+  bound_->look_at({observer().mode_of(state), observer().innovation_of_held(state, workspace)},
+                  then_.bound.of(state));
+  go_on_from_then(state);
 }
 
 void GuaranteedBound::sample(double* state, double* workspace, bool is_wrapped) const {
@@ -233,6 +242,11 @@ void GuaranteedBound::take_jump(double* state) const {
 /// Nobody knows whether the plant has jumped.
 void GuaranteedBound::refuse_jump(double* state) const {
   begin_interval(state);
+  if (plant_->switches()) {
+    // It may be in another mode than the law.
+    give_up(state, BoundLoss::kUnknownJump);
+    return;
+  }
   const VectorMap* map = plant_->modes()[observer().mode_of(state)].jump.get();
   if (map != nullptr) map->evaluate(state, observer().held_part(state), before_.of(state));
   bound_->refused_jump(motion(moved_since_before(state), state), then_.bound.of(state));
@@ -262,7 +276,7 @@ void GuaranteedBound::note_stamp_of_jump(double* state, double* workspace) const
 }
 
 JumpMotion GuaranteedBound::motion(double moved, const double* state) const {
-  return {moved, speed_before_.of(state), speed_after_.of(state)};
+  return {moved, speed_before_.of(state), speed_after_.of(state), observer().mode_of(state)};
 }
 
 void GuaranteedBound::begin_interval(double* state) const {

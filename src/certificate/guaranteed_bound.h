@@ -17,8 +17,6 @@ namespace sampled_data_observers {
 /// - where the timeline holds the estimate, since its flow is not finite, or a jump is without
 ///   effect, since its result is not;
 /// - after an input or a jump that was rejected: an event of kind kRejected says so;
-/// - after jumps that are missing, or were lost as the numbers of others tell, and where the times
-///   between jumps leave those configured;
 /// - at a jump whose angular outputs may be wrapped by another number of turns than the error, and
 ///   at such a sample where the law goes on injecting it; elsewhere such a sample moves the
 ///   estimate by what is known, and the bound with it. Which number of turns fits is known where
@@ -71,6 +69,7 @@ class GuaranteedBound : public LawDecorator, public StateBound {
   void go_on_from_then(double* state) const;
   void flow_part(double* state) const;
   void begin_interval(double* state) const;
+  void look_at_law(double* state, double* workspace) const;
   double moved_since_before(const double* state) const;
   bool may_be_wrapped(double error, std::size_t sensor, const double* innovation) const;
   bool may_be_wrapped(const Event& event, double* state, double* workspace) const;
@@ -91,7 +90,8 @@ class GuaranteedBound : public LawDecorator, public StateBound {
   Duration jump_stamp_error_;  ///< ns
   bool shift_is_bounded_;      ///< whether the bound knows what that does
 
-  TimerSlot since_ = state_layout().timer();    ///< the last sample, jump or start
+  /// The last sample, jump or start, or message of an output that the bound takes as held.
+  TimerSlot since_ = state_layout().timer();
   FlagSlot awaiting_ = state_layout().flag();   ///< the outputs of the last jump are still to come
   NumberSlot moved_ = state_layout().number();  ///< by how much x̂ did at that jump
   NumberSlot speed_before_ = state_layout().number();  ///< |f(x̂)| at the last jump

@@ -77,11 +77,11 @@ std::optional<ConfigError> objection(ConfigSection& root, const ConfigNode& tree
   const CertificateSubject& subject = certificate.subject;
   const SamplingBounds& sampling = config.options.sampling;
   if (root.has("sampling") &&
-      (sampling.T1 < from_seconds(subject.T1) || sampling.T2 > longest_from_seconds(subject.T2))) {
+      (sampling.T1 < from_seconds(subject.T1) || sampling.T2 > from_seconds(subject.T2))) {
     return root.error("sampling",
                       "T1 and T2 inside " + interval(subject.T1, subject.T2) +
                           ", for which the gains were made" + kGainsRemedy,
-                      interval(to_seconds(sampling.T1), longest_to_seconds(sampling.T2)));
+                      interval(to_seconds(sampling.T1), to_seconds(sampling.T2)));
   }
   if (auto error = objection_to_statements(root, claim, config)) return error;
   if (auto error = objection_to_step(root, *config.plant, *config.law, true)) return error;
@@ -133,7 +133,8 @@ double read_disturbance(ConfigSection& section, const CertificateConfig& claim,
 }
 
 ErrorAssumptions read_assumptions(ConfigSection& root, const CertificateConfig& claim,
-                                  const LawGains& law, Guarantee& guarantee) {
+                                  const LawGains& law, bool has_held_outputs,
+                                  Guarantee& guarantee) {
   ErrorAssumptions assumptions;
   ConfigSection section = root.section("error_assumptions");
   assumptions.initial_error = assumption(section, "initial_error");
@@ -147,21 +148,26 @@ ErrorAssumptions read_assumptions(ConfigSection& root, const CertificateConfig& 
                         "'" + section.text("disturbance") + "'");
   }
   guarantee.latency = from_seconds(section.number_in("latency", 0.0, kLongestLatency, 0.0));
+  if (section.has("output_rate")) {
+    if (!has_held_outputs) {
+      throw section.error("output_rate", "a sensor with measured: continuous beside it", "none");
+    }
+    assumptions.output_rate = assumption(section, "output_rate");
+  }
   section.finish();
   assumptions.initial_injection = law.initial_injection;
   return assumptions;
 }
 
-/// Theorems are about the law itself, and about outputs that are there all the time where they are
-/// continuous.
+/// Theorems are about the law itself, and take innovations as they are.
 void require_bounded(ConfigSection& root, const ObserverConfig& config, bool delays_jumps) {
   if (delays_jumps) {
     throw root.error("error_assumptions", "jumps/late: rewind beside it",
                      "delayed, for which there is no bound");
   }
-  if (config.plant->outputs(SensorTiming::kContinuous) > 0) {
-    throw root.error("error_assumptions", "no sensor with measured: continuous",
-                     "one: its values are held between messages, for which there is no bound");
+  if (config.plant->has_angles(SensorTiming::kContinuous)) {
+    throw root.error("error_assumptions", "no angles among the outputs with measured: continuous",
+                     "one, for which there is no bound: it may have been wrapped");
   }
 }
 
@@ -199,8 +205,11 @@ std::unique_ptr<const ErrorBound> bound_of(const ConfigSection& root,
                      "assumptions for which " + theorem.name() + " gives a bound", fault.what());
   }
   if (!bound) {
+    const bool is_stated = !certificate.subject.plant.stated.is_empty();
     throw root.error("error_assumptions", "a certificate of a theorem that gives a bound",
-                     theorem.name());
+                     theorem.name() + (is_stated ? " with stated maps of the error, which take "
+                                                   "outputs as known at all times"
+                                                 : ""));
   }
   return bound;
 }
@@ -254,7 +263,9 @@ Guarantee read_guarantee(ConfigSection& root, const ConfigNode& tree, const Obse
   if (!root.has("error_assumptions")) return guarantee;
   require_bounded(root, config, delays_jumps);
   const CertificateConfig& basis = for_bound ? *for_bound : *claim;
-  ErrorAssumptions assumptions = read_assumptions(root, basis, law.observer().gains(), guarantee);
+  ErrorAssumptions assumptions =
+      read_assumptions(root, basis, law.observer().gains(),
+                       config.plant->outputs(SensorTiming::kContinuous) > 0, guarantee);
   assumptions.jump_stamp_error = to_seconds(config.options.jump_stamp_error);
   if (error) return guarantee;
   guarantee.bound = bound_of(root, basis.certificate, assumptions);

@@ -2,7 +2,6 @@
 
 #include <utility>
 
-#include "config/dwell_times.h"
 #include "sampled_data_observers/runtime/estimator.h"
 
 namespace sampled_data_observers {
@@ -79,7 +78,6 @@ TopicSource read_jumps(ConfigSection& root, const Plant& plant, LawLayers& layer
   if (section.has("missing")) {
     layers.missing = read_missing_jumps(section.section("missing"), plant, layers.delays_jumps);
   }
-  layers.dwell_times = read_dwell_times(section);
   section.finish();
   return source;
 }

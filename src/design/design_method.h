@@ -94,7 +94,7 @@ class DesignMethod {
 
   /// @throws std::invalid_argument saying why, for a plant or times that it is not about.
   virtual void require_applicable(const CertificateSubject& subject) const {
-    require_subject(theorem(), subject);
+    theorem().require_applicable(subject);
   }
 
   /// All scalars that the user may fix.

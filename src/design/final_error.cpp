@@ -68,8 +68,10 @@ SearchRange final_error_rates(const CertificateSubject& subject,
 
 bool has_bound_for(const Certificate& certificate, const ErrorAssumptions& assumptions) {
   try {
-    return certificate.theorem->error_bound(certificate.subject, certificate.values, assumptions) !=
-           nullptr;
+    const auto bound =
+        certificate.theorem->error_bound(certificate.subject, certificate.values, assumptions);
+    // What follows the law is a function of more than the times between jumps.
+    return bound && !bound->follows_law();
   } catch (const std::invalid_argument&) {
     return false;
   }

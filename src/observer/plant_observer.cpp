@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <utility>
@@ -103,7 +104,6 @@ Eigen::Index PlantObserver::event_size(EventKind kind, std::size_t sensor) const
     case EventKind::kSample:
       return outputs(SensorTiming::kSampled);
     case EventKind::kJump:
-    case EventKind::kWithdrawal:
       return plant_->jumps() ? plant_->outputs(SensorTiming::kAtJumps) : -1;
     case EventKind::kRelease:
     case EventKind::kRejected:
@@ -114,8 +114,7 @@ Eigen::Index PlantObserver::event_size(EventKind kind, std::size_t sensor) const
 
 bool PlantObserver::accepts(const Event& event) const {
   const Eigen::Index size = event_size(event.kind, static_cast<std::size_t>(event.sensor));
-  const bool is_jump = event.kind == EventKind::kJump || event.kind == EventKind::kWithdrawal;
-  if (!is_jump) return size >= 0 && event.size == size;
+  if (event.kind != EventKind::kJump) return size >= 0 && event.size == size;
   return size >= 0 && (event.size == 0 || event.size == size) &&
          event.mode.has_value() == plant_->switches();
 }
@@ -167,7 +166,6 @@ Effect PlantObserver::reset(const Event& event, double* state, double* workspace
     }
     case EventKind::kRelease:
     case EventKind::kRejected:
-    case EventKind::kWithdrawal:
       return Effect::kRefused;
   }
   complete(held(state), state, workspace);
@@ -232,13 +230,29 @@ Effect PlantObserver::pair_with_jump(const Event& output, double* state, double*
 }
 
 bool PlantObserver::knows_mode(const Event& event) const {
-  return !event.mode || !plant_->switches() || plant_->find_mode(*event.mode).has_value();
+  return event.kind != EventKind::kJump || !plant_->switches() ||
+         plant_->find_mode(*event.mode).has_value();
 }
 
 void PlantObserver::innovation(const Event& sample, const double* state, double* innovation) const {
   const Held now = held(state);
   compute_innovation(*plant_, now.mode, static_cast<std::size_t>(sample.sensor), sample.values,
                      state, now.u, innovation);
+}
+
+std::optional<double> PlantObserver::innovation_of_held(const double* state,
+                                                        double* workspace) const {
+  const Held now = held(state);
+  if (now.y_c == nullptr) return std::nullopt;
+  double* innovation = innovation_.of(workspace);
+  double sum = 0.0;
+  for (const std::size_t i : sensors_of(SensorTiming::kContinuous)) {
+    compute_innovation(*plant_, now.mode, i, now.y_c + output_offset(i), state, now.u, innovation);
+    for (Eigen::Index j = 0; j < plant_->sensors()[i].outputs(); ++j) {
+      sum += innovation[j] * innovation[j];
+    }
+  }
+  return std::sqrt(sum);
 }
 
 void PlantObserver::fit_to(const Event& sample, double* state, double* workspace) const {

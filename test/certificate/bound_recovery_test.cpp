@@ -227,78 +227,6 @@ TEST(BoundRecoveryTest, AJumpThatNobodyToldOfTakesTheBoundAway) {
   }
 }
 
-/// An impulsive plant whose jumps are told by numbers.
-struct NumberedRun {
-  explicit NumberedRun(const std::string& jumps = "{}")
-      : config(CertifiedGains(kImpulsive)
-                   .with("jumps: " + jumps)
-                   .assuming("{initial_error: 1, noise: 0}")
-                   .config()),
-        estimator(config.law, config.options) {
-    estimator.restart(kRunStart);
-  }
-
-  void jump(double seconds, std::uint32_t index, EventKind kind = EventKind::kJump) {
-    const double y = 0.0;
-    Event event{kRunStart + from_seconds(seconds), kind, 0, &y, 1};
-    event.index = index;
-    estimator.submit(event, kRunStart + from_seconds(60.0));
-  }
-  BoundLoss loss_at(double seconds) {
-    Estimate estimate = estimator.make_estimate();
-    estimator.estimate_at(kRunStart + from_seconds(seconds), estimate);
-    const PublishedBound bound = estimator.bound(estimate, kRunStart + from_seconds(60.0));
-    EXPECT_EQ(bound.loss == BoundLoss::kNone, std::isfinite(bound.value));
-    return bound.loss;
-  }
-
-  ObserverConfig config;
-  Estimator estimator;
-};
-
-TEST(BoundRecoveryTest, AJumpThatWasLostTakesTheBoundAwayFromTheLastOneToldOn) {
-  NumberedRun run;
-  run.jump(0.5, 1);
-  run.jump(1.5, 3);
-  EXPECT_EQ(BoundLoss::kNone, run.loss_at(0.4));
-  EXPECT_EQ(BoundLoss::kUnknownJump, run.loss_at(0.5));
-  EXPECT_EQ(BoundLoss::kUnknownJump, run.loss_at(1.6));
-  run.jump(1.0, 2);  // it was only late
-  for (const double time : {0.4, 0.5, 1.2, 1.6}) {
-    EXPECT_EQ(BoundLoss::kNone, run.loss_at(time)) << time;
-  }
-}
-
-TEST(BoundRecoveryTest, AWithdrawalThatIsRejectedLeavesAJumpThatWasNone) {
-  NumberedRun run;
-  run.jump(0.5, 1);
-  run.jump(1.0, 2);
-  run.jump(1.0, 2, EventKind::kWithdrawal);
-  EXPECT_EQ(BoundLoss::kNone, run.loss_at(1.5));
-  Event late;
-  late.stamp = kRunStart + from_seconds(1.2);
-  late.kind = EventKind::kWithdrawal;
-  run.estimator.note_rejected(late, kRunStart + from_seconds(60.0));
-  EXPECT_EQ(BoundLoss::kNone, run.loss_at(1.1));
-  EXPECT_EQ(BoundLoss::kUnknownJump, run.loss_at(1.5));
-}
-
-TEST(BoundRecoveryTest, JumpsAtOtherTimesThanConfiguredTakeTheBoundAway) {
-  NumberedRun overdue("{dwell_time: [0.1, 1]}");
-  overdue.jump(0.5, 1);
-  EXPECT_EQ(BoundLoss::kNone, overdue.loss_at(1.5));
-  EXPECT_EQ(BoundLoss::kDwellTimes, overdue.loss_at(1.51));
-  overdue.jump(1.4, 2);
-  EXPECT_EQ(BoundLoss::kNone, overdue.loss_at(1.51));
-  NumberedRun many("{average_dwell_time: {tau: 1, N0: 2}}");
-  many.jump(0.5, 1);
-  many.jump(0.9, 2);
-  EXPECT_EQ(BoundLoss::kNone, many.loss_at(1.0));
-  many.jump(1.3, 3);
-  EXPECT_EQ(BoundLoss::kNone, many.loss_at(1.2));
-  EXPECT_EQ(BoundLoss::kDwellTimes, many.loss_at(1.4));
-}
-
 TEST(BoundRecoveryTest, AJumpThatIsRefusedMayHaveBeenOneOrNot) {
   for (const bool is_real : {false, true}) {
     const ObserverConfig config = CertifiedGains(kImpulsive)
@@ -317,6 +245,103 @@ TEST(BoundRecoveryTest, AJumpThatIsRefusedMayHaveBeenOneOrNot) {
     const double after = hold_throughout(run, 2.29, 5.0).bound.value;
     EXPECT_LT(after_regular_jumps(run), after) << is_real;
   }
+}
+
+const char kHeld[] = "test/certificate/attack/held/bernard2022_equation22.yaml";
+
+TEST(BoundRecoveryTest, AHeldOutputIsWorthLessTheOlderItIs) {
+  const auto bound_after = [](double output_rate, double seconds) {
+    CertifiedGains gains(kHeld);
+    gains.assuming("{initial_error: 1, noise: 0, disturbance: 0, output_rate: " +
+                   std::to_string(output_rate) + "}");
+    const ObserverConfig config = gains.config();
+    Estimator estimator(config.law, config.options);
+    estimator.restart(kStart);
+    const double y = 0.3;
+    estimator.submit({kStart + kSecond / 10, EventKind::kOutput, 0, &y, 1}, kStart + kSecond);
+    Estimate estimate = estimator.make_estimate();
+    EXPECT_EQ(Timeline::Query::kOk,
+              estimator.estimate_at(kStart + from_seconds(0.1 + seconds), estimate));
+    return config.law->error_bound(estimate.state.data());
+  };
+  // The proof itself, with the rate of flow_decay / 2.
+  const double at_message = bound_after(0.0, 0.0);
+  EXPECT_NEAR(std::exp(-0.3757807377418633 / 2.0 * 1.5), bound_after(0.0, 1.5) / at_message, 1e-6);
+  // The error of what is held grows with the time, and what it makes of the error with its square.
+  const double of_rate = bound_after(1.0, 0.02) - bound_after(0.0, 0.02);
+  EXPECT_NEAR(2.0 * of_rate, bound_after(2.0, 0.02) - bound_after(0.0, 0.02), 1e-6 * of_rate);
+  EXPECT_NEAR(4.0 * of_rate, bound_after(1.0, 0.04) - bound_after(0.0, 0.04), 0.01 * of_rate);
+}
+
+TEST(BoundRecoveryTest, WhatIsHeldWhenAnEstimateBeginsAnewIsKnownByItsInnovation) {
+  const ObserverConfig config =
+      CertifiedGains(kHeld)
+          .assuming("{initial_error: 0.1, noise: 0, disturbance: 0, output_rate: 0}")
+          .config();
+  const auto bound_after = [&](double estimate_of_position) {
+    Estimator estimator(config.law, config.options);
+    estimator.restart(kStart);
+    const double y = 0.0;
+    estimator.submit({kStart + 1, EventKind::kOutput, 0, &y, 1}, kStart + 1);
+    estimator.restart(kStart + kSecond, Eigen::Vector2d(estimate_of_position, 0.0));
+    Estimate estimate = estimator.make_estimate();
+    EXPECT_EQ(Timeline::Query::kOk, estimator.estimate_at(kStart + 2 * kSecond, estimate));
+    return config.law->error_bound(estimate.state.data());
+  };
+  // A plant at 5, say, has nothing to do with a 0 that was measured long ago.
+  EXPECT_GT(bound_after(5.0), 5.0);
+  EXPECT_LT(bound_after(5.0), 500.0);
+  EXPECT_LT(bound_after(0.0), 5.0);
+}
+
+TEST(BoundRecoveryTest, AJumpThatIsRefusedLeavesAnOldOutputHeld) {
+  const ObserverConfig config =
+      CertifiedGains(kHeld)
+          .with("jumps: {min_separation: 0.1}")
+          .assuming("{initial_error: 1, noise: 0, disturbance: 0, output_rate: 3}")
+          .config();
+  Estimator estimator(config.law, config.options);
+  estimator.restart(kStart);
+  const Stamp at = kStart + kSecond;
+  const Stamp again = at + kSecond / 20;
+  const double y_d = 0.0;
+  EXPECT_TRUE(estimator.submit({at, EventKind::kJump, 0, &y_d, 1}, at).used());
+  const double y = 0.9;
+  EXPECT_TRUE(estimator.submit({at + 1, EventKind::kOutput, 0, &y, 1}, at + 1).used());
+  Estimate estimate = estimator.make_estimate();
+  const auto bound_at = [&](Stamp stamp) {
+    EXPECT_EQ(Timeline::Query::kOk, estimator.estimate_at(stamp, estimate));
+    return config.law->error_bound(estimate.state.data());
+  };
+  const double without = bound_at(again + kSecond / 100);
+  EXPECT_EQ(EventOutcome::kTooFrequent,
+            estimator.submit({again, EventKind::kJump, 0, &y_d, 1}, again).outcome);
+  EXPECT_GT(bound_at(again + kSecond / 100), without);
+  EXPECT_TRUE(std::isfinite(bound_at(again + kSecond / 100)));
+}
+
+TEST(BoundRecoveryTest, ASwitchThatIsRefusedMayHaveChangedTheMode) {
+  const ObserverConfig config = CertifiedGains("config/examples/bernard2022_switched/gains.yaml")
+                                    .with("jumps: {min_separation: 0.1}")
+                                    .assuming("{initial_error: 1, noise: 0}")
+                                    .config();
+  Estimator estimator(config.law, config.options);
+  estimator.restart(kStart);
+  const double y = 0.2;
+  const auto outcome = [&](Stamp stamp, double mode) {
+    Event event{stamp, EventKind::kJump, 0, &y, 1, 0};
+    event.mode = mode;
+    return estimator.submit(event, stamp).outcome;
+  };
+  Estimate estimate = estimator.make_estimate();
+  const auto loss_at = [&](Stamp stamp) {
+    EXPECT_EQ(Timeline::Query::kOk, estimator.estimate_at(stamp, estimate));
+    return config.law->bound_loss(estimate.state.data());
+  };
+  EXPECT_EQ(EventOutcome::kUsed, outcome(kStart + kSecond, 2.0));
+  EXPECT_EQ(BoundLoss::kNone, loss_at(kStart + kSecond + kSecond / 20));
+  EXPECT_EQ(EventOutcome::kTooFrequent, outcome(kStart + kSecond + kSecond / 20, 1.0));
+  EXPECT_EQ(BoundLoss::kUnknownJump, loss_at(kStart + 2 * kSecond));
 }
 
 TEST(BoundRecoveryTest, APauseIsATimeWithoutSamples) {

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -63,6 +64,10 @@ class PlantObserver : public ObserverLaw {
   /// What is held in a state: the input, and behind it the continuous outputs. For observers of one
   /// plant it has one form.
   const double* held_part(const double* state) const { return held_part_.of(state); }
+
+  /// The norm of the innovation y_c − h(x̂, u) of the continuous outputs that are held, angles
+  /// wrapped; nothing where not all of them are, or the plant has none.
+  std::optional<double> innovation_of_held(const double* state, double* workspace) const;
 
   /// Takes over what is held, as held_part() of an observer of the same plant gives it.
   void keep_held(const double* part, double* state) const { held_part_.set(part, state); }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <map>
@@ -75,12 +74,12 @@ SweepRequest request_of(const SweepArguments& arguments, const DesignConfig& con
   if (arguments.T2) {
     low = arguments.T2->front();
     high = arguments.T2->back();
-  } else if (config.subject.T2 > 0.0 && std::isfinite(config.subject.T2)) {
+  } else if (config.subject.T2 > 0.0) {
     high = config.subject.T2;
     low = config.subject.T1 < high ? config.subject.T1 : kShortest * high;
   } else {
     throw DesignError(
-        "a longest time between samples is missing: give --T2 LOW HIGH, or "
+        "the times between samples are missing: give --T2 LOW HIGH, or "
         "design/sampling in " +
         arguments.files.front());
   }
@@ -92,7 +91,6 @@ SweepRequest request_of(const SweepArguments& arguments, const DesignConfig& con
   }
   request.subject.T1 = T1 > 0.0 ? std::min(T1, request.T2.front()) : request.T2.front();
   request.subject.T2 = request.T2.back();
-  request.subject.dwell_time.reset();
   request.objective = objective_for(arguments, request.subject);
   for (const std::string& name : arguments.methods) {
     request.methods.push_back(find_design_method(name));

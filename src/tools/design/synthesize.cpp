@@ -20,7 +20,6 @@
 #include "messages/plant_plugins.h"
 #include "tools/design/commands.h"
 #include "tools/design/cross_check.h"
-#include "tools/design/event_time_options.h"
 #include "tools/design/gain_files.h"
 #include "tools/design/run_time_report.h"
 
@@ -32,7 +31,8 @@ struct SynthesizeArguments {
   std::string method;
   std::string objective;
   std::string output;
-  EventTimeArguments times;
+  std::optional<double> T1;  // [s]
+  std::optional<double> T2;  // [s]
   std::vector<std::string> assignments;
   std::vector<std::string> searched;
   unsigned jobs = default_jobs();
@@ -61,10 +61,17 @@ DesignProblem read_problem(const SynthesizeArguments& arguments, const DesignCon
                            const DesignMethod* method) {
   DesignProblem problem;
   problem.subject = config.subject;
-  take_event_times(arguments.times, problem.subject);
+  if (arguments.T1) problem.subject.T1 = *arguments.T1;
+  if (arguments.T2) problem.subject.T2 = *arguments.T2;
   if (problem.subject.T2 <= 0.0) {
     throw DesignError("the times between samples are missing: give --T2, or design/sampling in " +
                       arguments.files.front());
+  }
+  if (problem.subject.T1 > problem.subject.T2) {
+    char text[96];
+    std::snprintf(text, sizeof text, "T1 = %.9g s is larger than T2 = %.9g s", problem.subject.T1,
+                  problem.subject.T2);
+    throw DesignError(text);
   }
   problem.given = parameters_for(method, problem.subject, config.parameters);
   for (const std::string& assignment : arguments.assignments) assign(assignment, problem.given);
@@ -144,7 +151,8 @@ void require_something_to_weigh(const DeclaredAssumptions& declared) {
 }
 
 /// How an observer with these gains is started, and what its error bound takes.
-void print_how_to_run(const SynthesizeArguments& arguments, const DeclaredAssumptions& declared) {
+void print_how_to_run(const SynthesizeArguments& arguments, const DeclaredAssumptions& declared,
+                      bool has_held_outputs) {
   std::string files;
   for (const std::string& file : arguments.files) files += file + " ";
   std::printf(
@@ -155,8 +163,8 @@ void print_how_to_run(const SynthesizeArguments& arguments, const DeclaredAssump
   if (declared.noise) return;
   std::printf(
       "For a bound on the error, say how noisy the sensor is, in %s, and design again:\n"
-      "error_assumptions: {initial_error: NUMBER, noise: NUMBER}\n",
-      arguments.files.front().c_str());
+      "error_assumptions: {initial_error: NUMBER, noise: NUMBER%s}\n",
+      arguments.files.front().c_str(), has_held_outputs ? ", output_rate: NUMBER" : "");
 }
 
 void synthesize_command(const SynthesizeArguments& arguments, const std::string& command_line) {
@@ -210,7 +218,8 @@ void synthesize_command(const SynthesizeArguments& arguments, const std::string&
               design.seconds);
   print_run_time_figures(design, assumed.assumptions);
   note_gains_near_their_bound(design);
-  print_how_to_run(arguments, {config.noise, config.disturbance});
+  print_how_to_run(arguments, {config.noise, config.disturbance},
+                   config.plant->outputs(SensorTiming::kContinuous) > 0);
   if (!arguments.cross_check.empty()) {
     cross_check(*find_design_method(design.method), design, arguments.time_limit);
   }
@@ -235,7 +244,10 @@ void add_synthesize(CommandLine& tool, const std::string& command_line) {
               "What to look for (default: min-final-error, or feasible where that is not for the "
               "method)")
       .choices({"min-final-error", "feasible", "min-gamma", "max-T2", "max-decay"});
-  add_event_times(command, "design/sampling", arguments->times);
+  command.option("--T1 SECONDS", arguments->T1, "Instead of design/sampling/T1 [s]")
+      .check(number_above(0));
+  command.option("--T2 SECONDS", arguments->T2, "Instead of design/sampling/T2 [s]")
+      .check(number_above(0));
   command.option("--set NAME=NUMBER...", arguments->assignments,
                  "Fix a parameter of the method; may be given several times");
   command.option(
