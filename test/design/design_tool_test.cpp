@@ -538,5 +538,18 @@ TEST_F(DesignTool, TellsWhetherJumpsShowTheState) {
   EXPECT_EQ(1, run("jump_observability --T1 2 --T2 1 " + ball).status);
 }
 
+TEST_F(DesignTool, ExplainsPlantsOfFormulasAlongATrajectory) {
+  const std::string neuron = SDO_SOURCE_DIR "/config/examples/bernard2022_neuron_high_gain/";
+  const ToolRun along = run("explain --along " + neuron + "scenario.yaml --gains " + neuron +
+                            "observer.yaml " + neuron + "gains.yaml");
+  EXPECT_EQ(0, along.status) << along.output;
+  EXPECT_TRUE(along.says("of 60 s, with 2 jumps")) << along.output;
+  EXPECT_TRUE(along.says("- all of the state. Least, from 0 to 3.153 s")) << along.output;
+  EXPECT_TRUE(along.says("JACOBIAN OF THE COORDINATES T")) << along.output;
+  const ToolRun linear = run("explain --along " + neuron + "scenario.yaml --gains " + neuron +
+                             "observer.yaml " + neuron + "scenario.yaml");
+  EXPECT_EQ(1, linear.status);
+}
+
 }  // namespace
 }  // namespace sampled_data_observers

@@ -12,18 +12,28 @@
 #include "console/output_checks.h"
 #include "console/plot_program.h"
 #include "design/design_method.h"
+#include "design/explained_trajectory.h"
 #include "design/explanation.h"
 #include "messages/plant_plugins.h"
+#include "observer/original_high_gain_observer.h"
+#include "observer/transformed_high_gain_observer.h"
+#include "sampled_data_observers/config/observer_config.h"
+#include "simulation/scenario_config.h"
 #include "tools/design/commands.h"
+#include "tools/design/simulated_trajectory.h"
 
 namespace sampled_data_observers {
 namespace {
+
+constexpr std::size_t kTrajectorySteps = 1000;
 
 struct ExplainArguments {
   std::vector<std::string> files;
   std::optional<double> T1;  // [s]
   std::optional<double> T2;  // [s]
   std::string plot;
+  bool along = false;
+  std::vector<std::string> gains;
 };
 
 void draw(const CertificateSubject& subject, const ExplainArguments& arguments) {
@@ -53,7 +63,45 @@ void draw(const CertificateSubject& subject, const ExplainArguments& arguments) 
   run_plot_program("plot_curves", json_text(json), arguments.plot);
 }
 
+/// T of a high-gain observer in one of its two nonlinear forms.
+TrajectoryCoordinates coordinates_of(const HighGainObserver& law) {
+  TrajectoryCoordinates result{{}, law.settings().ell, law.saturation().scales()};
+  if (const auto* transformed = dynamic_cast<const TransformedHighGainObserver*>(&law)) {
+    for (const auto& maps : transformed->maps()) result.T.push_back(maps.T);
+  } else if (const auto* original = dynamic_cast<const OriginalHighGainObserver*>(&law)) {
+    result.T = original->T();
+  }
+  return result;
+}
+
+void explain_along(const ExplainArguments& arguments) {
+  if (!arguments.plot.empty()) throw DesignError("--plot is not about --along");
+  const Scenario scenario = read_scenario(arguments.files, load_plant_plugin);
+  std::optional<TrajectoryCoordinates> coordinates;
+  if (!arguments.gains.empty()) {
+    std::vector<std::string> files = arguments.files;
+    files.insert(files.end(), arguments.gains.begin(), arguments.gains.end());
+    const ObserverConfig config = read_observer_config(files, load_plant_plugin);
+    const auto* law = dynamic_cast<const HighGainObserver*>(&config.law->observer());
+    if (law != nullptr) coordinates = coordinates_of(*law);
+    if (!coordinates || coordinates->T.empty()) {
+      throw DesignError(
+          "--gains: expected those of a HighGainObserver in transformed or original form, whose T "
+          "is looked at, found others");
+    }
+  }
+  const std::vector<TrajectoryStep> steps = simulated_trajectory(scenario, kTrajectorySteps);
+  if (steps.empty()) throw DesignError("scenario: the simulation ends at its start");
+  std::printf(
+      "%s",
+      explain_trajectory(*scenario.plant, steps, coordinates ? &*coordinates : nullptr).c_str());
+}
+
 void explain_command(const ExplainArguments& arguments) {
+  if (arguments.along) {
+    explain_along(arguments);
+    return;
+  }
   refuse_overwriting(given_files("PLANT", arguments.files), {{"--plot", arguments.plot}});
   CertificateSubject subject = read_design_config(arguments.files, load_plant_plugin).subject;
   if (arguments.T2) {
@@ -80,6 +128,14 @@ void add_explain(CommandLine& tool) {
       .option("--plot FILE", arguments->plot,
               "Draw observability over the time between events (.png, .pdf, .svg)")
       .check(picture_file());
+  const Option& along =
+      command.flag("--along", arguments->along,
+                   "Simulate the section scenario, and tell what the linearization along the "
+                   "trajectory shows: for plants given by formulas");
+  command
+      .option("--gains FILE...", arguments->gains,
+              "With --along: files of a high-gain observer beside them, whose T is looked at")
+      .needs(along);
   command.action([arguments] {
     explain_command(*arguments);
     return 0;
