@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -17,6 +16,17 @@ const char* const kWithKnownOutput =
     "the error falls by the factor exp(-jump_decay) or more from jump to jump, in the norm of P, "
     "for all times between jumps of T1 or more, with the continuous output known at all times";
 
+// That it is an average is a bound on N(t, s), the number of jumps between s and t >= s.
+const char* const kConvergesForDwellTime =
+    "the error falls at the rate decay in the norm of P but for a factor exp((flow_growth + 2 "
+    "decay) tau N0 / 2), for all jumps with a reverse average dwell time: N(t, s) >= (t - s) / tau "
+    "- N0";
+const char* const kWithKnownOutputForDwellTime =
+    "the error falls at the rate decay in the norm of P but for a factor exp((flow_decay - 2 "
+    "decay) "
+    "tau N0 / 2), for all jumps with an average dwell time: N(t, s) <= (t - s) / tau + N0, with "
+    "the continuous output known at all times";
+
 /// Where the innovation acts.
 enum class Innovation { kFlowAndJumps, kFlow, kJumps };
 
@@ -24,14 +34,21 @@ enum class Innovation { kFlowAndJumps, kFlow, kJumps };
 /// quadratic_conditions().
 class QuadraticCondition : public Theorem {
  public:
-  QuadraticCondition(int number, Innovation innovation, std::string guarantee)
+  QuadraticCondition(int number, Innovation innovation, TheoremTimes times, std::string guarantee)
       : number_(std::to_string(number)),
         in_flow_(innovation != Innovation::kJumps),
         at_jumps_(innovation != Innovation::kFlow),
+        times_(times),
         guarantee_(std::move(guarantee)) {}
 
-  std::string name() const override { return "bernard2022_equation" + number_; }
+  std::string name() const override {
+    std::string name = "bernard2022_equation" + number_;
+    if (times_ == TheoremTimes::kAverageDwellTime) name += "_average_dwell_time";
+    if (times_ == TheoremTimes::kReverseAverageDwellTime) name += "_reverse_average_dwell_time";
+    return name;
+  }
   std::string guarantee() const override { return guarantee_; }
+  TheoremTimes times() const override { return times_; }
   std::vector<std::string> observer_types() const override { return {"SynchronizedObserver"}; }
 
   void require_applicable(const CertificateSubject& subject) const override {
@@ -57,17 +74,22 @@ class QuadraticCondition : public Theorem {
   }
 
   std::vector<NamedShape> parameters(const CertificateSubject&) const override {
-    return {scalar_shape(in_flow_ ? "flow_decay" : "flow_growth"), scalar_shape("jump_decay")};
+    return lyapunov_parameters(flow_of_error(), has_dwell_time());
   }
 
-  std::string decay_parameter() const override { return "jump_decay"; }
+  std::string decay_parameter() const override { return has_dwell_time() ? "decay" : "jump_decay"; }
   GuaranteedFigure decay_figure(const NamedMatrices& values) const override {
-    return jump_decay_figure(values);
+    return has_dwell_time() ? Theorem::decay_figure(values) : jump_decay_figure(values);
+  }
+  std::vector<GuaranteedFigure> guaranteed_figures(const CertificateSubject& subject,
+                                                   const NamedMatrices& values) const override {
+    if (!has_dwell_time()) return {};
+    return {transient_figure(subject, flow_of_error(), values)};
   }
 
   std::vector<NamedRange> search_ranges(const CertificateSubject& subject) const override {
     if (in_flow_) return {{"flow_decay", flow_decay_range(subject)}};
-    return {{"flow_growth", {1e-3 / subject.T2, 10.0 / subject.T2, true}}};
+    return {{"flow_growth", flow_growth_range(subject)}};
   }
 
   bool is_homogeneous(const CertificateSubject&) const override { return true; }
@@ -79,8 +101,7 @@ class QuadraticCondition : public Theorem {
     MatrixExpression reset = *plant.A_d;
     if (in_flow_) flow = flow - symbol("L_c", n, plant.C_c.rows()) * plant.C_c;
     if (at_jumps_) reset = reset - symbol("L_d", n, plant.C_d.rows()) * plant.C_d;
-    return quadratic_conditions(subject, in_flow_ ? FlowOfError::kDecays : FlowOfError::kMayGrow,
-                                flow, reset, "bernard2022 (" + number_);
+    return quadratic_conditions(subject, flow_of_error(), flow, reset, "bernard2022 (" + number_);
   }
 
   std::unique_ptr<const ErrorBound> error_bound(
@@ -95,16 +116,26 @@ class QuadraticCondition : public Theorem {
     }
     const ModeMatrices& plant = subject.plant.mode();
     const Eigen::MatrixXd& L_d = values.at("L_d");
-    const double a_c = scalar_value(values, "flow_growth");
-    const double a_d = -a_c * subject.T2 - 2.0 * scalar_value(values, "jump_decay");
+    const LyapunovRates rates = lyapunov_rates(subject, flow_of_error());
+    const double a_c = evaluate(rates.a_c, values)(0, 0);
+    const double a_d = evaluate(rates.a_d, values)(0, 0);
     return jump_based_bound(subject, values.at("P"), *plant.A_d - L_d * plant.C_d, L_d,
                             {a_d / 2.0, a_c / 2.0}, assumptions);
   }
 
  private:
+  FlowOfError flow_of_error() const {
+    return in_flow_ ? FlowOfError::kDecays : FlowOfError::kMayGrow;
+  }
+  bool has_dwell_time() const {
+    return times_ == TheoremTimes::kAverageDwellTime ||
+           times_ == TheoremTimes::kReverseAverageDwellTime;
+  }
+
   std::string number_;
   bool in_flow_;
   bool at_jumps_;
+  TheoremTimes times_;
   std::string guarantee_;
 };
 
@@ -120,48 +151,53 @@ void require_linear_jumping_plant(const CertificateSubject& subject) {
   if (!subject.plant.jumps()) throw std::invalid_argument("it is about plants that jump");
 }
 
-GuaranteedFigure jump_decay_figure(const NamedMatrices& values) {
-  return {"guaranteed fall of the logarithm of the error per jump",
-          scalar_value(values, "jump_decay")};
-}
-
-SearchRange flow_decay_range(const CertificateSubject& subject) {
-  return {1e-2 / subject.T2, 100.0 / std::max(subject.T1, 1e-3 * subject.T2), true};
-}
-
 std::vector<Condition> quadratic_conditions(const CertificateSubject& subject, FlowOfError kind,
                                             const MatrixExpression& flow,
                                             const MatrixExpression& reset,
                                             const std::string& source) {
-  const bool decays = kind == FlowOfError::kDecays;
   const MatrixExpression P = symbol("P", flow.rows(), flow.rows());
-  const MatrixExpression rate = symbol(decays ? "flow_decay" : "flow_growth");
-  const MatrixExpression jump_decay = symbol("jump_decay");
-  const MatrixExpression a_c = decays ? -rate : rate;
-  const MatrixExpression a_d =
-      -(a_c * MatrixExpression(decays ? subject.T1 : subject.T2)) - 2.0 * jump_decay;
-  std::vector<Condition> all = domain_of_times(subject.T1, subject.T2);
-  all.push_back({decays ? "a_c < 0" : "a_c > 0", rate, std::nullopt, Condition::Kind::kPositive});
-  all.push_back(positive("jump_decay"));
+  const LyapunovRates rates = lyapunov_rates(subject, kind);
+  std::vector<Condition> all = rates.domains;
   all.push_back({"P > 0", P, std::nullopt});
-  all.push_back({"flow, " + source + "a)", a_c * P - He(P * flow), std::nullopt});
-  all.push_back({"jump, " + source + "b)", exponential(a_d) * P - transpose(reset) * P * reset,
-                 std::nullopt});
+  all.push_back({"flow, " + source + "a)", rates.a_c * P - He(P * flow), std::nullopt});
+  all.push_back({"jump, " + source + "b)",
+                 exponential(rates.a_d) * P - transpose(reset) * P * reset, std::nullopt});
   return all;
 }
 
 const Theorem& bernard2022_equation14() {
-  static const QuadraticCondition theorem(14, Innovation::kFlowAndJumps, kWithKnownOutput);
+  static const QuadraticCondition theorem(14, Innovation::kFlowAndJumps, TheoremTimes::kFromT1,
+                                          kWithKnownOutput);
+  return theorem;
+}
+
+const Theorem& bernard2022_equation14_average_dwell_time() {
+  static const QuadraticCondition theorem(
+      14, Innovation::kFlowAndJumps, TheoremTimes::kAverageDwellTime, kWithKnownOutputForDwellTime);
   return theorem;
 }
 
 const Theorem& bernard2022_equation22() {
-  static const QuadraticCondition theorem(22, Innovation::kFlow, kWithKnownOutput);
+  static const QuadraticCondition theorem(22, Innovation::kFlow, TheoremTimes::kFromT1,
+                                          kWithKnownOutput);
+  return theorem;
+}
+
+const Theorem& bernard2022_equation22_average_dwell_time() {
+  static const QuadraticCondition theorem(22, Innovation::kFlow, TheoremTimes::kAverageDwellTime,
+                                          kWithKnownOutputForDwellTime);
   return theorem;
 }
 
 const Theorem& bernard2022_equation26() {
-  static const QuadraticCondition theorem(26, Innovation::kJumps, kConverges);
+  static const QuadraticCondition theorem(26, Innovation::kJumps, TheoremTimes::kUpToT2,
+                                          kConverges);
+  return theorem;
+}
+
+const Theorem& bernard2022_equation26_reverse_average_dwell_time() {
+  static const QuadraticCondition theorem(
+      26, Innovation::kJumps, TheoremTimes::kReverseAverageDwellTime, kConvergesForDwellTime);
   return theorem;
 }
 

@@ -21,6 +21,8 @@ class Example42 : public Theorem {
            "all times";
   }
 
+  TheoremTimes times() const override { return TheoremTimes::kFromT1; }
+
   std::vector<std::string> observer_types() const override { return {"HighGainObserver"}; }
 
   void require_applicable(const CertificateSubject& subject) const override {

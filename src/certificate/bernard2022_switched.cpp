@@ -1,4 +1,5 @@
 #include <stdexcept>
+#include <utility>
 
 #include "certificate/bernard2022.h"
 #include "certificate/modal_bound.h"
@@ -57,59 +58,70 @@ class SwitchedCondition : public Theorem {
   }
 };
 
-/// Example 7.1 with (C1a): (47b) in each mode with a_c = −flow_decay, and (49) between all with
-/// a_d = flow_decay T1 − 2 jump_decay.
-class Example71 : public SwitchedCondition {
+/// Theorem 3.1 by (47b) in each mode and (49) between all, with lyapunov_rates(): as example 7.1
+/// has it, with a gain in flow, or with one at switches.
+class RatesOfModes : public SwitchedCondition {
  public:
-  std::string name() const override { return "bernard2022_example7_1"; }
+  RatesOfModes(std::string name, FlowOfError kind, TheoremTimes times, std::string guarantee)
+      : name_(std::move(name)), kind_(kind), times_(times), guarantee_(std::move(guarantee)) {}
 
-  std::string guarantee() const override {
-    return "the error falls by the factor exp(-jump_decay) or more from switch to switch, in the "
-           "norms of the P of their modes, for all times between switches of T1 or more, with the "
-           "continuous output known at all times";
-  }
+  std::string name() const override { return name_; }
+  std::string guarantee() const override { return guarantee_; }
+  TheoremTimes times() const override { return times_; }
 
   void require_applicable(const CertificateSubject& subject) const override {
     require_modes(subject);
-    if (subject.plant.mode().C_c.rows() > 0) return;
-    throw std::invalid_argument("L_c needs a sensor that is `measured: continuous`");
+    if (outputs_of(subject.plant.mode()).rows() > 0) return;
+    throw std::invalid_argument(in_flow() ? "L_c needs a sensor that is `measured: continuous`"
+                                          : "L_d needs a sensor that is `measured: at_jumps`");
   }
 
   std::vector<NamedShape> gains(const CertificateSubject& subject) const override {
     std::vector<NamedShape> all;
     for (const ModeMatrices& mode : subject.plant.modes) {
-      all.push_back(matrix_shape(of_mode("L_c", mode), mode.A.rows(), mode.C_c.rows()));
+      all.push_back(matrix_shape(gain_of(mode), mode.A.rows(), outputs_of(mode).rows()));
     }
     return all;
   }
 
   std::vector<NamedShape> parameters(const CertificateSubject&) const override {
-    return {scalar_shape("flow_decay"), scalar_shape("jump_decay")};
+    return lyapunov_parameters(kind_, has_dwell_time());
+  }
+
+  std::string decay_parameter() const override { return has_dwell_time() ? "decay" : "jump_decay"; }
+  GuaranteedFigure decay_figure(const NamedMatrices& values) const override {
+    return has_dwell_time() ? Theorem::decay_figure(values) : jump_decay_figure(values);
+  }
+  std::vector<GuaranteedFigure> guaranteed_figures(const CertificateSubject& subject,
+                                                   const NamedMatrices& values) const override {
+    if (!has_dwell_time()) return {};
+    return {transient_figure(subject, kind_, values)};
   }
 
   std::vector<NamedRange> search_ranges(const CertificateSubject& subject) const override {
-    return {{"flow_decay", flow_decay_range(subject)}};
+    if (in_flow()) return {{"flow_decay", flow_decay_range(subject)}};
+    return {{"flow_growth", flow_growth_range(subject)}};
   }
 
   std::vector<Condition> conditions(const CertificateSubject& subject) const override {
-    const MatrixExpression flow_decay = symbol("flow_decay");
-    const MatrixExpression jump_decay = symbol("jump_decay");
-    const MatrixExpression a_c = -flow_decay;
-    const MatrixExpression a_d = flow_decay * MatrixExpression(subject.T1) - 2.0 * jump_decay;
-    std::vector<Condition> all = domain_of_times(subject.T1, subject.T2);
-    all.push_back({"a_c < 0", flow_decay, std::nullopt, Condition::Kind::kPositive});
-    all.push_back(positive("jump_decay"));
+    const LyapunovRates rates = lyapunov_rates(subject, kind_);
+    std::vector<Condition> all = rates.domains;
     for (const ModeMatrices& mode : subject.plant.modes) {
       const MatrixExpression P = P_of(mode);
-      const MatrixExpression L = symbol(of_mode("L_c", mode), mode.A.rows(), mode.C_c.rows());
+      const Eigen::MatrixXd& C = outputs_of(mode);
+      const MatrixExpression innovation = symbol(gain_of(mode), mode.A.rows(), C.rows()) * C;
+      MatrixExpression flow = mode.A;
+      MatrixExpression reset = jump_of(mode);
+      MatrixExpression& corrected = in_flow() ? flow : reset;
+      corrected = corrected - innovation;
       const std::string label = std::to_string(mode.label);
       all.push_back({"P > 0 in mode " + label, P, std::nullopt});
-      all.push_back({"flow in mode " + label + ", bernard2022 (47b)",
-                     a_c * P - He(P * (mode.A - L * mode.C_c)), std::nullopt});
-      const MatrixExpression A_d = jump_of(mode);
+      all.push_back({"flow in mode " + label + ", bernard2022 (47b)", rates.a_c * P - He(P * flow),
+                     std::nullopt});
       for (const ModeMatrices& next : subject.plant.modes) {
         all.push_back({"switch" + between(mode, next) + ", bernard2022 (49)",
-                       exponential(a_d) * P - transpose(A_d) * P_of(next) * A_d, std::nullopt});
+                       exponential(rates.a_d) * P - transpose(reset) * P_of(next) * reset,
+                       std::nullopt});
       }
     }
     return all;
@@ -118,9 +130,25 @@ class Example71 : public SwitchedCondition {
   std::unique_ptr<const ErrorBound> error_bound(
       const CertificateSubject& subject, const NamedMatrices& values,
       const ErrorAssumptions& assumptions) const override {
+    if (!in_flow()) return nullptr;
     return held_output_bound(subject, proofs_of(subject, values, "L_c", ""),
                              scalar_value(values, "flow_decay"), assumptions);
   }
+
+ private:
+  bool in_flow() const { return kind_ == FlowOfError::kDecays; }
+  bool has_dwell_time() const { return times_ != TheoremTimes::kFromT1; }
+  const Eigen::MatrixXd& outputs_of(const ModeMatrices& mode) const {
+    return in_flow() ? mode.C_c : mode.C_d;
+  }
+  std::string gain_of(const ModeMatrices& mode) const {
+    return of_mode(in_flow() ? "L_c" : "L_d", mode);
+  }
+
+  std::string name_;
+  FlowOfError kind_;
+  TheoremTimes times_;
+  std::string guarantee_;
 };
 
 /// Section 7.3.2 with a constant gain for each mode: V falls by e^{−2 jump_decay} from just after a
@@ -185,7 +213,31 @@ class Section732 : public SwitchedCondition {
 }  // namespace
 
 const Theorem& bernard2022_example7_1() {
-  static const Example71 theorem;
+  static const RatesOfModes theorem(
+      "bernard2022_example7_1", FlowOfError::kDecays, TheoremTimes::kFromT1,
+      "the error falls by the factor exp(-jump_decay) or more from switch to switch, in the norms "
+      "of the P of their modes, for all times between switches of T1 or more, with the continuous "
+      "output known at all times");
+  return theorem;
+}
+
+const Theorem& bernard2022_example7_1_average_dwell_time() {
+  static const RatesOfModes theorem(
+      "bernard2022_example7_1_average_dwell_time", FlowOfError::kDecays,
+      TheoremTimes::kAverageDwellTime,
+      "the error falls at the rate decay in the norms of the P of the modes but for a factor "
+      "exp((flow_decay - 2 decay) tau N0 / 2), for all switches with an average dwell time: N(t, "
+      "s) <= (t - s) / tau + N0, with the continuous output known at all times");
+  return theorem;
+}
+
+const Theorem& bernard2022_equation49_reverse_average_dwell_time() {
+  static const RatesOfModes theorem(
+      "bernard2022_equation49_reverse_average_dwell_time", FlowOfError::kMayGrow,
+      TheoremTimes::kReverseAverageDwellTime,
+      "the error falls at the rate decay in the norms of the P of the modes but for a factor "
+      "exp((flow_growth + 2 decay) tau N0 / 2), for all switches with a reverse average dwell "
+      "time: N(t, s) >= (t - s) / tau - N0");
   return theorem;
 }
 

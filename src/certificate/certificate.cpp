@@ -1,12 +1,49 @@
 #include "certificate/certificate.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <regex>
+#include <stdexcept>
 
 #include "certificate/theorems.h"
+#include "linear_algebra/matrix_functions.h"
 
 namespace sampled_data_observers {
+
+namespace {
+
+void require_times(TheoremTimes times, const CertificateSubject& subject) {
+  const bool is_average = times == TheoremTimes::kAverageDwellTime;
+  if (is_average || times == TheoremTimes::kReverseAverageDwellTime) {
+    const auto kind = is_average ? DwellTime::Kind::kAverage : DwellTime::Kind::kReverseAverage;
+    if (subject.dwell_time && subject.dwell_time->kind == kind) return;
+    throw std::invalid_argument(is_average ? "it is about jumps with an average dwell time "
+                                             "(design/average_dwell_time)"
+                                           : "it is about jumps with a reverse average dwell time "
+                                             "(design/reverse_average_dwell_time)");
+  }
+  if (subject.dwell_time) {
+    throw std::invalid_argument(
+        "it is about bounds on each time between events (T1, T2), not on their average");
+  }
+  if (times == TheoremTimes::kUpToT2 && std::isinf(subject.T2)) {
+    throw std::invalid_argument("it is about times between events up to a longest one: T2 = inf");
+  }
+}
+
+}  // namespace
+
+double time_scale(const CertificateSubject& subject) {
+  if (std::isfinite(subject.T2)) return subject.T2;
+  if (subject.dwell_time) return subject.dwell_time->tau;
+  if (subject.T1 > 0.0) return subject.T1;
+  double fastest = 0.0;
+  for (const ModeMatrices& mode : subject.plant.modes) {
+    fastest = std::max(fastest, eigenvalues_of(mode.A).cwiseAbs().maxCoeff());
+  }
+  return std::isfinite(fastest) && fastest > 0.0 ? 1.0 / fastest : 1.0;
+}
 
 NamedShape scalar_shape(const std::string& name) { return {name, 1, 1, NamedShape::Form::kScalar}; }
 
@@ -26,17 +63,36 @@ GuaranteedFigure Theorem::decay_figure(const NamedMatrices& values) const {
   return {"guaranteed rate of convergence [1/s]", scalar_value(values, decay_parameter())};
 }
 
+void require_subject(const Theorem& theorem, const CertificateSubject& subject) {
+  require_times(theorem.times(), subject);
+  theorem.require_applicable(subject);
+}
+
 const std::vector<const Theorem*>& theorems() {
   static const std::vector<const Theorem*> all = {
-      &bernard2022_corollary5_2(),    &bernard2022_equation14(),
-      &bernard2022_equation22(),      &bernard2022_equation26(),
-      &bernard2022_example4_2(),      &bernard2022_example7_1(),
-      &bernard2022_section7_3_2(),    &etienne2019_proposition1(),
-      &etienne2019_proposition2(),    &etienne2019_proposition2_channels(),
-      &etienne2019_theorem1(),        &ferrante2016_theorem1(),
-      &ferrante2019_theorem2(),       &ferrante2019_corollary1(),
-      &ferrante2019_corollary2(),     &sferlazza2019_theorem2(),
-      &sferlazza2019_theorem2_rate(), &sferlazza2019_equation17(),
+      &bernard2022_corollary5_2(),
+      &bernard2022_equation14(),
+      &bernard2022_equation14_average_dwell_time(),
+      &bernard2022_equation22(),
+      &bernard2022_equation22_average_dwell_time(),
+      &bernard2022_equation26(),
+      &bernard2022_equation26_reverse_average_dwell_time(),
+      &bernard2022_example4_2(),
+      &bernard2022_example7_1(),
+      &bernard2022_example7_1_average_dwell_time(),
+      &bernard2022_equation49_reverse_average_dwell_time(),
+      &bernard2022_section7_3_2(),
+      &etienne2019_proposition1(),
+      &etienne2019_proposition2(),
+      &etienne2019_proposition2_channels(),
+      &etienne2019_theorem1(),
+      &ferrante2016_theorem1(),
+      &ferrante2019_theorem2(),
+      &ferrante2019_corollary1(),
+      &ferrante2019_corollary2(),
+      &sferlazza2019_theorem2(),
+      &sferlazza2019_theorem2_rate(),
+      &sferlazza2019_equation17(),
   };
   return all;
 }
@@ -87,6 +143,10 @@ std::string statement(const Certificate& certificate) {
   }
   add("T1", subject.T1, " s");
   add("T2", subject.T2, " s");
+  if (subject.dwell_time) {
+    add("tau", subject.dwell_time->tau, " s");
+    add("N0", subject.dwell_time->N0, "");
+  }
   if (*separator == ',') text += ")";
   return text;
 }

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,12 +13,27 @@
 
 namespace sampled_data_observers {
 
-/// What a claim is about: the plant, and the bounds on the time between samples or jumps [s].
+/// A bound on the number N(t, s) of jumps between two times t >= s (bernard2022, definition 2.1):
+/// N <= (t − s)/tau + N0 of an average dwell time, N >= (t − s)/tau − N0 of a reverse one.
+struct DwellTime {
+  enum class Kind { kAverage, kReverseAverage };
+  Kind kind = Kind::kAverage;
+  double tau = 0.0;  ///< [s]
+  double N0 = 1.0;   ///< a whole number >= 1
+};
+
+/// What a claim is about: the plant, and what is known of the times between samples or jumps.
 struct CertificateSubject {
   PlantMatrices plant;
-  double T1 = 0.0;
-  double T2 = 0.0;
+  double T1 = 0.0;  ///< the shortest [s]; 0 for any
+  double T2 = 0.0;  ///< the longest [s]; ∞ where there is none
+  /// In place of T1 and T2, which then are 0 and ∞.
+  std::optional<DwellTime> dwell_time;
 };
+
+/// A time that is typical of the events of a subject [s]: T2; where it has none, its dwell time,
+/// T1, or the time in which the plant moves by itself.
+double time_scale(const CertificateSubject& subject);
 
 /// A matrix or a number that a theorem speaks of. In files, a name "L_d/1" stands below two keys.
 struct NamedShape {
@@ -48,6 +64,14 @@ struct GuaranteedFigure {
   double value = 0.0;
 };
 
+/// Of which times between samples or jumps a theorem speaks.
+enum class TheoremTimes {
+  kUpToT2,  ///< in [T1, T2]
+  kFromT1,  ///< of T1 or more
+  kAverageDwellTime,
+  kReverseAverageDwellTime
+};
+
 /// A theorem of a paper: what it demands of gains and of the matrices that prove them, and what it
 /// then guarantees. Stateless.
 class Theorem {
@@ -66,7 +90,9 @@ class Theorem {
   /// The observer types whose gains it is about.
   virtual std::vector<std::string> observer_types() const = 0;
 
-  /// @throws std::invalid_argument saying why, for a plant or times that it is not about.
+  virtual TheoremTimes times() const { return TheoremTimes::kUpToT2; }
+
+  /// @throws std::invalid_argument saying why, for a plant or times [T1, T2] that it is not about.
   virtual void require_applicable(const CertificateSubject& subject) const = 0;
 
   // The shapes of all that has a value in a certificate, for an applicable subject.
@@ -116,6 +142,10 @@ class Theorem {
       const ErrorAssumptions& assumptions) const = 0;
 };
 
+/// @throws std::invalid_argument saying why, for a subject that the theorem is not about: other
+/// times than those that it speaks of, or as Theorem::require_applicable().
+void require_subject(const Theorem& theorem, const CertificateSubject& subject);
+
 /// All theorems, and the one of a name; null where there is none.
 const std::vector<const Theorem*>& theorems();
 const Theorem* find_theorem(const std::string& name);
@@ -129,6 +159,10 @@ std::vector<std::string> gains_beside(const Theorem& theorem, const CertificateS
 /// one that bounds their error at run time better, where there is such a one.
 constexpr const char* kCertificate = "certificate";
 constexpr const char* kRunTimeCertificate = "run_time_certificate";
+
+/// The keys of a claim, and of the section `design`, that give a dwell time as {tau, N0}.
+constexpr const char* kAverageDwellTime = "average_dwell_time";
+constexpr const char* kReverseAverageDwellTime = "reverse_average_dwell_time";
 
 /// A claim with its proof.
 struct Certificate {

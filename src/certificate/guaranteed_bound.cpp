@@ -123,9 +123,11 @@ bool GuaranteedBound::accepts(const Event& event) const {
 
 void GuaranteedBound::flow(Duration duration, double* state, double* workspace) const {
   const double missing = law().missing_jumps(state);
+  const double violations = law().dwell_violations(state);
   look_at_law(state, workspace);
   law().flow(duration, state, workspace);
   if (law().missing_jumps(state) != missing) give_up(state);
+  if (law().dwell_violations(state) != violations) give_up(state, BoundLoss::kDwellTimes);
   since_.advance(duration, state);
   since_start_.advance(duration, state);
   since_jump_.advance(duration, state);
@@ -161,7 +163,11 @@ Effect GuaranteedBound::reset(const Event& event, double* state, double* workspa
   if ((is_sample || is_jump || is_output) && !comes_to_jump) {
     before_.set(state, state);
   }
+  const double skipped = law().skipped_jumps(state);
+  const double violations = law().dwell_violations(state);
   const Effect effect = law().reset(event, state, workspace);
+  if (law().skipped_jumps(state) > skipped) give_up(state, BoundLoss::kUnknownJump);
+  if (law().dwell_violations(state) != violations) give_up(state, BoundLoss::kDwellTimes);
   if (is_jump) note_stamp_of_jump(state, workspace);
   if (!took_effect(effect)) {
     if (is_jump) refuse_jump(state);

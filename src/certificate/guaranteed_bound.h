@@ -17,6 +17,8 @@ namespace sampled_data_observers {
 /// - where the timeline holds the estimate, since its flow is not finite, or a jump is without
 ///   effect, since its result is not;
 /// - after an input or a jump that was rejected: an event of kind kRejected says so;
+/// - after jumps that are missing, or were lost as the numbers of others tell, and where the times
+///   between jumps leave those configured;
 /// - at a jump whose angular outputs may be wrapped by another number of turns than the error, and
 ///   at such a sample where the law goes on injecting it; elsewhere such a sample moves the
 ///   estimate by what is known, and the bound with it. Which number of turns fits is known where

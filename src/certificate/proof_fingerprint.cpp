@@ -42,6 +42,10 @@ std::string proof_fingerprint(const Certificate& certificate) {
   CanonicalText text;
   text.add(certificate.theorem->name() + " T1", certificate.subject.T1);
   text.add("T2", certificate.subject.T2);
+  if (const auto& dwell_time = certificate.subject.dwell_time) {
+    text.add("dwell time", dwell_time->tau);
+    text.add("N0", dwell_time->N0);
+  }
   for (const ModeMatrices& mode : plant.modes) {
     text.add("mode", mode.label);
     text.add("A", mode.A);

@@ -6,6 +6,7 @@
 
 #include "certificate/proof_fingerprint.h"
 #include "config/claimed_gains.h"
+#include "config/event_times.h"
 #include "config/named_values.h"
 
 namespace sampled_data_observers {
@@ -41,11 +42,7 @@ CertificateSubject read_subject(ConfigSection& section, const Plant& plant) {
   const Eigen::Index n = subject.plant.states();
   if (section.has("N")) subject.plant.N = section.matrix("N", n, -1);
   if (section.has("C_p")) subject.plant.C_p = section.matrix("C_p", -1, n);
-  subject.T1 = section.number("T1");
-  subject.T2 = section.number("T2");
-  if (!(0.0 <= subject.T1 && subject.T1 <= subject.T2)) {
-    throw section.error("T2", "0 <= T1 <= T2", "T1 or T2 out of order");
-  }
+  read_event_times(section, subject);
   return subject;
 }
 
@@ -63,7 +60,7 @@ std::optional<CertificateConfig> read_certificate(ConfigSection& root, const Pla
   require_theorem_for_type(root, section, *certificate.theorem);
   certificate.subject = read_subject(section, plant);
   try {
-    certificate.theorem->require_applicable(certificate.subject);
+    require_subject(*certificate.theorem, certificate.subject);
   } catch (const std::invalid_argument& fault) {
     throw section.error("theorem", "a plant that the theorem is about", fault.what());
   }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <iterator>
+#include <limits>
 #include <locale>
 #include <sstream>
 #include <utility>
@@ -47,6 +49,9 @@ bool is_decimal(const std::string& text) {
 }
 
 /// Nothing where the node is not a finite decimal number.
+/// As YAML writes infinity, and as the parameter server hands it on.
+const char* const kInfinities[] = {".inf", ".Inf", ".INF", "inf"};
+
 std::optional<double> as_number(const ConfigNode& node) {
   if (node.kind != ConfigNode::Kind::kScalar || !is_decimal(node.scalar)) return std::nullopt;
   std::istringstream in(node.scalar[0] == '+' ? node.scalar.substr(1) : node.scalar);
@@ -246,6 +251,31 @@ bool ConfigSection::is_matrix(const std::string& key) {
            std::all_of(row.items.begin(), row.items.end(),
                        [](const ConfigNode& item) { return as_number(item).has_value(); });
   });
+}
+
+Eigen::Vector2d ConfigSection::interval_in(const std::string& key, double low, double high) {
+  const std::string expected = "a list of two numbers from " + number_text(low) + " to " +
+                               number_text(high) +
+                               ", the first not above the second, which may be .inf";
+  const ConfigNode& node = required(key, expected);
+  if (node.kind != ConfigNode::Kind::kSequence || node.items.size() != 2) {
+    throw error(key, expected, node.describe());
+  }
+  Eigen::Vector2d result;
+  for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
+    const ConfigNode& item = node.items[i];
+    const bool is_infinite =
+        i == 1 && item.kind == ConfigNode::Kind::kScalar &&
+        std::count(std::begin(kInfinities), std::end(kInfinities), item.scalar) > 0;
+    const std::optional<double> value = as_number(item);
+    if (!is_infinite && (!value || *value < low || *value > high)) {
+      throw error(key, expected, item.describe());
+    }
+    result(static_cast<Eigen::Index>(i)) =
+        is_infinite ? std::numeric_limits<double>::infinity() : *value;
+  }
+  if (result(0) > result(1)) throw error(key, expected, "the first above the second");
+  return result;
 }
 
 Eigen::VectorXd ConfigSection::vector(const std::string& key, Eigen::Index size) {

@@ -22,6 +22,8 @@ constexpr std::size_t kMostModes = 4;
 /// Cycles until a gain that has a memory, as a Kalman filter's, has settled.
 constexpr int kSettling = 100;
 /// A double eigenvalue of modulus 1 is computed as one that is larger by up to 1e-8.
+/// Of times without end.
+constexpr Duration kLongestLookedAt = 1000000 * kNanosecondsPerSecond;
 constexpr double kGrowth = 1.0 + 1e-6;
 
 /// A time, and the event after it: all samples, or a jump into a mode.
@@ -128,9 +130,10 @@ class ErrorMap {
 };
 
 std::vector<Duration> grid(const SamplingBounds& sampling, int points) {
+  const Duration longest = std::min(sampling.T2, std::max(sampling.T1, kLongestLookedAt));
   std::vector<Duration> times;
   for (int i = 0; i < points; ++i) {
-    times.push_back(sampling.T1 + (sampling.T2 - sampling.T1) * i / (points - 1));
+    times.push_back(sampling.T1 + (longest - sampling.T1) * i / (points - 1));
   }
   times.erase(std::unique(times.begin(), times.end()), times.end());
   return times;

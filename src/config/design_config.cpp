@@ -1,8 +1,11 @@
 #include "config/design_config.h"
 
+#include <limits>
+#include <optional>
 #include <stdexcept>
 
 #include "config/claim_contradiction.h"
+#include "config/event_times.h"
 #include "config/named_values.h"
 #include "config/plant_fingerprint.h"
 #include "sampled_data_observers/config/config_section.h"
@@ -11,12 +14,21 @@
 namespace sampled_data_observers {
 namespace {
 
-/// That of the section `design`, or else what an observer's configuration expects.
-void read_design_sampling(ConfigSection& root, ConfigSection& design, CertificateSubject& subject) {
+/// Those of the section `design`, or else what an observer's configuration expects.
+void read_design_times(ConfigSection& root, ConfigSection& design, CertificateSubject& subject) {
+  const std::optional<DwellTime> dwell_time = read_dwell_time(design);
+  if (dwell_time) {
+    if (design.has("sampling")) {
+      throw design.error("sampling", "none beside a dwell time, which takes its place", "one");
+    }
+    subject.dwell_time = dwell_time;
+    subject.T2 = std::numeric_limits<double>::infinity();
+    return;
+  }
   if (!design.has("sampling") && !root.has("sampling")) return;
   ConfigSection sampling = (design.has("sampling") ? design : root).section("sampling");
-  subject.T1 = sampling.number_in("T1", 1e-9, 1e6, std::nullopt);
-  subject.T2 = sampling.number_in("T2", 1e-9, 1e6, std::nullopt);
+  subject.T1 = sampling.number_in("T1", 0.0, 1e6, std::nullopt);
+  subject.T2 = read_longest_time(sampling, 1e-9);
   if (subject.T1 > subject.T2) throw sampling.error("T2", "a number not less than T1", "T1 > T2");
   sampling.finish();
 }
@@ -46,7 +58,7 @@ DesignConfig read_design_config(const std::vector<std::string>& files,
   require_no_contradiction(*config.plant, stated, plant, section);
   if (section.has("N")) config.subject.plant.N = section.matrix("N", n, -1);
   if (section.has("C_p")) config.subject.plant.C_p = section.matrix("C_p", -1, n);
-  read_design_sampling(root, section, config.subject);
+  read_design_times(root, section, config.subject);
   ConfigSection parameters = section.section_or_empty("parameters");
   for (const std::string& name : parameters.keys()) {
     config.parameters[name] = parameters.number(name);

@@ -15,7 +15,7 @@ struct DesignConfig {
   std::shared_ptr<const Plant> plant;
   /// That formulas among the gains of an observer may use.
   ExpressionNames names;
-  /// With N, C_p and, where given, T1 and T2 (else 0).
+  /// With N, C_p and, where given, T1 and T2 (else 0) or a dwell time.
   CertificateSubject subject;
   /// The section design/parameters.
   std::map<std::string, double> parameters;

@@ -77,11 +77,11 @@ std::optional<ConfigError> objection(ConfigSection& root, const ConfigNode& tree
   const CertificateSubject& subject = certificate.subject;
   const SamplingBounds& sampling = config.options.sampling;
   if (root.has("sampling") &&
-      (sampling.T1 < from_seconds(subject.T1) || sampling.T2 > from_seconds(subject.T2))) {
+      (sampling.T1 < from_seconds(subject.T1) || sampling.T2 > longest_from_seconds(subject.T2))) {
     return root.error("sampling",
                       "T1 and T2 inside " + interval(subject.T1, subject.T2) +
                           ", for which the gains were made" + kGainsRemedy,
-                      interval(to_seconds(sampling.T1), to_seconds(sampling.T2)));
+                      interval(to_seconds(sampling.T1), longest_to_seconds(sampling.T2)));
   }
   if (auto error = objection_to_statements(root, claim, config)) return error;
   if (auto error = objection_to_step(root, *config.plant, *config.law, true)) return error;

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "config/dwell_times.h"
 #include "sampled_data_observers/runtime/estimator.h"
 
 namespace sampled_data_observers {
@@ -78,6 +79,7 @@ TopicSource read_jumps(ConfigSection& root, const Plant& plant, LawLayers& layer
   if (section.has("missing")) {
     layers.missing = read_missing_jumps(section.section("missing"), plant, layers.delays_jumps);
   }
+  layers.dwell_times = read_dwell_times(section);
   section.finish();
   return source;
 }

@@ -56,6 +56,9 @@ std::shared_ptr<const ObserverLaw> assemble(std::shared_ptr<const ObserverLaw> l
     law = std::make_shared<const LimitedJumps>(law, *layers.jump_limits);
     if (layers.jump_gate) law = std::make_shared<const PossibleJumps>(law, *layers.jump_gate);
     law = std::make_shared<const NumberedJumps>(law);
+    if (layers.dwell_times) {
+      law = std::make_shared<const DwellTimesWatch>(law, *layers.dwell_times);
+    }
   }
   if (layers.bound) {
     law =

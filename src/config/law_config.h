@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "certificate/error_bound.h"
+#include "observer/dwell_times_watch.h"
 #include "observer/gated_measurements.h"
 #include "observer/limited_jumps.h"
 #include "observer/missing_jumps.h"
@@ -28,16 +29,17 @@ struct LawLayers {
   std::optional<JumpLimits> jump_limits;    ///< nothing where the plant does not jump
   std::optional<JumpGate> jump_gate;        ///< nothing where all jumps are believed
   std::optional<MissingJumps> missing;      ///< nothing where nobody looks for missing jumps
+  std::optional<DwellTimes> dwell_times;    ///< nothing where jumps may come at any times
   std::unique_ptr<const ErrorBound> bound;  ///< null where none is asked for
   double noise = 0.0;                       ///< that the bound rests on
   std::vector<std::optional<Gate>> gates;   ///< one per sensor
 };
 
-/// GatedMeasurements( GuaranteedBound( NumberedJumps( PossibleJumps( LimitedJumps(
-/// MissingJumpsWatch( DelayedJumps( law ) ) ) ) ) ) ), each where it is asked for. Limits count
-/// jumps when they happen, whether delayed or not, and those only that are told. The bound sees
-/// which of them were refused and which are missing, and must not see the samples that a gate keeps
-/// out.
+/// GatedMeasurements( GuaranteedBound( DwellTimesWatch( NumberedJumps( PossibleJumps( LimitedJumps(
+/// MissingJumpsWatch( DelayedJumps( law ) ) ) ) ) ) ) ), each where it is asked for. Limits count
+/// jumps when they happen, whether delayed or not, and those only that are told. Times between them
+/// are those between jumps that take effect. The bound sees which of them were refused and which
+/// are missing, and must not see the samples that a gate keeps out.
 std::shared_ptr<const ObserverLaw> assemble(std::shared_ptr<const ObserverLaw> law,
                                             const std::shared_ptr<const Plant>& plant,
                                             LawLayers layers);

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "config/contraction_check.h"
+#include "config/event_times.h"
 #include "config/gate_config.h"
 #include "config/guarantee_config.h"
 #include "config/integration_check.h"
@@ -19,17 +20,19 @@ namespace {
 
 constexpr double kShortest = 1e-9;  // s: one tick of the clock
 constexpr double kLongest = 1e6;    // s
+/// What a ROS stamp holds reaches a little further [s].
+constexpr double kLatestStart = 4e9;
 
 /// Required where samples come; a plant that is measured in the flow or at jumps only has none.
 SamplingBounds read_sampling(ConfigSection& root, const Plant& plant) {
   const bool is_sampled = plant.outputs(SensorTiming::kSampled) > 0;
-  if (!is_sampled && !root.has("sampling")) return {1, from_seconds(kLongest)};
+  if (!is_sampled && !root.has("sampling")) return {0, kNoLongestTime};
   ConfigSection section = root.section("sampling");
-  const double T1 = section.number_in("T1", kShortest, kLongest, std::nullopt);
-  const double T2 = section.number_in("T2", kShortest, kLongest, std::nullopt);
+  const double T1 = section.number_in("T1", 0.0, kLongest, std::nullopt);
+  const double T2 = read_longest_time(section, kShortest);
   if (T1 > T2) throw section.error("T2", "a number not less than T1", "T1 > T2");
   section.finish();
-  return {from_seconds(T1), from_seconds(T2)};
+  return {from_seconds(T1), longest_from_seconds(T2)};
 }
 
 Timeline::Limits read_history(ConfigSection& root) {
@@ -42,6 +45,20 @@ Timeline::Limits read_history(ConfigSection& root) {
   limits.max_events = section.count("max_events", 1, 1000000, 2000);
   section.finish();
   return limits;
+}
+
+/// Where estimates begin; nothing for the first event.
+std::optional<Stamp> read_start(ConfigSection& root) {
+  if (!root.has("start")) return std::nullopt;
+  ConfigSection section = root.section("start");
+  std::optional<Stamp> start;
+  if (section.is_number("at")) {
+    start = from_seconds(section.number_in("at", kShortest, kLatestStart, std::nullopt));
+  } else if (section.text("at") != "first_event") {
+    throw section.error("at", "a stamp in seconds, or first_event", "'" + section.text("at") + "'");
+  }
+  section.finish();
+  return start;
 }
 
 RealTimeOptions read_real_time(ConfigSection& root) {
@@ -103,6 +120,7 @@ ObserverConfig read_observer_config(const ConfigNode& tree, const PlantPluginLoa
   layers.gates = read_gates(root, plant, *config.law);
   config.law = assemble(config.law, config.plant, std::move(layers));
   config.options.history = read_history(root);
+  config.options.start = read_start(root);
   config.options.future_tolerance =
       from_seconds(root.number_in("future_tolerance", 0.0, kLongest, 0.5));
   config.period = from_seconds(1.0 / root.number_in("rate", 1e-3, 1e5, 100.0));

@@ -56,6 +56,14 @@ OptionCheck number_at_least(double low) {
   return number_that(" >= " + in_short(low), [low](double value) { return value >= low; });
 }
 
+OptionCheck number_above_or_infinite(double low) {
+  return [finite = number_above(low)](const std::string& text) -> std::string {
+    if (text == "inf") return "";
+    const std::string fault = finite(text);
+    return fault.empty() ? "" : fault + " (or inf)";
+  };
+}
+
 OptionCheck number_between(double low, double high) {
   return number_that(" from " + in_short(low) + " to " + in_short(high),
                      [low, high](double value) { return low <= value && value <= high; });

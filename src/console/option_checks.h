@@ -15,6 +15,8 @@ using OptionCheck = std::function<std::string(const std::string& text)>;
 OptionCheck any_number();
 OptionCheck number_above(double low);
 OptionCheck number_at_least(double low);
+/// `inf` too, which is not finite.
+OptionCheck number_above_or_infinite(double low);
 OptionCheck number_between(double low, double high);
 
 OptionCheck whole_number_at_least(std::uint64_t low);

@@ -72,7 +72,8 @@ class GivenGains : public DesignMethod {
   }
 
   std::vector<Objective> objectives(const CertificateSubject& subject) const override {
-    std::vector<Objective> all = {Objective::kFeasible, Objective::kMaxT2};
+    std::vector<Objective> all = {Objective::kFeasible};
+    if (std::isfinite(subject.T2)) all.push_back(Objective::kMaxT2);
     if (has_gamma(theorem_, subject) && gain_has_meaning(theorem_, subject))
       all.insert(all.begin(), Objective::kMinGamma);
     if (!theorem_.decay_parameter().empty()) all.push_back(Objective::kMaxDecay);
@@ -168,7 +169,7 @@ Design analyze(const AnalysisProblem& problem, const SynthesisOptions& options) 
   const Theorem& theorem = *problem.theorem;
   const GivenGains method(theorem, problem.gains);
   try {
-    theorem.require_applicable(problem.subject);
+    require_subject(theorem, problem.subject);
   } catch (const std::invalid_argument& fault) {
     throw RequestError(theorem.name() + " is not for this plant: " + fault.what());
   }

@@ -33,7 +33,7 @@ Eigen::VectorXd shown_within_horizon(const CertificateSubject& subject, const Ei
   constexpr int kSteps = 100;
   const Eigen::MatrixXd& A = subject.plant.A();
   const Eigen::Index n = A.rows();
-  const double step = kDefaultHorizon * subject.T2 / kSteps;
+  const double step = kDefaultHorizon * time_scale(subject) / kSteps;
   Eigen::MatrixXd augmented = Eigen::MatrixXd::Zero(n + N.cols(), n + N.cols());
   augmented.topLeftCorner(n, n) = A;
   augmented.topRightCorner(n, N.cols()) = N;
@@ -52,7 +52,7 @@ Eigen::VectorXd shown_within_horizon(const CertificateSubject& subject, const Ei
 Eigen::VectorXd weights_of_design(const CertificateSubject& subject) {
   constexpr int kSteps = 100;
   const Eigen::MatrixXd flow =
-      exponential_of(subject.plant.A() * (kDefaultHorizon * subject.T2 / kSteps));
+      exponential_of(subject.plant.A() * (kDefaultHorizon * time_scale(subject) / kSteps));
   Eigen::MatrixXd outputs = subject.plant.C();
   Eigen::VectorXd weights = outputs.colwise().norm().transpose();
   for (int i = 0; i < kSteps; ++i) {

@@ -94,7 +94,7 @@ class DesignMethod {
 
   /// @throws std::invalid_argument saying why, for a plant or times that it is not about.
   virtual void require_applicable(const CertificateSubject& subject) const {
-    theorem().require_applicable(subject);
+    require_subject(theorem(), subject);
   }
 
   /// All scalars that the user may fix.

@@ -91,7 +91,7 @@ class DesignSearch {
         const auto given = problem_.given.find(decay);
         const bool is_given = given != problem_.given.end() && given->second > 0.0;
         const double start =
-            is_given ? given->second : 0.1 / (is_rate(decay) ? problem_.subject.T2 : 1.0);
+            is_given ? given->second : 0.1 / (is_rate(decay) ? time_scale(problem_.subject) : 1.0);
         maximize(start, is_given && !problem_.accepts_less, decay, [this, &decay](double value) {
           Trial trial{problem_.subject, problem_.given};
           trial.given[decay] = value;

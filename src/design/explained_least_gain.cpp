@@ -12,7 +12,7 @@ constexpr double kTimeLimit = 20.0;
 
 bool is_about(const CertificateSubject& subject) {
   try {
-    find_theorem("ferrante2019_theorem2")->require_applicable(subject);
+    require_subject(*find_theorem("ferrante2019_theorem2"), subject);
   } catch (const std::invalid_argument&) {
     return false;
   }

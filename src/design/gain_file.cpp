@@ -1,5 +1,6 @@
 #include "design/gain_file.h"
 
+#include <cmath>
 #include <ostream>
 #include <set>
 #include <sstream>
@@ -45,6 +46,29 @@ void write_values(const std::vector<NamedShape>& shapes, const NamedMatrices& va
   }
 }
 
+std::string decimal_or_inf(double value) {
+  return std::isinf(value) ? ".inf" : shortest_decimal(value);
+}
+
+std::string times_of_claim(const CertificateSubject& subject) {
+  if (!subject.dwell_time) {
+    return "  T1: " + shortest_decimal(subject.T1) + "\n  T2: " + decimal_or_inf(subject.T2) + "\n";
+  }
+  const DwellTime& dwell_time = *subject.dwell_time;
+  return std::string("  ") +
+         (dwell_time.kind == DwellTime::Kind::kAverage ? kAverageDwellTime
+                                                       : kReverseAverageDwellTime) +
+         ": {tau: " + shortest_decimal(dwell_time.tau) +
+         ", N0: " + shortest_decimal(dwell_time.N0) + "}\n";
+}
+
+/// Nothing where single times are not bounded.
+std::string sampling_of(const CertificateSubject& subject) {
+  if (subject.dwell_time) return "";
+  return "sampling: {T1: " + shortest_decimal(subject.T1) + ", T2: " + decimal_or_inf(subject.T2) +
+         "}  # s\n\n";
+}
+
 void write_claim(const Design& design, const GainFileOrigin& origin, std::ostream& out) {
   const Certificate& certificate = design.certificate;
   const CertificateSubject& subject = certificate.subject;
@@ -53,8 +77,7 @@ void write_claim(const Design& design, const GainFileOrigin& origin, std::ostrea
       << "  guarantee: \"" << theorem.guarantee() << "\"\n"
       << "  plant: {file: " << yaml_scalar(origin.plant_file) << ", hash: " << origin.plant_hash
       << "}\n"
-      << "  T1: " << shortest_decimal(subject.T1) << "\n"
-      << "  T2: " << shortest_decimal(subject.T2) << '\n';
+      << times_of_claim(subject);
   if (subject.plant.N.cols() > 0) out << "  N: " << nested_lists(subject.plant.N) << '\n';
   if (design.disturbance) {
     out << "  disturbance: " << shortest_decimal(*design.disturbance)
@@ -123,9 +146,7 @@ void write_gain_file(const Design& design, const GainFileOrigin& origin, std::os
   const Theorem& theorem = *certificate.theorem;
   out << "# Gains with a certificate, made by\n#   " << yaml_comment(origin.command) << "\n"
       << "observer: " << design.observer_type << "\n\n"
-      << "sampling: {T1: " << shortest_decimal(subject.T1)
-      << ", T2: " << shortest_decimal(subject.T2) << "}  # s\n\n"
-      << "gains:\n";
+      << sampling_of(subject) << "gains:\n";
   for (const auto& [key, choice] : theorem.gain_choices()) {
     out << "  " << key << ": " << choice << '\n';
   }

@@ -54,7 +54,7 @@ void balance_logarithms(const CertificateSubject& subject, PlantScaling& scaling
   std::vector<Eigen::VectorXd*> units = {&scaling.state, &scaling.output,
                                          &scaling.continuous_output, &scaling.jump_output};
   for (const ModeMatrices& mode : subject.plant.modes) {
-    add_entries(mode.A * subject.T2, 0, equations);
+    add_entries(mode.A * time_scale(subject), 0, equations);
     if (mode.A_d) add_entries(*mode.A_d, 0, equations);
     unknowns = n;
     for (const Eigen::MatrixXd* C : {&mode.C, &mode.C_c, &mode.C_d}) {

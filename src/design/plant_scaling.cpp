@@ -15,20 +15,22 @@ Eigen::MatrixXd in_units(const Eigen::VectorXd& rows, const Eigen::MatrixXd& a,
   return rows.cwiseInverse().asDiagonal() * a * cols.asDiagonal();
 }
 
-/// For each state the square of how much it moves the outputs within T2, each output in its unit.
+/// For each state the square of how much it moves the outputs within the time scale, each output in
+/// its unit.
 Eigen::VectorXd visibility(const CertificateSubject& subject) {
   constexpr int kTimes = 16;
   constexpr int kJumps = 3;
+  const double scale = time_scale(subject);
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(subject.plant.states());
   for (const ModeMatrices& mode : subject.plant.modes) {
-    const Eigen::MatrixXd cycle = jump_of(mode) * exponential_of(mode.A * subject.T2);
+    const Eigen::MatrixXd cycle = jump_of(mode) * exponential_of(mode.A * scale);
     for (const Eigen::MatrixXd* C : {&mode.C, &mode.C_c, &mode.C_d}) {
       if (C->rows() == 0) continue;
       Eigen::MatrixXd before = Eigen::MatrixXd::Identity(mode.A.rows(), mode.A.rows());
       for (int jump = 0; jump < (subject.plant.jumps() ? kJumps : 1); ++jump) {
         for (int i = 0; i <= kTimes; ++i) {
           // Also soon after, before fast modes have decayed.
-          const double tau = i == 0 ? 0.0 : subject.T2 * std::exp2(1 - i);
+          const double tau = i == 0 ? 0.0 : scale * std::exp2(1 - i);
           const Eigen::MatrixXd seen = *C * exponential_of(mode.A * tau) * before;
           sum += seen.colwise().squaredNorm().transpose();
         }
@@ -97,7 +99,7 @@ PlantScaling scaling_of(const Theorem& theorem, const CertificateSubject& subjec
                         const KeptNorms& kept) {
   PlantScaling scaling = scaling_of_states(subject);
   // G of Proposition 1 stands for two slack matrices of different units of time.
-  scaling.time = theorem.name() == "etienne2019_proposition1" ? 1.0 : subject.T2;
+  scaling.time = theorem.name() == "etienne2019_proposition1" ? 1.0 : time_scale(subject);
   if (kept.of_state) make_uniform(scaling.state);
   if (kept.of_outputs) {
     make_uniform(scaling.output);
@@ -133,6 +135,7 @@ CertificateSubject scaled(const CertificateSubject& subject, const PlantScaling&
   CertificateSubject result = subject;
   result.T1 /= scaling.time;
   result.T2 /= scaling.time;
+  if (result.dwell_time) result.dwell_time->tau /= scaling.time;
   const Eigen::VectorXd& x = scaling.state;
   PlantMatrices& plant = result.plant;
   for (ModeMatrices& mode : plant.modes) {

@@ -92,15 +92,23 @@ void add_start(const ErrorBound& bound, bool jumps, const std::vector<double>& i
 }
 
 std::vector<std::vector<double>> worst_intervals(const CertificateSubject& subject) {
+  const auto& dwell_time = subject.dwell_time;
+  if (dwell_time && dwell_time->kind == DwellTime::Kind::kReverseAverage) {
+    // As many jumps as there must be: evenly, or after the longest pause all that it left out.
+    std::vector<double> pause(static_cast<std::size_t>(dwell_time->N0) + 1, 0.0);
+    pause.front() = (dwell_time->N0 + 1.0) * dwell_time->tau;
+    return {{dwell_time->tau}, pause};
+  }
   const double T1 = shortest_interval(subject);
-  if (T1 == subject.T2) return {{T1}};
-  return {{T1}, {subject.T2}, {T1, subject.T2}};
+  const double T2 = time_scale(subject);
+  if (T1 == T2) return {{T1}};
+  return {{T1}, {T2}, {T1, T2}};
 }
 
 }  // namespace
 
 double shortest_interval(const CertificateSubject& subject) {
-  return subject.T1 > 0.0 ? subject.T1 : subject.T2;
+  return subject.T1 > 0.0 ? subject.T1 : time_scale(subject);
 }
 
 RunTimeFigures run_time_figures(const Theorem& theorem, const CertificateSubject& subject,

@@ -4,11 +4,12 @@
 
 namespace sampled_data_observers {
 
-/// T1, or T2 where the times between samples have no lower bound [s].
+/// T1, or time_scale() where the times between samples have no lower bound [s].
 double shortest_interval(const CertificateSubject& subject);
 
 /// What the bound at run time does under the assumptions on noise and disturbance, over samples
-/// that all come after T1, all after T2, or after both in turn, whichever is worst.
+/// that all come after T1, all after T2, or after both in turn, whichever is worst; over jumps with
+/// a reverse average dwell time that come evenly, or after as long a pause as there may be.
 struct RunTimeFigures {
   /// Of the bound in the end, units of the state.
   double final_error = 0.0;

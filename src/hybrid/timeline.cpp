@@ -85,6 +85,9 @@ Timeline::InsertReport Timeline::take_in(const Event& event, const Event* compan
   }
   for (std::size_t later = position; later <= size_; ++later) apply(later);
   report.effect = slot(position).effect;
+  if (event.kind == EventKind::kWithdrawal) {
+    report.effect = withdraws_any(position) ? Effect::kWithdrawal : Effect::kNoSuchJump;
+  }
 
   const Stamp horizon = stamp(size_) - limits_.history;
   while (size_ > limits_.max_events || stamp(1) < horizon) forget_oldest();
@@ -97,7 +100,7 @@ Timeline::Query Timeline::find(Stamp at, std::size_t& position) const {
   if (position > 0) return Query::kOk;
   if (base_ == Base::kInitial) return size_ == 0 ? Query::kNoEvent : Query::kBeforeStart;
   if (stamp(0) <= at) return Query::kOk;
-  return base_ == Base::kRestart ? Query::kBeforeStart : Query::kBeforeWindow;
+  return base_ == Base::kForgotten ? Query::kBeforeWindow : Query::kBeforeStart;
 }
 
 Timeline::Query Timeline::begin_flow(Stamp at, SplitFlow& flow, EventCounts& counts) const {
@@ -162,6 +165,11 @@ void Timeline::clear() {
   system_->initialize(state_after(0).data());
 }
 
+void Timeline::begin(Stamp stamp) {
+  clear();
+  set_base(Base::kStart, stamp, false);
+}
+
 /// A base that nothing came before; its state is still to be set.
 void Timeline::set_base(Base base, Stamp stamp, bool held) {
   base_ = base;
@@ -185,6 +193,7 @@ std::optional<Stamp> Timeline::newest() const {
 bool Timeline::has_jump(Stamp after, Stamp until) const {
   for (std::size_t position = size_; position > 0 && stamp(position) > after; --position) {
     const Event& event = slot(position).event;
+    if (slot(position).effect == Effect::kWithdrawn) continue;
     const bool is_jump = event.kind == EventKind::kJump ||
                          (event.kind == EventKind::kRejected && event.rejected == EventKind::kJump);
     if (is_jump && event.stamp <= until) return true;
@@ -194,9 +203,20 @@ bool Timeline::has_jump(Stamp after, Stamp until) const {
 
 std::optional<Stamp> Timeline::earliest_insertion() const {
   std::optional<Stamp> earliest;
-  if (base_ != Base::kInitial) earliest = stamp(0) + 1;
+  if (base_ != Base::kInitial) earliest = stamp(0) + (base_ == Base::kStart ? 0 : 1);
   if (size_ > 0) earliest = std::max(earliest.value_or(0), stamp(size_) - limits_.history);
   return earliest;
+}
+
+std::optional<Timeline::Around> Timeline::around_next_jump(Stamp at) const {
+  std::optional<std::size_t> next;
+  std::size_t position = size_;
+  for (; position > 0 && stamp(position) > at; --position) {
+    const EventKind kind = slot(position).event.kind;
+    if (kind == EventKind::kJump || kind == EventKind::kWithdrawal) next = position;
+  }
+  if (!next) return std::nullopt;
+  return Around{state_after(position).data(), state_after(*next).data()};
 }
 
 /// The position behind the base and all events that come before `event` or equal it.
@@ -207,7 +227,9 @@ std::size_t Timeline::position_after(const Event& event) const {
 }
 
 bool Timeline::is_before_window(Stamp at) const {
-  if (base_ != Base::kInitial && at <= stamp(0)) return true;
+  if (base_ == Base::kStart && at < stamp(0)) return true;
+  const bool takes_its_stamp = base_ == Base::kInitial || base_ == Base::kStart;
+  if (!takes_its_stamp && at <= stamp(0)) return true;
   return size_ > 0 && at < stamp(size_) - limits_.history;
 }
 
@@ -291,6 +313,7 @@ Effect Timeline::reset(std::size_t position) {
   if (!flow_is_finite) hold();
   // A flow over no time proves nothing.
   slot(position).held = duration > 0 ? !flow_is_finite : slot(position - 1).held;
+  if (is_withdrawn(position)) return Effect::kWithdrawn;
   const Effect effect = system_->reset(event, state.data(), workspace_.data());
   if (!took_effect(effect) || is_usable(state)) return effect;
   if (flow_is_finite) {
@@ -301,6 +324,28 @@ Effect Timeline::reset(std::size_t position) {
   // The plant has jumped all the same.
   if (event.kind == EventKind::kJump) system_->distrust(state.data());
   return Effect::kNotFinite;
+}
+
+/// Whether the event at a position is a jump that was taken back; what takes it back stands before
+/// it, if only as the base.
+bool Timeline::is_withdrawn(std::size_t position) const {
+  const Event& jump = slot(position).event;
+  if (jump.kind != EventKind::kJump) return false;
+  const std::size_t first = base_ == Base::kForgotten ? 0 : 1;
+  for (std::size_t before = position; before > first && stamp(before - 1) == jump.stamp; --before) {
+    if (withdraws(slot(before - 1).event, jump)) return true;
+  }
+  return false;
+}
+
+/// Whether there is a jump that the withdrawal at a position is about.
+bool Timeline::withdraws_any(std::size_t position) const {
+  const Event& withdrawal = slot(position).event;
+  for (std::size_t behind = position + 1; behind <= size_; ++behind) {
+    if (stamp(behind) != withdrawal.stamp) break;
+    if (withdraws(withdrawal, slot(behind).event)) return true;
+  }
+  return false;
 }
 
 /// The oldest event becomes the base.

@@ -17,6 +17,7 @@ static_assert(EventStatus::JUMP_OUTPUT == static_cast<int>(EventKind::kJumpOutpu
 static_assert(EventStatus::OUTPUT == static_cast<int>(EventKind::kOutput));
 static_assert(EventStatus::JUMP == static_cast<int>(EventKind::kJump));
 static_assert(EventStatus::SAMPLE == static_cast<int>(EventKind::kSample));
+static_assert(EventStatus::WITHDRAWAL == static_cast<int>(EventKind::kWithdrawal));
 static_assert(EventStatus::USED == static_cast<int>(EventOutcome::kUsed));
 static_assert(EventStatus::USED_LATE == static_cast<int>(EventOutcome::kUsedLate));
 static_assert(EventStatus::DUPLICATE == static_cast<int>(EventOutcome::kDuplicate));
@@ -37,6 +38,15 @@ static_assert(EventStatus::DROPPED == static_cast<int>(EventOutcome::kDropped));
 static_assert(EventStatus::NOT_POSSIBLE == static_cast<int>(EventOutcome::kNotPossible));
 static_assert(EventStatus::REPEATED == static_cast<int>(EventOutcome::kRepeated));
 static_assert(EventStatus::JUMP_ALONE == static_cast<int>(EventOutcome::kJumpAlone));
+static_assert(EventStatus::TAKEN_BACK == static_cast<int>(EventOutcome::kTakenBack));
+static_assert(EventStatus::WITHDRAWN == static_cast<int>(EventOutcome::kWithdrawn));
+static_assert(EventStatus::NO_SUCH_JUMP == static_cast<int>(EventOutcome::kNoSuchJump));
+static_assert(EventStatus::DWELL_NONE == static_cast<int>(DwellCheck::kNone));
+static_assert(EventStatus::DWELL_WITHIN == static_cast<int>(DwellCheck::kWithin));
+static_assert(EventStatus::DWELL_SHORT == static_cast<int>(DwellCheck::kShort));
+static_assert(EventStatus::DWELL_LONG == static_cast<int>(DwellCheck::kLong));
+static_assert(EventStatus::DWELL_MANY == static_cast<int>(DwellCheck::kMany));
+static_assert(EventStatus::DWELL_FEW == static_cast<int>(DwellCheck::kFew));
 static_assert(EventStatus::INTERVAL_NONE == static_cast<int>(IntervalCheck::kNone));
 static_assert(EventStatus::INTERVAL_WITHIN == static_cast<int>(IntervalCheck::kWithin));
 static_assert(EventStatus::INTERVAL_SHORT == static_cast<int>(IntervalCheck::kShort));
@@ -54,6 +64,7 @@ void write(const EventChannel& channel, const Event& event, const EventReport& r
   status.rewound = static_cast<std::uint32_t>(report.rewound);
   status.interval = report.interval ? to_seconds(*report.interval) : kNone;
   status.interval_check = static_cast<std::uint8_t>(report.interval_check);
+  status.dwell_check = static_cast<std::uint8_t>(report.dwell_check);
 }
 
 void write(const ObserverRuntime& runtime, const Estimate& estimate, StateEstimate& message) {
@@ -77,7 +88,10 @@ void write(const Estimate& estimate, const PublishedBound& bound, const std::str
   message.events = estimate.counts.events;
   message.samples = estimate.counts.samples;
   message.jumps = estimate.counts.jumps;
-  message.missing_jumps = static_cast<std::uint64_t>(law.missing_jumps(estimate.state.data()));
+  const double* whole = estimate.state.data();
+  message.missing_jumps = static_cast<std::uint64_t>(law.missing_jumps(whole));
+  message.skipped_jumps = static_cast<std::uint64_t>(law.skipped_jumps(whole));
+  message.dwell_violations = static_cast<std::uint64_t>(law.dwell_violations(whole));
   message.held = estimate.held ? 1 : 0;
 }
 

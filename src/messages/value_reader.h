@@ -103,8 +103,8 @@ class ValueReader<Input> : public ListReader<Input> {
   using ListReader::ListReader;
 };
 
-/// Jump events: the mode that follows where the plant switches, then the outputs where they come
-/// with the event.
+/// Jump events, and their withdrawals, which is the kind of the event then: the mode that follows
+/// where the plant switches, then the outputs where they come with the event.
 template <>
 class ValueReader<JumpEvent> {
  public:
@@ -115,6 +115,7 @@ class ValueReader<JumpEvent> {
   bool read(const JumpEvent& message, Event& event) {
     event.release = to_stamp(message.release);
     event.index = message.index;
+    if (message.withdraw != 0) event.kind = EventKind::kWithdrawal;
     if (has_mode_) event.mode = static_cast<double>(message.mode);
     event.values = message.values.data();
     event.size = static_cast<Eigen::Index>(message.values.size());

@@ -17,7 +17,7 @@ const char* describe(BoundLoss loss) {
     case BoundLoss::kUnknownInput:
       return "an input was rejected, so that the estimate rests on another one";
     case BoundLoss::kUnknownJump:
-      return "a jump was rejected, so that the estimate lacks it";
+      return "a jump, or its withdrawal, was rejected or lost, so that the estimate lacks it";
     case BoundLoss::kStillOnTheirWay:
       return "events may still be on their way (error_assumptions/latency, jumps/stamp_error)";
     case BoundLoss::kNearJump:
@@ -26,6 +26,9 @@ const char* describe(BoundLoss loss) {
     case BoundLoss::kUncertainJump:
       return "a jump may have been before or after its stamp (jumps/stamp_error), and with it "
              "another jump, a change of the input or of the mode, or a turn of an angle";
+    case BoundLoss::kDwellTimes:
+      return "the times between jumps were not as jumps/dwell_time, average_dwell_time and "
+             "reverse_average_dwell_time say";
   }
   return "";
 }

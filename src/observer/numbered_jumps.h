@@ -8,6 +8,10 @@ namespace sampled_data_observers {
 
 /// A law that takes a jump once, however often it is told of it: a jump with the number of the one
 /// before takes no effect, whatever its stamp. Jumps that nobody counts all do.
+///
+/// Numbers that were left out are jumps that were lost (skipped_jumps()), until one with a lower
+/// number comes behind: it was only stamped too late. Where the estimate begins, any number may
+/// come; number 1 begins a new count.
 class NumberedJumps : public LawDecorator {
  public:
   explicit NumberedJumps(std::shared_ptr<const ObserverLaw> law);
@@ -17,7 +21,12 @@ class NumberedJumps : public LawDecorator {
   Effect reset(const Event& event, double* state, double* workspace) const override;
 
  private:
-  NumberSlot last_ = state_layout().number();  ///< 0 where there was none
+  void note_number(double number, double* state) const;
+
+  NumberSlot last_ = state_layout().number();     ///< that took effect; 0 where there was none
+  NumberSlot told_ = state_layout().number();     ///< the largest, with effect or without, likewise
+  NumberSlot gap_ = state_layout().number();      ///< how many are missing just below `told_`
+  NumberSlot skipped_ = state_layout().number();  ///< in all
 };
 
 }  // namespace sampled_data_observers

@@ -104,6 +104,7 @@ Eigen::Index PlantObserver::event_size(EventKind kind, std::size_t sensor) const
     case EventKind::kSample:
       return outputs(SensorTiming::kSampled);
     case EventKind::kJump:
+    case EventKind::kWithdrawal:
       return plant_->jumps() ? plant_->outputs(SensorTiming::kAtJumps) : -1;
     case EventKind::kRelease:
     case EventKind::kRejected:
@@ -114,7 +115,8 @@ Eigen::Index PlantObserver::event_size(EventKind kind, std::size_t sensor) const
 
 bool PlantObserver::accepts(const Event& event) const {
   const Eigen::Index size = event_size(event.kind, static_cast<std::size_t>(event.sensor));
-  if (event.kind != EventKind::kJump) return size >= 0 && event.size == size;
+  const bool is_jump = event.kind == EventKind::kJump || event.kind == EventKind::kWithdrawal;
+  if (!is_jump) return size >= 0 && event.size == size;
   return size >= 0 && (event.size == 0 || event.size == size) &&
          event.mode.has_value() == plant_->switches();
 }
@@ -166,6 +168,7 @@ Effect PlantObserver::reset(const Event& event, double* state, double* workspace
     }
     case EventKind::kRelease:
     case EventKind::kRejected:
+    case EventKind::kWithdrawal:
       return Effect::kRefused;
   }
   complete(held(state), state, workspace);
@@ -230,8 +233,7 @@ Effect PlantObserver::pair_with_jump(const Event& output, double* state, double*
 }
 
 bool PlantObserver::knows_mode(const Event& event) const {
-  return event.kind != EventKind::kJump || !plant_->switches() ||
-         plant_->find_mode(*event.mode).has_value();
+  return !event.mode || !plant_->switches() || plant_->find_mode(*event.mode).has_value();
 }
 
 void PlantObserver::innovation(const Event& sample, const double* state, double* innovation) const {

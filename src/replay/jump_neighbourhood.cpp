@@ -35,6 +35,13 @@ void JumpNeighbourhood::add_jump(Stamp stamp, Stamp release) {
   jumps_.push_back({stamp - around_, release + around_});
 }
 
+void JumpNeighbourhood::remove_jump(Stamp stamp) {
+  const auto found = std::find_if(jumps_.begin(), jumps_.end(), [&](const Interval& interval) {
+    return interval.begin == stamp - around_;
+  });
+  if (found != jumps_.end()) jumps_.erase(found);
+}
+
 double JumpNeighbourhood::distance(const std::vector<double>& truth,
                                    const Eigen::VectorXd& x) const {
   double squares = 0.0;

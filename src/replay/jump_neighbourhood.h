@@ -39,6 +39,9 @@ class JumpNeighbourhood {
   /// A jump that was told with one stamp and took effect at `release`, the same or a later one.
   void add_jump(Stamp stamp, Stamp release);
 
+  /// One that was told with this stamp was taken back.
+  void remove_jump(Stamp stamp);
+
   /// The truth, one value per quantity, and the estimate x (n entries) with the input u held.
   void add_truth(Stamp stamp, const std::vector<double>& truth, const double* x, const double* u);
 

@@ -202,6 +202,9 @@ class Replay {
       neighbourhood_->add_jump(
           event.stamp, config_.law->delays_jumps() ? std::max(event.stamp, release) : event.stamp);
     }
+    if (neighbourhood_ && report.outcome == EventOutcome::kTakenBack) {
+      neighbourhood_->remove_jump(event.stamp);
+    }
     if (report.used() && is_measurement) {
       const auto sensor = static_cast<std::size_t>(event.sensor);
       comparison_->add_sample(sensor, event.stamp, event.values);
@@ -279,6 +282,8 @@ class Replay {
     if (summary.estimates > 0) {
       summary.final_stamp = estimate_message_.header.stamp.toSec();
       summary.missing_jumps = estimate_message_.missing_jumps;
+      summary.skipped_jumps = estimate_message_.skipped_jumps;
+      summary.dwell_violations = estimate_message_.dwell_violations;
       for (std::size_t i = 0; i < estimate_message_.names.size(); ++i) {
         summary.final_state.emplace_back(estimate_message_.names[i], estimate_message_.state[i]);
       }

@@ -117,6 +117,17 @@ void print_table(const ReplaySummary& summary, std::ostream& out) {
   if (summary.missing_jumps > 0) {
     out << "            " << summary.missing_jumps << " that no event told of (jumps/missing)\n";
   }
+  if (summary.jumps_taken_back > 0) {
+    out << "            " << summary.jumps_taken_back << " taken back\n";
+  }
+  if (summary.skipped_jumps > 0) {
+    out << "            " << summary.skipped_jumps
+        << " that were lost: their numbers are missing\n";
+  }
+  if (summary.dwell_violations > 0) {
+    out << "            " << summary.dwell_violations
+        << " times at others than jumps/dwell_time and the average ones say\n";
+  }
   for (const auto& [channel, topic] : summary.not_recorded) {
     out << std::left << std::setw(12) << channel << std::right << "none: the bag has no topic "
         << topic << "\n";
@@ -150,12 +161,15 @@ void write_json(const ReplaySummary& summary, const std::string& path) {
   json["samples_rejected"] = summary.samples_rejected;
   json["samples_withheld"] = summary.samples_withheld;
   json["missing_jumps"] = summary.missing_jumps;
+  json["skipped_jumps"] = summary.skipped_jumps;
+  json["dwell_violations"] = summary.dwell_violations;
   json["rejected"] = summary.rejected;
   json["recovered"] = summary.recovered;
   json["events_used"] = summary.events_used;
   json["outputs_used"] = summary.outputs_used;
   json["jumps_used"] = summary.jumps_used;
   json["jumps_without_outputs"] = summary.jumps_without_outputs;
+  json["jumps_taken_back"] = summary.jumps_taken_back;
   json["not_recorded"] = summary.not_recorded;
   json["intervals"] = {{"count", summary.intervals},          {"min", summary.interval_min},
                        {"mean", summary.interval_mean},       {"max", summary.interval_max},

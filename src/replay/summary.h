@@ -33,9 +33,11 @@ struct ReplaySummary {
   std::string observer;
 
   std::size_t samples_used = 0;
-  std::size_t samples_withheld = 0;  ///< by thinning
-  std::uint64_t missing_jumps = 0;   ///< of the last estimate: that no event told of
-  std::size_t samples_late = 0;      ///< of those used: before later events
+  std::size_t samples_withheld = 0;    ///< by thinning
+  std::uint64_t missing_jumps = 0;     ///< of the last estimate: that no event told of
+  std::uint64_t skipped_jumps = 0;     ///< likewise: that were lost, by the numbers of the others
+  std::uint64_t dwell_violations = 0;  ///< likewise: how often the times between jumps were others
+  std::size_t samples_late = 0;        ///< of those used: before later events
   /// Number of rejected events by reason; samples alone and all events.
   std::map<std::string, std::size_t> rejected;
   std::size_t samples_rejected = 0;
@@ -46,6 +48,7 @@ struct ReplaySummary {
   std::size_t jumps_used = 0;    ///< and jumps
   /// Of these: without what was measured at them, or a part of it.
   std::size_t jumps_without_outputs = 0;
+  std::size_t jumps_taken_back = 0;
   /// Topics that the bag does not have, by what would come on them: the input, jumps.
   std::map<std::string, std::string> not_recorded;
 

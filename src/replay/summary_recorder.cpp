@@ -35,6 +35,7 @@ void SummaryRecorder::count(const Event& event, const EventReport& report,
   if (event.kind == EventKind::kOutput) ++summary_.outputs_used;
   if (event.kind == EventKind::kJump) ++summary_.jumps_used;
   if (report.outcome == EventOutcome::kJumpAlone) ++summary_.jumps_without_outputs;
+  if (event.kind == EventKind::kWithdrawal) ++summary_.jumps_taken_back;
   if (report.recovers()) ++summary_.recovered[describe(report)];
   if (!is_sample) return;
   ++summary_.samples_used;

@@ -28,6 +28,8 @@ std::string shown(double value) {
 
 std::string seconds(Duration duration) { return shown(to_seconds(duration)) + " s"; }
 
+std::string longest(Duration duration) { return shown(longest_to_seconds(duration)) + " s"; }
+
 /// All digits that matter: six would not do for the seconds since 1970.
 std::string instant(Stamp stamp) {
   std::ostringstream out;
@@ -55,6 +57,10 @@ std::uint64_t rejected(const ChannelStatistics& statistics) {
     if (is_rejection(static_cast<EventOutcome>(code))) sum += statistics.outcomes[code];
   }
   return sum;
+}
+
+std::uint64_t growth(std::uint64_t before, std::uint64_t now) {
+  return now > before ? now - before : 0;
 }
 
 /// An outcome in words, what it was about (which may be empty), and what to do.
@@ -90,9 +96,9 @@ void Diagnosis::update(const RunStatistics& window, Stamp now, Duration elapsed)
     restored_ = 0;
   }
   window_ = window;
-  newly_missing_ = window.missing_jumps > totals_.missing_jumps
-                       ? window.missing_jumps - totals_.missing_jumps
-                       : 0;
+  newly_missing_ = growth(totals_.missing_jumps, window.missing_jumps);
+  newly_skipped_ = growth(totals_.skipped_jumps, window.skipped_jumps);
+  new_dwell_violations_ = growth(totals_.dwell_violations, window.dwell_violations);
   totals_.add(window);
   now_ = now;
   elapsed_ = elapsed;
@@ -122,6 +128,8 @@ void Diagnosis::set_published_type(std::size_t channel, std::string type) {
 std::optional<Diagnosis::Suspension> Diagnosis::find_suspension() const {
   if (subject_.guarantee.empty()) return std::nullopt;
   if (window_.bound_lost_since) return Suspension{*window_.bound_lost_since, why_bound_is_lost()};
+  if (newly_skipped_ > 0) return Suspension{now_, describe(BoundLoss::kUnknownJump)};
+  if (new_dwell_violations_ > 0) return Suspension{now_, describe(BoundLoss::kDwellTimes)};
   for (std::size_t i = 0; i < subject_.channels.size(); ++i) {
     const ChannelStatistics& statistics = window_.channels[i];
     if (statistics.violations.count > 0) {
@@ -130,7 +138,7 @@ std::optional<Diagnosis::Suspension> Diagnosis::find_suspension() const {
           statistics.violations.smallest,
           "a time between events of " + subject_.channels[i].name + " of " +
               seconds(is_long ? statistics.interval.largest : statistics.interval.smallest) +
-              (is_long ? ", above T2 = " + seconds(subject_.sampling.T2)
+              (is_long ? ", above T2 = " + longest(subject_.sampling.T2)
                        : ", below T1 = " + seconds(subject_.sampling.T1))};
     }
     if (statistics.after_bound > 0) {
@@ -146,7 +154,7 @@ std::optional<Diagnosis::Suspension> Diagnosis::find_suspension() const {
     if (is_silent) {
       return Suspension{memory_[i].used,
                         "no sample of " + subject_.channels[i].name +
-                            " for longer than T2 = " + seconds(subject_.sampling.T2)};
+                            " for longer than T2 = " + longest(subject_.sampling.T2)};
     }
   }
   return std::nullopt;
@@ -263,6 +271,17 @@ Finding Diagnosis::estimates() const {
     finding = {HealthLevel::kWarn,
                std::to_string(newly_missing_) + " jumps that no event told of (jumps/missing)",
                {}};
+  } else if (newly_skipped_ > 0) {
+    finding = {HealthLevel::kWarn,
+               std::to_string(newly_skipped_) +
+                   " jumps were lost: their numbers (index) are missing among those told",
+               {}};
+  } else if (new_dwell_violations_ > 0) {
+    finding = {HealthLevel::kWarn,
+               std::to_string(new_dwell_violations_) +
+                   " times, jumps came at others than jumps/dwell_time, average_dwell_time or "
+                   "reverse_average_dwell_time say",
+               {}};
   } else if (!growing.empty()) {
     finding = {HealthLevel::kWarn, growing, {}};
   } else if (published < kLowestRate * expected - 1.0) {
@@ -288,6 +307,8 @@ Finding Diagnosis::estimates() const {
       {"held", std::to_string(window_.held)},
       {"saturated", std::to_string(window_.saturated)},
       {"missing jumps in all", std::to_string(totals_.missing_jumps)},
+      {"lost jumps in all", std::to_string(totals_.skipped_jumps)},
+      {"jumps at other times in all", std::to_string(totals_.dwell_violations)},
       {"CPU time per tick, mean", in_milliseconds(cpu.mean())},
       {"CPU time per tick, most", in_milliseconds(cpu.count > 0 ? cpu.largest : 0)},
   };
@@ -335,7 +356,7 @@ Finding Diagnosis::channel(std::size_t index) const {
     finding.message = "used, but " +
                       std::to_string(statistics.short_intervals + statistics.long_intervals) +
                       " times between samples are outside of [" + seconds(subject_.sampling.T1) +
-                      ", " + seconds(subject_.sampling.T2) + "]";
+                      ", " + longest(subject_.sampling.T2) + "]";
   } else {
     finding.message = statistics.received() > 0 ? "used" : "nothing lately";
   }
@@ -390,7 +411,7 @@ Finding Diagnosis::certificate() const {
   }
   finding.values = {{"guarantee", subject_.guarantee.empty() ? "none" : subject_.guarantee},
                     {"T1", seconds(subject_.sampling.T1)},
-                    {"T2", seconds(subject_.sampling.T2)},
+                    {"T2", longest(subject_.sampling.T2)},
                     {"error bound", shown(window_.error_bound)}};
   return finding;
 }

@@ -40,6 +40,12 @@ EventOutcome outcome_of(const Timeline::InsertReport& report) {
     case Effect::kWithoutOutputs:
     case Effect::kOutputsGated:
       return EventOutcome::kJumpAlone;
+    case Effect::kWithdrawn:
+      return EventOutcome::kWithdrawn;
+    case Effect::kWithdrawal:
+      return EventOutcome::kTakenBack;
+    case Effect::kNoSuchJump:
+      return EventOutcome::kNoSuchJump;
     case Effect::kApplied:
     case Effect::kPastGate:
     case Effect::kRestarted:
@@ -101,8 +107,8 @@ Estimator::Estimator(std::shared_ptr<const ObserverLaw> law, const Options& opti
       is_sampled_(law_->observer().plant().outputs(SensorTiming::kSampled) > 0),
       has_other_events_(law_->observer().plant().inputs() > 0 || law_->observer().plant().jumps()),
       answer_(make_estimate()) {
-  if (options_.sampling.T1 <= 0 || options_.sampling.T1 > options_.sampling.T2) {
-    throw std::invalid_argument("Estimator: 0 < T1 <= T2 must hold");
+  if (options_.sampling.T1 < 0 || options_.sampling.T1 > options_.sampling.T2) {
+    throw std::invalid_argument("Estimator: 0 <= T1 <= T2 must hold");
   }
   if (options_.future_tolerance < 0) {
     throw std::invalid_argument("Estimator: future_tolerance must not be negative");
@@ -113,6 +119,10 @@ Estimator::Estimator(std::shared_ptr<const ObserverLaw> law, const Options& opti
   if (options_.jump_stamp_error < 0) {
     throw std::invalid_argument("Estimator: jump_stamp_error must not be negative");
   }
+  if (options_.start && *options_.start <= 0) {
+    throw std::invalid_argument("Estimator: start must be positive");
+  }
+  clear();
 }
 
 std::optional<EventOutcome> Estimator::objection(const Event& event, Stamp now) const {
@@ -162,7 +172,18 @@ EventReport Estimator::submit(const Event& event, Stamp now) {
       report.interval_check = check(*report.interval, options_.sampling);
     }
   }
+  if (report.used() && event.kind == EventKind::kJump && law_->watches_dwell_times()) {
+    report.dwell_check = dwell_check_at(event.stamp);
+  }
   return report;
+}
+
+/// Of the newest jump of a stamp.
+DwellCheck Estimator::dwell_check_at(Stamp stamp) {
+  const Timeline::Query query =
+      timeline_.state_at(stamp, before_restart_.state, before_restart_.counts);
+  if (query != Timeline::Query::kOk && query != Timeline::Query::kHeld) return DwellCheck::kNone;
+  return law_->dwell_check(before_restart_.state.data());
 }
 
 double Estimator::innovation_of(const Event& measured) {
@@ -176,10 +197,12 @@ double Estimator::innovation_of(const Event& measured) {
 }
 
 void Estimator::note_rejected(const Event& event, Stamp now) {
-  if (event.kind != EventKind::kInput && event.kind != EventKind::kJump) return;
+  // Whose withdrawal was rejected is a jump of the estimate that the plant did not make.
+  const EventKind kind = event.kind == EventKind::kWithdrawal ? EventKind::kJump : event.kind;
+  if (kind != EventKind::kInput && kind != EventKind::kJump) return;
   const Stamp stamp = event.stamp > 0 ? std::min(event.stamp, now) : now;
   if (stamp <= 0) return;
-  if (event.kind == EventKind::kInput) {
+  if (kind == EventKind::kInput) {
     miss_input(stamp);
   } else if (stamp <= began_at_.value_or(0)) {
     return;  // Somebody vouches for what came after this jump.
@@ -187,10 +210,10 @@ void Estimator::note_rejected(const Event& event, Stamp now) {
   // Whether the law of that time minds is its own matter.
   if (has_earlier() && stamp <= *taken_over_at_) {
     earlier_->note_rejected(event, now);
-    mark_what_is_unseen(event.kind, stamp);
+    mark_what_is_unseen(kind, stamp);
     go_on_from_earlier();
   } else {
-    insert_rejected(event.kind, stamp);
+    insert_rejected(kind, stamp);
   }
 }
 
@@ -220,7 +243,16 @@ BoundLoss Estimator::withheld(Stamp stamp, Stamp now) const {
   const bool jumps = law_->observer().plant().jumps();
   const Duration latest = options_.latency + (jumps ? options_.jump_stamp_error : 0);
   if (has_other_events_ && now - stamp < latest) return BoundLoss::kStillOnTheirWay;
+  if (is_before_gap(stamp)) return BoundLoss::kUnknownJump;
   return is_before_jump(stamp) ? BoundLoss::kNearJump : BoundLoss::kNone;
+}
+
+/// Whether the number of the next jump shows that one was lost, which may have been before.
+bool Estimator::is_before_gap(Stamp stamp) const {
+  const Estimator& from = at(stamp);
+  const std::optional<Timeline::Around> around = from.timeline_.around_next_jump(stamp);
+  return around &&
+         from.law_->skipped_jumps(around->after) > from.law_->skipped_jumps(around->before);
 }
 
 /// Whether a jump was told with a stamp so little later that it may have been before.
@@ -336,8 +368,11 @@ void Estimator::resume(Stamp stamp) {
 
 void Estimator::clear() {
   timeline_.clear();
+  if (options_.start) timeline_.begin(*options_.start);
   input_unknown_since_.reset();
   began_at_.reset();
+  // A jump of that stamp comes after the start.
+  if (options_.start) began_at_ = *options_.start - 1;
   taken_over_at_.reset();
   awaits_sample_ = false;
 }

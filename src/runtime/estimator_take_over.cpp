@@ -31,7 +31,10 @@ EventReport Estimator::submit_earlier(const Event& event, Stamp now) {
       miss_input(event.stamp);
     }
   }
-  if (report.outcome == EventOutcome::kTooOld) mark_what_is_unseen(event.kind, event.stamp);
+  if (report.outcome == EventOutcome::kTooOld) {
+    const bool is_of_jump = event.kind == EventKind::kWithdrawal;
+    mark_what_is_unseen(is_of_jump ? EventKind::kJump : event.kind, event.stamp);
+  }
   go_on_from_earlier();
   if (timeline_.size() == 0) return report;
   report.rewound += timeline_.size();

@@ -48,6 +48,11 @@ constexpr OutcomeText kTexts[kEventOutcomes] = {
     {EventOutcome::kJumpAlone,
      "jumped, but what was measured at the jump, or a part of it, was skipped",
      "the value is far off, or the estimate is wrong: reset it, or see gate/recovery"},
+    {EventOutcome::kTakenBack, "a jump was taken back, as if it had never been told", ""},
+    {EventOutcome::kWithdrawn, "a jump that was taken back before it came", ""},
+    {EventOutcome::kNoSuchJump,
+     "no jump of its stamp and number, or mode, was told to be taken back",
+     "withdrawals repeat the message of the jump, with its stamp and index"},
 };
 
 constexpr bool is_in_order() {
@@ -70,11 +75,12 @@ const char* remedy(EventOutcome outcome) { return text_of(outcome).remedy; }
 
 bool is_use(EventOutcome outcome) {
   return outcome == EventOutcome::kUsed || outcome == EventOutcome::kUsedLate ||
-         outcome == EventOutcome::kJumpAlone;
+         outcome == EventOutcome::kJumpAlone || outcome == EventOutcome::kTakenBack;
 }
 
 bool is_rejection(EventOutcome outcome) {
-  return !is_use(outcome) && outcome != EventOutcome::kDuplicate;
+  return !is_use(outcome) && outcome != EventOutcome::kDuplicate &&
+         outcome != EventOutcome::kWithdrawn;
 }
 
 }  // namespace sampled_data_observers

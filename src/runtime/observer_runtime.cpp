@@ -22,6 +22,12 @@ const char* describe_failure(Timeline::Query query) {
   return nullptr;
 }
 
+/// And not of a sensor.
+bool is_of_plant(const Event& event) {
+  return event.kind == EventKind::kInput || event.kind == EventKind::kJump ||
+         event.kind == EventKind::kWithdrawal;
+}
+
 }  // namespace
 
 ObserverRuntime::ObserverRuntime(const RuntimeSetup& setup)
@@ -32,7 +38,7 @@ ObserverRuntime::ObserverRuntime(const RuntimeSetup& setup)
       watches_(setup.has_topic.size()) {}
 
 bool ObserverRuntime::is_enabled(const Event& event) const {
-  if (event.kind == EventKind::kInput || event.kind == EventKind::kJump) return enabled_;
+  if (is_of_plant(event)) return enabled_;
   return enabled_ && sensors_enabled_[static_cast<std::size_t>(event.sensor)];
 }
 
@@ -54,10 +60,11 @@ EventReport ObserverRuntime::receive(const Event& event, Stamp now) {
 /// The plant had it, whatever became of it here. At its own stamp an input changes nothing yet, as
 /// a jump does, which may even have been before it.
 bool ObserverRuntime::comes_after_bound(const Event& event, const EventReport& report) const {
-  const bool is_of_plant = event.kind == EventKind::kInput || event.kind == EventKind::kJump;
   const Duration jump_stamp_error = setup_.options.jump_stamp_error;
-  return is_of_plant && bounded_until_ > 0 && report.outcome != EventOutcome::kDuplicate &&
-         event.stamp > 0 &&
+  const bool changes_nothing = report.outcome == EventOutcome::kDuplicate ||
+                               report.outcome == EventOutcome::kWithdrawn ||
+                               report.outcome == EventOutcome::kNoSuchJump;
+  return is_of_plant(event) && bounded_until_ > 0 && !changes_nothing && event.stamp > 0 &&
          (event.kind == EventKind::kInput ? event.stamp < bounded_until_
                                           : event.stamp <= bounded_until_ + jump_stamp_error);
 }

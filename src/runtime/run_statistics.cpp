@@ -53,6 +53,8 @@ void RunStatistics::add(const RunStatistics& later) {
   held += later.held;
   saturated += later.saturated;
   missing_jumps = later.missing_jumps;
+  skipped_jumps = later.skipped_jumps;
+  dwell_violations = later.dwell_violations;
   tick_cpu_time.add(later.tick_cpu_time);
   newest_estimate = later.newest_estimate;
   error_bound = later.error_bound;
@@ -84,9 +86,11 @@ void StatisticsRecorder::record_event(std::size_t index, const Event& event,
   }
   if (!report.interval) return;
   channel.interval.record(*report.interval);
-  if (report.interval_check == IntervalCheck::kShort) increment(channel.short_intervals);
-  if (report.interval_check == IntervalCheck::kLong) increment(channel.long_intervals);
-  if (report.interval_check != IntervalCheck::kWithin) channel.violations.record(event.stamp);
+  const bool is_short = report.interval_check == IntervalCheck::kShort;
+  const bool is_long = report.interval_check == IntervalCheck::kLong;
+  if (is_short) increment(channel.short_intervals);
+  if (is_long) increment(channel.long_intervals);
+  if (is_short || is_long) channel.violations.record(event.stamp);
 }
 
 void StatisticsRecorder::record_estimate(const ObserverLaw& law, const Estimate& estimate,
@@ -94,8 +98,10 @@ void StatisticsRecorder::record_estimate(const ObserverLaw& law, const Estimate&
   lateness_.record(lateness);
   if (estimate.held) increment(held_);
   if (law.observer().is_saturated(estimate.state.data())) increment(saturated_);
-  missing_jumps_.store(static_cast<std::uint64_t>(law.missing_jumps(estimate.state.data())),
-                       kRelaxed);
+  const double* state = estimate.state.data();
+  missing_jumps_.store(static_cast<std::uint64_t>(law.missing_jumps(state)), kRelaxed);
+  skipped_jumps_.store(static_cast<std::uint64_t>(law.skipped_jumps(state)), kRelaxed);
+  dwell_violations_.store(static_cast<std::uint64_t>(law.dwell_violations(state)), kRelaxed);
   newest_estimate_.store(estimate.stamp, kRelaxed);
   error_bound_.store(bound.value, kRelaxed);
   // That is so at every jump, and is over soon: no loss of the guarantee.
@@ -131,6 +137,8 @@ void StatisticsRecorder::take(RunStatistics& statistics) noexcept {
   statistics.held = held_.exchange(0, kRelaxed);
   statistics.saturated = saturated_.exchange(0, kRelaxed);
   statistics.missing_jumps = missing_jumps_.load(kRelaxed);
+  statistics.skipped_jumps = skipped_jumps_.load(kRelaxed);
+  statistics.dwell_violations = dwell_violations_.load(kRelaxed);
   statistics.tick_cpu_time = tick_cpu_time_.take();
   statistics.newest_estimate = as_stamp(newest_estimate_.load(kRelaxed));
   statistics.error_bound = error_bound_.load(kRelaxed);

@@ -56,6 +56,11 @@ class Claim:
     values: dict = field(default_factory=dict)
 
     @property
+    def has_dwell_time(self):
+        return any(key in self.values
+                   for key in ("average_dwell_time", "reverse_average_dwell_time"))
+
+    @property
     def A(self):
         return self.modes[0].A
 
@@ -162,11 +167,12 @@ def read_claim(path, gain_file, certificate, plant_path):
     if certificate.get("A_d") is not None:
         modes[0].A_d = numbers(certificate["A_d"])
 
+    has_dwell_time = "T2" not in certificate
     claim = Claim(
         theorem=certificate["theorem"],
         observer=gain_file["observer"],
-        T1=number(certificate["T1"]),
-        T2=number(certificate["T2"]),
+        T1=mpf(0) if has_dwell_time else number(certificate["T1"]),
+        T2=mpf("inf") if has_dwell_time else number(certificate["T2"]),
         states=total,
         modes=modes,
         C=output("sampled"),

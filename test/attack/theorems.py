@@ -279,21 +279,58 @@ def jump_of(mode, n):
     return mode.A_d if mode.A_d is not None else identity(n)
 
 
-def lyapunov(claim, flow, reset, decays):
-    """Theorem 3.1 for V = e'Pe: V' <= a_c V, V⁺ <= e^{a_d} V, a_c tau + a_d <= -2 jump_decay."""
-    P, jump_decay = claim.value("P"), claim.value("jump_decay")
+def lyapunov_rates(claim, decays):
+    """a_c and a_d of theorem 3.1, V' <= a_c V and V⁺ <= e^{a_d} V, as they follow from the claim.
+
+    At times between jumps, a_c tau + a_d <= -2 jump_decay. With a dwell time, N jumps in t make of V
+    e^{a_c t + a_d N}: at most t/tau + N0 of them, or at least t/tau - N0, so that a_c + a_d / tau
+    must be -2 decay.
+    """
     rate = claim.value("flow_decay" if decays else "flow_growth")
     a_c = -rate if decays else rate
-    a_d = -a_c * (claim.T1 if decays else claim.T2) - 2 * jump_decay
+    if not claim.has_dwell_time:
+        return a_c, -a_c * (claim.T1 if decays else claim.T2) - 2 * claim.value("jump_decay")
+    key = "average_dwell_time" if decays else "reverse_average_dwell_time"
+    return a_c, (-a_c - 2 * claim.value("decay")) * claim.value(key + "/tau")
+
+
+def lyapunov_domains(claim, decays):
     yield times_are_valid(claim, T1_may_be_zero=True)
-    yield Number("jump_decay > 0", jump_decay)
-    yield Number("flow_decay > 0" if decays else "flow_growth > 0", rate)
+    yield Number("flow_decay > 0" if decays else "flow_growth > 0",
+                 claim.value("flow_decay" if decays else "flow_growth"))
+    if not claim.has_dwell_time:
+        yield Number("jump_decay > 0", claim.value("jump_decay"))
+        return
+    key = "average_dwell_time" if decays else "reverse_average_dwell_time"
+    yield Number("decay > 0", claim.value("decay"))
+    yield Number("tau > 0", claim.value(key + "/tau"))
+    yield Number("N0 >= 1", claim.value(key + "/N0") - 1, may_be_zero=True)
+    if decays:
+        yield Number("a_d >= 0", lyapunov_rates(claim, decays)[1], may_be_zero=True)
+
+
+def lyapunov(claim, flow, reset, decays):
+    """Theorem 3.1 for V = e'Pe."""
+    P = claim.value("P")
+    a_c, a_d = lyapunov_rates(claim, decays)
+    yield from lyapunov_domains(claim, decays)
     yield Fixed("P > 0", P)
     yield Fixed("flow", minus(times(a_c, P), symmetrized(product(P, flow))))
     yield Fixed("jump", minus(times(mpmath.exp(a_d), P), products(transposed(reset), P, reset)))
+    if claim.has_dwell_time:
+        key = "average_dwell_time" if decays else "reverse_average_dwell_time"
+        tau, decay = claim.value(key + "/tau"), claim.value("decay")
+        yield Contracts("the error at the dwell time", flow, reset,
+                        lambda tau: mpmath.exp(-decay * tau), [tau])
+        return
     high = 10 * claim.T1 if decays else claim.T2
+    if mpmath.isfinite(claim.T2):
+        high = max(high, claim.T2)
+    if high == 0:
+        high = 1 / claim.value("flow_decay")
+    jump_decay = claim.value("jump_decay")
     yield Contracts("the error at constant times", flow, reset,
-                    lambda tau: mpmath.exp(-jump_decay), between(claim.T1, max(high, claim.T2)))
+                    lambda tau: mpmath.exp(-jump_decay), between(claim.T1, high))
 
 
 def bernard2022_equation14(claim):
@@ -310,6 +347,18 @@ def bernard2022_equation22(claim):
 def bernard2022_equation26(claim):
     reset = minus(claim.A_d, product(claim.value("L_d"), claim.C_d))
     yield from lyapunov(claim, claim.A, reset, decays=False)
+
+
+def bernard2022_equation14_average_dwell_time(claim):
+    yield from bernard2022_equation14(claim)
+
+
+def bernard2022_equation22_average_dwell_time(claim):
+    yield from bernard2022_equation22(claim)
+
+
+def bernard2022_equation26_reverse_average_dwell_time(claim):
+    yield from bernard2022_equation26(claim)
 
 
 def bernard2022_example4_2(claim):
@@ -347,24 +396,37 @@ def bernard2022_corollary5_2(claim):
                     lambda tau: mpmath.exp(-jump_decay), between(claim.T1, claim.T2))
 
 
-def bernard2022_example7_1(claim):
+def rates_of_modes(claim, decays):
     """(47b) in each mode, (49) between all of them."""
     n = claim.states
-    flow_decay, jump_decay = claim.value("flow_decay"), claim.value("jump_decay")
-    yield times_are_valid(claim, T1_may_be_zero=True)
-    yield Number("flow_decay > 0", flow_decay)
-    yield Number("jump_decay > 0", jump_decay)
-    kept = mpmath.exp(flow_decay * claim.T1 - 2 * jump_decay)
+    a_c, a_d = lyapunov_rates(claim, decays)
+    yield from lyapunov_domains(claim, decays)
+    kept = mpmath.exp(a_d)
     for mode in claim.modes:
         P = claim.value(f"P/{mode.label}")
-        flow = minus(mode.A, product(claim.value(f"L_c/{mode.label}"), claim.C_c))
+        flow, jump = mode.A, jump_of(mode, n)
+        if decays:
+            flow = minus(flow, product(claim.value(f"L_c/{mode.label}"), claim.C_c))
+        else:
+            jump = minus(jump, product(claim.value(f"L_d/{mode.label}"), claim.C_d))
         yield Fixed(f"P > 0 in mode {mode.label}", P)
         yield Fixed(f"flow in mode {mode.label}",
-                    minus(times(-flow_decay, P), symmetrized(product(P, flow))))
-        jump = jump_of(mode, n)
+                    minus(times(a_c, P), symmetrized(product(P, flow))))
         for other in claim.modes:
             after = products(transposed(jump), claim.value(f"P/{other.label}"), jump)
             yield Fixed(f"switch from {mode.label} to {other.label}", minus(times(kept, P), after))
+
+
+def bernard2022_example7_1(claim):
+    yield from rates_of_modes(claim, decays=True)
+
+
+def bernard2022_example7_1_average_dwell_time(claim):
+    yield from rates_of_modes(claim, decays=True)
+
+
+def bernard2022_equation49_reverse_average_dwell_time(claim):
+    yield from rates_of_modes(claim, decays=False)
 
 
 def bernard2022_section7_3_2(claim):
@@ -401,9 +463,14 @@ OBSERVERS = {
     bernard2022_equation14: "SynchronizedObserver",
     bernard2022_equation22: "SynchronizedObserver",
     bernard2022_equation26: "SynchronizedObserver",
+    bernard2022_equation14_average_dwell_time: "SynchronizedObserver",
+    bernard2022_equation22_average_dwell_time: "SynchronizedObserver",
+    bernard2022_equation26_reverse_average_dwell_time: "SynchronizedObserver",
     bernard2022_corollary5_2: "SynchronizedObserver",
     bernard2022_example4_2: "HighGainObserver",
     bernard2022_example7_1: "SwitchedObserver",
+    bernard2022_example7_1_average_dwell_time: "SwitchedObserver",
+    bernard2022_equation49_reverse_average_dwell_time: "SwitchedObserver",
     bernard2022_section7_3_2: "SwitchedObserver",
 }
 

@@ -227,6 +227,78 @@ TEST(BoundRecoveryTest, AJumpThatNobodyToldOfTakesTheBoundAway) {
   }
 }
 
+/// An impulsive plant whose jumps are told by numbers.
+struct NumberedRun {
+  explicit NumberedRun(const std::string& jumps = "{}")
+      : config(CertifiedGains(kImpulsive)
+                   .with("jumps: " + jumps)
+                   .assuming("{initial_error: 1, noise: 0}")
+                   .config()),
+        estimator(config.law, config.options) {
+    estimator.restart(kRunStart);
+  }
+
+  void jump(double seconds, std::uint32_t index, EventKind kind = EventKind::kJump) {
+    const double y = 0.0;
+    Event event{kRunStart + from_seconds(seconds), kind, 0, &y, 1};
+    event.index = index;
+    estimator.submit(event, kRunStart + from_seconds(60.0));
+  }
+  BoundLoss loss_at(double seconds) {
+    Estimate estimate = estimator.make_estimate();
+    estimator.estimate_at(kRunStart + from_seconds(seconds), estimate);
+    const PublishedBound bound = estimator.bound(estimate, kRunStart + from_seconds(60.0));
+    EXPECT_EQ(bound.loss == BoundLoss::kNone, std::isfinite(bound.value));
+    return bound.loss;
+  }
+
+  ObserverConfig config;
+  Estimator estimator;
+};
+
+TEST(BoundRecoveryTest, AJumpThatWasLostTakesTheBoundAwayFromTheLastOneToldOn) {
+  NumberedRun run;
+  run.jump(0.5, 1);
+  run.jump(1.5, 3);
+  EXPECT_EQ(BoundLoss::kNone, run.loss_at(0.4));
+  EXPECT_EQ(BoundLoss::kUnknownJump, run.loss_at(0.5));
+  EXPECT_EQ(BoundLoss::kUnknownJump, run.loss_at(1.6));
+  run.jump(1.0, 2);  // it was only late
+  for (const double time : {0.4, 0.5, 1.2, 1.6}) {
+    EXPECT_EQ(BoundLoss::kNone, run.loss_at(time)) << time;
+  }
+}
+
+TEST(BoundRecoveryTest, AWithdrawalThatIsRejectedLeavesAJumpThatWasNone) {
+  NumberedRun run;
+  run.jump(0.5, 1);
+  run.jump(1.0, 2);
+  run.jump(1.0, 2, EventKind::kWithdrawal);
+  EXPECT_EQ(BoundLoss::kNone, run.loss_at(1.5));
+  Event late;
+  late.stamp = kRunStart + from_seconds(1.2);
+  late.kind = EventKind::kWithdrawal;
+  run.estimator.note_rejected(late, kRunStart + from_seconds(60.0));
+  EXPECT_EQ(BoundLoss::kNone, run.loss_at(1.1));
+  EXPECT_EQ(BoundLoss::kUnknownJump, run.loss_at(1.5));
+}
+
+TEST(BoundRecoveryTest, JumpsAtOtherTimesThanConfiguredTakeTheBoundAway) {
+  NumberedRun overdue("{dwell_time: [0.1, 1]}");
+  overdue.jump(0.5, 1);
+  EXPECT_EQ(BoundLoss::kNone, overdue.loss_at(1.5));
+  EXPECT_EQ(BoundLoss::kDwellTimes, overdue.loss_at(1.51));
+  overdue.jump(1.4, 2);
+  EXPECT_EQ(BoundLoss::kNone, overdue.loss_at(1.51));
+  NumberedRun many("{average_dwell_time: {tau: 1, N0: 2}}");
+  many.jump(0.5, 1);
+  many.jump(0.9, 2);
+  EXPECT_EQ(BoundLoss::kNone, many.loss_at(1.0));
+  many.jump(1.3, 3);
+  EXPECT_EQ(BoundLoss::kNone, many.loss_at(1.2));
+  EXPECT_EQ(BoundLoss::kDwellTimes, many.loss_at(1.4));
+}
+
 TEST(BoundRecoveryTest, AJumpThatIsRefusedMayHaveBeenOneOrNot) {
   for (const bool is_real : {false, true}) {
     const ObserverConfig config = CertifiedGains(kImpulsive)

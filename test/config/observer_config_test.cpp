@@ -79,6 +79,12 @@ TEST(ObserverConfigTest, ReadsEveryKey) {
   EXPECT_EQ(Eigen::Vector3d(1.0, -2.0, 3.0), state.head(3));
 }
 
+TEST(ObserverConfigTest, TakesTimesBetweenSamplesWithoutBounds) {
+  const ObserverConfig config = parse(replaced(kGood, "{T1: 0.05, T2: 0.2}", "{T1: 0, T2: .inf}"));
+  EXPECT_EQ(0, config.options.sampling.T1);
+  EXPECT_EQ(kNoLongestTime, config.options.sampling.T2);
+}
+
 TEST(ObserverConfigTest, OptionalKeysHaveDefaults) {
   const ObserverConfig config = parse(R"(
 observer: ConstantGainObserver
@@ -100,6 +106,17 @@ gains: {L: [[0.5]]}
   EXPECT_EQ("", config.gains_directory);
   EXPECT_FALSE(config.input);
   EXPECT_FALSE(config.jumps);
+}
+
+TEST(ObserverConfigTest, EstimatesBeginWhereTheyAreToBegin) {
+  const std::string at = "start: {at: ";
+  EXPECT_EQ(from_seconds(12.5), parse(kGood + (at + "12.5}")).options.start);
+  EXPECT_EQ(std::nullopt, parse(kGood + (at + "first_event}")).options.start);
+  EXPECT_EQ(std::nullopt, parse(kGood).options.start);
+  for (const char* bad : {"0", "-1", "5e9", "now", "[1]"}) {
+    const std::string found = fault(kGood + (at + bad + "}"));
+    EXPECT_NE(std::string::npos, found.find("start/at")) << found;
+  }
 }
 
 class BadConfigTest : public ::testing::TestWithParam<Fault> {};
@@ -131,7 +148,6 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"angular: [true, false]", "angular: [1, 0]", {"sensors/camera/angular", "'1'"}},
         Fault{"bias: [c, \"\"]", "bias: [v, \"\"]", {"sensors/camera/bias", "'v'"}},
         Fault{"fields: [point.x, point.y]", "fields: [point.x]", {"camera/source/fields", "2"}},
-        Fault{"T1: 0.05", "T1: 0", {"sampling/T1", "found 0"}},
         Fault{"T1: 0.05", "T1: -1", {"sampling/T1", "found -1"}},
         Fault{"T1: 0.05", "T1: 0.3", {"sampling/T2", "not less than T1"}},
         Fault{"T1: 0.05", "T1: fast", {"sampling/T1", "a finite number", "'fast'"}},

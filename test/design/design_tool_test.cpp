@@ -269,7 +269,9 @@ TEST_F(DesignTool, RefusesOptionsThatAreNoNumbers) {
         const bool is_range = option == "--T2" && command.find("sweep") == 0;
         const ToolRun refused = run(command + " " + option + " " + value + (is_range ? " 1" : ""));
         EXPECT_GT(refused.status, 99) << command;
-        EXPECT_TRUE(refused.says(option + ": expected a number > 0, found " + value))
+        const bool may_be_zero = option == "--T1" && command.find("sweep") != 0;
+        EXPECT_TRUE(refused.says(option + ": expected a number " + (may_be_zero ? ">= 0" : "> 0") +
+                                 ", found " + value))
             << refused.output;
       }
     }
@@ -278,6 +280,32 @@ TEST_F(DesignTool, RefusesOptionsThatAreNoNumbers) {
     EXPECT_TRUE(run(command + " --jobs 0").says("expected a whole number >= 1, found 0"));
   }
   EXPECT_FALSE(fs::exists(path("gains.yaml")));
+}
+
+TEST_F(DesignTool, TakesTimesWithoutEndAndDwellTimesWhereTheTheoremDoes) {
+  const std::string plant = write(
+      "plant.yaml",
+      "plant: {states: [a, b], A: [[0, 1], [0, -0.1]], jump_map: {A_d: [[-1, 0], [0, -0.8]]}}\n"
+      "sensors: {contact: {C: [[1, 0]], measured: at_jumps}, eye: {C: [[1, 0]], measured: "
+      "continuous}}\n");
+  const std::string to = "synthesize " + plant + " --objective feasible -o " + path("gains.yaml");
+  const ToolRun without_end = run(to + " --T1 0.5 --T2 inf --method bernard2022_equation22");
+  EXPECT_EQ(without_end.status, 0) << without_end.output;
+  EXPECT_TRUE(without_end.says("  T2: .inf\n")) << without_end.output;
+  EXPECT_TRUE(without_end.says("sampling: {T1: 0.5, T2: .inf}")) << without_end.output;
+  EXPECT_EQ(run("verify " + path("gains.yaml")).status, 0);
+  const ToolRun refused = run(to + " --T1 0 --T2 inf --method bernard2022_equation26");
+  EXPECT_NE(refused.status, 0);
+  EXPECT_TRUE(refused.says("up to a longest one: T2 = inf")) << refused.output;
+
+  const ToolRun averaged = run(to + " --reverse-average-dwell-time 0.5 3");
+  EXPECT_EQ(averaged.status, 0) << averaged.output;
+  EXPECT_TRUE(averaged.says("  reverse_average_dwell_time: {tau: 0.5, N0: 3}\n"));
+  EXPECT_FALSE(averaged.says("sampling:"));
+  EXPECT_EQ(run("verify " + path("gains.yaml")).status, 0);
+  EXPECT_NE(run(to + " --reverse-average-dwell-time 0.5 3 --T2 1").status, 0);
+  EXPECT_NE(run(to + " --reverse-average-dwell-time 0.5 2.5").status, 0);
+  EXPECT_NE(run(to + " --average-dwell-time 0 2").status, 0);
 }
 
 TEST_F(DesignTool, RefusesAbbreviatedOptions) {

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -42,12 +44,18 @@ CertificateSubject subject_of(const Theorem& theorem) {
     mode.C_c = row;
     mode.C_d = row;
     mode.A_d = Eigen::MatrixXd::Identity(2, 2);
-    if (is_of("bernard2022_example7_1") || is_of("bernard2022_section7_3_2")) {
+    if (is_of("bernard2022_example7_1") || is_of("bernard2022_equation49") ||
+        is_of("bernard2022_section7_3_2")) {
       plant.modes.push_back(mode);
       plant.modes.back().label = 2;
     }
   }
-  theorem.require_applicable(subject);
+  const bool is_average = theorem.times() == TheoremTimes::kAverageDwellTime;
+  if (is_average || theorem.times() == TheoremTimes::kReverseAverageDwellTime) {
+    const auto kind = is_average ? DwellTime::Kind::kAverage : DwellTime::Kind::kReverseAverage;
+    subject.dwell_time = DwellTime{kind, 0.3, 2.0};
+  }
+  require_subject(theorem, subject);
   return subject;
 }
 
@@ -79,12 +87,75 @@ class TheoremDomainsTest : public ::testing::TestWithParam<const Theorem*> {
     }
     return names;
   }
+
+  /// A value for each of them with which all is in its domain.
+  NamedMatrices inside() const {
+    NamedMatrices values;
+    for (const std::string& name : scalars()) values[name] = scalar_matrix(0.5);
+    if (subject_.dwell_time) values["decay"] = scalar_matrix(0.1);
+    return values;
+  }
 };
+
+class DwellTimeDomainsTest : public TheoremDomainsTest {};
+
+TEST_P(DwellTimeDomainsTest, AreConditionsForTheDwellTime) {
+  const NamedMatrices values = inside();
+  for (const auto& [tau, N0] : {std::pair(0.0, 2.0), std::pair(-0.3, 2.0), std::pair(0.3, 0.0)}) {
+    CertificateSubject broken = subject_;
+    broken.dwell_time->tau = tau;
+    broken.dwell_time->N0 = N0;
+    const std::vector<Condition> conditions = domains(theorem_, broken);
+    EXPECT_FALSE(all_hold(check(conditions, values)));
+    EXPECT_TRUE(has(prove(conditions, values), ProofStatus::kDisproved));
+  }
+}
+
+std::vector<const Theorem*> dwell_time_theorems() {
+  std::vector<const Theorem*> all;
+  for (const Theorem* theorem : theorems()) {
+    if (theorem->times() == TheoremTimes::kAverageDwellTime ||
+        theorem->times() == TheoremTimes::kReverseAverageDwellTime) {
+      all.push_back(theorem);
+    }
+  }
+  return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, DwellTimeDomainsTest, ::testing::ValuesIn(dwell_time_theorems()),
+                         [](const auto& info) { return info.param->name(); });
+
+TEST(TheoremTimes, EachTheoremRefusesTimesThatItDoesNotSpeakOf) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const Theorem* theorem : theorems()) {
+    SCOPED_TRACE(theorem->name());
+    CertificateSubject other = subject_of(*theorem);
+    if (other.dwell_time) {
+      other.dwell_time.reset();
+    } else {
+      other.dwell_time = DwellTime{DwellTime::Kind::kAverage, 0.3, 2.0};
+    }
+    EXPECT_THROW(require_subject(*theorem, other), std::invalid_argument);
+    if (theorem->times() == TheoremTimes::kUpToT2) {
+      CertificateSubject without_end = subject_of(*theorem);
+      without_end.T2 = infinity;
+      EXPECT_THROW(require_subject(*theorem, without_end), std::invalid_argument);
+    }
+  }
+}
+
+/// With fewer jumps than an average dwell time allows, V falls by flow_decay alone.
+TEST(TheoremTimes, NoAverageDwellTimeProvesARateThatFlowDoesNotHave) {
+  const Theorem& theorem = *find_theorem("bernard2022_equation22_average_dwell_time");
+  const NamedMatrices values = {{"flow_decay", scalar_matrix(0.5)}, {"decay", scalar_matrix(0.3)}};
+  const std::vector<Condition> conditions = domains(theorem, subject_of(theorem));
+  EXPECT_FALSE(all_hold(check(conditions, values)));
+  EXPECT_TRUE(has(prove(conditions, values), ProofStatus::kDisproved));
+}
 
 TEST_P(TheoremDomainsTest, AreConditionsForEachNumber) {
   const std::vector<Condition> conditions = domains(theorem_, subject_);
-  NamedMatrices values;
-  for (const std::string& name : scalars()) values[name] = scalar_matrix(0.5);
+  const NamedMatrices values = inside();
   EXPECT_TRUE(all_hold(check(conditions, values)))
       << describe_violations(check(conditions, values));
   EXPECT_EQ(first_unproved(prove(conditions, values)), "");
@@ -101,8 +172,7 @@ TEST_P(TheoremDomainsTest, AreConditionsForEachNumber) {
 }
 
 TEST_P(TheoremDomainsTest, AreConditionsForTheTimes) {
-  NamedMatrices values;
-  for (const std::string& name : scalars()) values[name] = scalar_matrix(0.5);
+  const NamedMatrices values = inside();
   for (const auto& [T1, T2] : {std::pair(-0.1, 0.4), std::pair(0.4, 0.2), std::pair(-0.4, -0.2)}) {
     CertificateSubject broken = subject_;
     broken.T1 = T1;

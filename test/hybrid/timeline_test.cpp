@@ -101,6 +101,78 @@ TEST_F(TimelineTest, EveryOrderOfEventsWithOneStampGivesTheSameBits) {
   } while (std::next_permutation(events.begin(), events.end(), less));
 }
 
+TEST_F(TimelineTest, BeginsAtAStatedStamp) {
+  Timeline timeline = make();
+  timeline.begin(kStart);
+  EXPECT_EQ(kStart, timeline.earliest());
+  EXPECT_EQ(kStart, timeline.earliest_insertion());
+  Eigen::VectorXd initial(law_->state_size());
+  law_->initialize(initial.data());
+  const Snapshot alone = snapshot(timeline, *law_, kStart);
+  EXPECT_EQ(std::vector<double>(initial.data(), initial.data() + initial.size()), alone.state);
+  EXPECT_EQ(Timeline::Query::kBeforeStart, snapshot(timeline, *law_, kStart - 1).query);
+  EXPECT_EQ(Timeline::Insertion::kBeforeWindow,
+            timeline.insert(sample(kStart - 1).view()).insertion);
+  EXPECT_EQ(Timeline::Insertion::kAppended, timeline.insert(sample(kStart).view()).insertion);
+  EXPECT_EQ(1u, snapshot(timeline, *law_, kStart).samples);
+  // From there on as if it had begun with that event.
+  Timeline by_event = make();
+  by_event.insert(sample(kStart).view());
+  EXPECT_TRUE(snapshots(by_event, *law_) == snapshots(timeline, *law_));
+  timeline.clear();
+  EXPECT_EQ(std::nullopt, timeline.earliest());
+}
+
+TEST_F(TimelineTest, AJumpThatIsTakenBackWasNeverTold) {
+  const OwnedEvent first = {kStart, EventKind::kJump, 0, {}, std::nullopt, 1};
+  const OwnedEvent wrong = {kStart + kSecond, EventKind::kJump, 0, {}, std::nullopt, 2};
+  const OwnedEvent other = {kStart + kSecond, EventKind::kJump, 0, {}, std::nullopt, 3};
+  OwnedEvent back = wrong;
+  back.kind = EventKind::kWithdrawal;
+  Timeline never = make();
+  for (const OwnedEvent& event : {first, other}) never.insert(event.view());
+  for (const bool comes_first : {false, true}) {
+    Timeline timeline = make();
+    timeline.insert(first.view());
+    if (comes_first) {
+      EXPECT_EQ(Effect::kNoSuchJump, timeline.insert(back.view()).effect);
+      EXPECT_EQ(Effect::kWithdrawn, timeline.insert(wrong.view()).effect);
+    } else {
+      EXPECT_EQ(Effect::kApplied, timeline.insert(wrong.view()).effect);
+      EXPECT_EQ(Effect::kWithdrawal, timeline.insert(back.view()).effect);
+    }
+    EXPECT_FALSE(timeline.has_jump(kStart, kStart + 2 * kSecond));
+    EXPECT_EQ(Timeline::Insertion::kDuplicate, timeline.insert(back.view()).insertion);
+    EXPECT_EQ(Effect::kApplied, timeline.insert(other.view()).effect);
+    EXPECT_TRUE(timeline.has_jump(kStart, kStart + 2 * kSecond));
+    const Snapshot found = snapshot(timeline, *law_, kStart + 2 * kSecond);
+    const Snapshot expected = snapshot(never, *law_, kStart + 2 * kSecond);
+    EXPECT_EQ(expected.state, found.state);
+    EXPECT_EQ(2u, found.jumps);
+    EXPECT_EQ(4u, found.events);
+  }
+}
+
+TEST_F(TimelineTest, WithoutNumbersAModeIsTakenBack) {
+  OwnedEvent back = {kStart, EventKind::kWithdrawal, 0, {}, 2.0, 0};
+  const OwnedEvent into_2 = {kStart, EventKind::kJump, 0, {}, 2.0, 0};
+  const OwnedEvent into_1 = {kStart, EventKind::kJump, 0, {}, 1.0, 0};
+  OwnedEvent counted = into_2;
+  counted.index = 5;
+  OwnedEvent later = into_2;
+  ++later.stamp;
+  EXPECT_TRUE(withdraws(back.view(), into_2.view()));
+  for (const OwnedEvent& kept : {into_1, counted, later, back}) {
+    EXPECT_FALSE(withdraws(back.view(), kept.view()));
+  }
+  back.index = 5;
+  back.mode = 1.0;
+  EXPECT_TRUE(withdraws(back.view(), counted.view()));
+  EXPECT_LT(compare(back.view(), into_1.view()), 0);
+  const OwnedEvent input = {kStart, EventKind::kInput, 0, {1.0, 0.0}};
+  EXPECT_LT(compare(input.view(), back.view()), 0);
+}
+
 TEST_F(TimelineTest, KnowsOfJumpsAfterAStamp) {
   Timeline timeline = make();
   EXPECT_FALSE(timeline.has_jump(0, kStart));

@@ -48,6 +48,21 @@ TEST(JumpSourceTest, BareStampsAreJumps) {
   EXPECT_EQ(0, by_time.event.size);
 }
 
+TEST(JumpSourceTest, JumpEventsMayTakeJumpsBack) {
+  JumpEvent message;
+  message.header.stamp.fromNSec(kStamp);
+  message.index = 7;
+  const auto kind = [&] {
+    const Read jump = read(*make_message_source(jumps<JumpEvent>({})), message, EventKind::kJump);
+    EXPECT_EQ(Reading::kEvent, jump.reading);
+    EXPECT_EQ(7u, jump.event.index);
+    return jump.event.kind;
+  };
+  EXPECT_EQ(EventKind::kJump, kind());
+  message.withdraw = 1;
+  EXPECT_EQ(EventKind::kWithdrawal, kind());
+}
+
 TEST(JumpSourceTest, FieldsAreModeAndOutputs) {
   TopicSource switching = jumps<geometry_msgs::PointStamped>({"point.z"});
   switching.has_mode = true;

@@ -1,6 +1,7 @@
 // The estimate is a function of the events taken in, to the bit, whatever the order in which they
 // come: for every observer type and for bounds on the error, with random gates, limits on jumps,
-// delays and lengths of the log around them, and with events as they should not be. The environment
+// delays, times between jumps and lengths of the log around them, from a stated start or from the
+// first event, and with events as they should not be and jumps that are taken back. The environment
 // variable SDO_EVENT_SETS says how many sets of events it takes for all of them together.
 #include <gtest/gtest.h>
 
@@ -14,6 +15,7 @@
 
 #include "certificate/certified_gains.h"
 #include "observer/delayed_jumps.h"
+#include "observer/dwell_times_watch.h"
 #include "observer/limited_jumps.h"
 #include "observer/missing_jumps.h"
 #include "observer/numbered_jumps.h"
@@ -77,6 +79,9 @@ struct Tally {
   std::size_t too_frequent = 0;
   std::size_t not_possible = 0;
   std::size_t repeated = 0;
+  std::size_t taken_back = 0;
+  std::size_t skipped = 0;
+  std::size_t ill_timed = 0;
   std::size_t made_up = 0;
   std::size_t overflowing = 0;
   std::size_t held = 0;
@@ -90,6 +95,7 @@ struct Tally {
     if (outcome == EventOutcome::kTooFrequent) ++too_frequent;
     if (outcome == EventOutcome::kNotPossible) ++not_possible;
     if (outcome == EventOutcome::kRepeated) ++repeated;
+    if (outcome == EventOutcome::kTakenBack || outcome == EventOutcome::kWithdrawn) ++taken_back;
     if (outcome == EventOutcome::kWouldOverflow) ++overflowing;
   }
 };
@@ -112,7 +118,12 @@ class ArrivalOrderTest : public ::testing::TestWithParam<std::string> {
     if (is_held) gains.with("error_assumptions: {output_rate: 2}");
     config_ = gains.config();
     if (!config_.plant->jumps()) return;
-    limited_ = gains.with("jumps: {min_separation: 0.02, max_per_second: 3}").config().law;
+    limited_ = gains
+                   .with(
+                       "jumps: {min_separation: 0.02, max_per_second: 3, dwell_time: [0, 0.3], "
+                       "average_dwell_time: {tau: 0.1, N0: 3}}")
+                   .config()
+                   .law;
   }
 
   int any(int below) { return std::uniform_int_distribution<int>(0, below - 1)(generator_); }
@@ -135,6 +146,7 @@ class ArrivalOrderTest : public ::testing::TestWithParam<std::string> {
           law = std::make_shared<const PossibleJumps>(law, JumpGate{any_set(), kSpan / 4});
         }
         if (in_one_of(2)) law = std::make_shared<const NumberedJumps>(law);
+        if (in_one_of(2)) law = std::make_shared<const DwellTimesWatch>(law, any_dwell_times());
       }
     }
     if (in_one_of(2))
@@ -149,6 +161,16 @@ class ArrivalOrderTest : public ::testing::TestWithParam<std::string> {
     return {std::make_shared<const AffineMap>(first), Eigen::VectorXd::Constant(1, 0.1 * any(5))};
   }
 
+  DwellTimes any_dwell_times() {
+    DwellTimes times;
+    times.shortest = any(2) * kSpan / 50;
+    if (in_one_of(2)) times.longest = kSpan / 3;
+    const DwellTimes::Average average{kSpan / (1 + any(10)), 1.0 + any(3)};
+    if (in_one_of(2)) times.average = average;
+    if (in_one_of(2)) times.reverse_average = average;
+    return times;
+  }
+
   MissingJumps any_watch(const ObserverLaw& law) {
     const bool may_predict = !law.delays_jumps() && !config_.plant->switches();
     const Duration step = law.flow_step() == 0 ? kSpan / 500 : 2 * law.flow_step();
@@ -161,6 +183,7 @@ class ArrivalOrderTest : public ::testing::TestWithParam<std::string> {
   std::unique_ptr<Estimator> make(const Timeline::Limits& history) const {
     Estimator::Options options = config_.options;
     options.history = history;
+    options.start = start_;
     return std::make_unique<Estimator>(law_, options);
   }
 
@@ -189,11 +212,20 @@ class ArrivalOrderTest : public ::testing::TestWithParam<std::string> {
     for (std::size_t i = 0; i < size; ++i) {
       if (!in_one_of(6)) continue;
       events.push_back(events[i]);
+      if (events[i].kind == EventKind::kJump && in_one_of(2)) take_back(events.back());
       for (double& value : events.back().values) {
         if (value == 0.0) value = -value;
       }
     }
     return events;
+  }
+
+  /// Makes an event that takes a jump back, or now and then one that was never told.
+  void take_back(OwnedEvent& jump) {
+    jump.kind = EventKind::kWithdrawal;
+    if (in_one_of(4)) ++jump.index;
+    if (in_one_of(4)) ++jump.stamp;
+    if (in_one_of(2)) jump.values.clear();
   }
 
   /// When a jump takes effect where it is delayed: all of one stamp at once.
@@ -230,6 +262,8 @@ class ArrivalOrderTest : public ::testing::TestWithParam<std::string> {
       if (query == Timeline::Query::kHeld) ++tally_.held;
       if (std::isfinite(law_->error_bound(found.state.data()))) ++tally_.bounded;
       if (law_->missing_jumps(found.state.data()) > 0.0) ++tally_.made_up;
+      if (law_->skipped_jumps(found.state.data()) > 0.0) ++tally_.skipped;
+      if (law_->dwell_violations(found.state.data()) > 0.0) ++tally_.ill_timed;
       if (!same_bits(expected.state, found.state) ||
           expected.counts.events != found.counts.events ||
           expected.counts.samples != found.counts.samples ||
@@ -275,7 +309,9 @@ class ArrivalOrderTest : public ::testing::TestWithParam<std::string> {
           refused.stamp = std::max(refused.stamp, first_possible(before, newest, limits));
           reference->note_rejected(refused, kNow);
           // Samples that were refused are no event.
-          if (event.kind != EventKind::kInput && event.kind != EventKind::kJump) continue;
+          const bool is_of_jump =
+              event.kind == EventKind::kJump || event.kind == EventKind::kWithdrawal;
+          if (event.kind != EventKind::kInput && !is_of_jump) continue;
           newest = std::max(newest, refused.stamp);
           continue;
         }
@@ -300,6 +336,7 @@ class ArrivalOrderTest : public ::testing::TestWithParam<std::string> {
   ObserverConfig config_;
   std::shared_ptr<const ObserverLaw> limited_;
   std::shared_ptr<const ObserverLaw> law_;
+  std::optional<Stamp> start_;
   Tally tally_;
 
  private:
@@ -313,9 +350,9 @@ class ArrivalOrderTest : public ::testing::TestWithParam<std::string> {
   }
 
   /// Where the log takes note of what came before it.
-  static Stamp first_possible(std::optional<Stamp> forgotten, Stamp newest,
-                              const Timeline::Limits& limits) {
-    return std::max(newest - limits.history, forgotten ? *forgotten + 1 : 0);
+  Stamp first_possible(std::optional<Stamp> forgotten, Stamp newest,
+                       const Timeline::Limits& limits) const {
+    return std::max({newest - limits.history, forgotten ? *forgotten + 1 : 0, start_.value_or(0)});
   }
 };
 
@@ -326,6 +363,8 @@ TEST_P(ArrivalOrderTest, GivesTheSameBits) {
     std::seed_seq numbers(text.begin(), text.end());
     generator_.seed(numbers);
     law_ = any_law();
+    start_.reset();
+    if (in_one_of(2)) start_ = kStart - any(2) * kSpan / 10;
     const std::vector<OwnedEvent> events = any_events();
     const std::vector<Stamp> stamps = any_stamps(events);
     ASSERT_TRUE(every_order_gives_the_same(events, stamps)) << "seed " << seed;
@@ -333,11 +372,13 @@ TEST_P(ArrivalOrderTest, GivesTheSameBits) {
   }
   std::printf(
       "%s: %zu sets of events in %zu orders; %zu events used, %zu too old, %zu not finite, "
-      "%zu gated, %zu too frequent, %zu not possible, %zu repeated, %zu would overflow; of the "
-      "estimates compared %zu held, %zu with a bound, %zu with missing jumps\n",
+      "%zu gated, %zu too frequent, %zu not possible, %zu repeated, %zu taken back, %zu would "
+      "overflow; of the estimates compared %zu held, %zu with a bound, %zu with missing jumps, "
+      "%zu with lost ones, %zu with some at other times\n",
       GetParam().c_str(), sets, tally_.orders, tally_.used, tally_.too_old, tally_.not_finite,
-      tally_.gated, tally_.too_frequent, tally_.not_possible, tally_.repeated, tally_.overflowing,
-      tally_.held, tally_.bounded, tally_.made_up);
+      tally_.gated, tally_.too_frequent, tally_.not_possible, tally_.repeated, tally_.taken_back,
+      tally_.overflowing, tally_.held, tally_.bounded, tally_.made_up, tally_.skipped,
+      tally_.ill_timed);
 }
 
 INSTANTIATE_TEST_SUITE_P(EverySubject, ArrivalOrderTest, ::testing::ValuesIn(subjects()),

@@ -153,7 +153,7 @@ TEST_F(EstimatorTest, EventsAndEstimatesAllocateNothing) {
 
 TEST_F(EstimatorTest, RefusesBoundsThatMakeNoSense) {
   Estimator::Options bad = options();
-  bad.sampling.T1 = 0;
+  bad.sampling.T1 = -1;
   EXPECT_THROW(Estimator(test::example_law(), bad), std::invalid_argument);
   bad = options();
   bad.sampling.T1 = bad.sampling.T2 + 1;

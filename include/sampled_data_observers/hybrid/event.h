@@ -8,9 +8,10 @@
 
 namespace sampled_data_observers {
 
-/// What an event does to the observer. The numbers are the order in which events of equal stamp
-/// take effect: a new input holds from its stamp on, so it comes first; a plant jump has priority
-/// over what is measured, so an output or sample stamped at the instant of a jump is one after it.
+/// What an event does to the observer. But for withdrawals, the numbers are the order in which
+/// events of equal stamp take effect: a new input holds from its stamp on, so it comes first; a
+/// plant jump has priority over what is measured, so an output or sample stamped at the instant of
+/// a jump is one after it.
 enum class EventKind : std::uint8_t {
   kInput = 0,       ///< a known input, held until the next
   kJump = 1,        ///< the plant jumped
@@ -18,7 +19,8 @@ enum class EventKind : std::uint8_t {
   kRelease = 3,     ///< a reset that was computed for an earlier jump takes effect
   kOutput = 4,      ///< a continuous output y_c, held until the next or a jump
   kSample = 5,      ///< a sample of a sensor
-  kRejected = 6     ///< something that the plant saw, and the estimate did not: no event itself
+  kRejected = 6,    ///< something that the plant saw, and the estimate did not: no event itself
+  kWithdrawal = 7   ///< a jump of the same stamp was none; it comes before jumps, behind inputs
 };
 
 /// One event, as a view: the values belong to whoever made it.
@@ -36,10 +38,10 @@ struct Event {
   /// Of jumps: when the reset takes effect, for a law that delays jumps; 0 where that is when the
   /// event arrives. It is no part of the jump itself.
   Stamp release = 0;
-  /// Of jumps of a plant that switches: the label of the mode that follows. Messages may hold any
-  /// number.
+  /// Of jumps of a plant that switches, and of their withdrawals: the label of the mode that
+  /// follows. Messages may hold any number.
   std::optional<double> mode = std::nullopt;
-  /// Of jumps: their number, as who detects them counts; 0 where nobody does.
+  /// Of jumps and their withdrawals: their number, as who detects them counts; 0 where nobody does.
   std::uint32_t index = 0;
   /// Of releases: the time since the jump.
   Duration delay = 0;
@@ -55,5 +57,9 @@ struct Event {
 /// means a duplicate.
 /// @pre all values and modes are finite
 int compare(const Event& a, const Event& b);
+
+/// Whether a withdrawal is about a jump: that of its stamp and its number, or, where nobody counts,
+/// each of its stamp into its mode.
+bool withdraws(const Event& withdrawal, const Event& jump);
 
 }  // namespace sampled_data_observers

@@ -21,6 +21,9 @@ enum class Effect : std::uint8_t {
   kRestarted,       ///< the same, to an estimate that began anew
   kWithoutOutputs,  ///< a jump, applied without what was measured at it: no finite correction
   kOutputsGated,    ///< a jump, applied without those of its outputs that lie outside their gates
+  kWithdrawn,       ///< nothing: a jump that was withdrawn
+  kWithdrawal,      ///< of a withdrawal: it takes a jump out
+  kNoSuchJump,      ///< of a withdrawal: nothing, there is no such jump
   kNotFinite        ///< nothing: the result would not have been finite
 };
 
@@ -84,8 +87,9 @@ class HybridSystem {
   /// outlive that.
   virtual void distrust(double* state) const { static_cast<void>(state); }
 
-  /// Reset map of an event that it accepts. Where the event must not take effect, nothing
-  /// changes but what the system remembers of such events. Never returns kNotFinite.
+  /// Reset map of an event that it accepts; of no jump that was withdrawn. Where the event must not
+  /// take effect, nothing changes but what the system remembers of such events. Never returns
+  /// kNotFinite.
   virtual Effect reset(const Event& event, double* state, double* workspace) const = 0;
 
  protected:

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 namespace sampled_data_observers {
 
@@ -20,6 +21,19 @@ constexpr double to_seconds(Duration duration) { return static_cast<double>(dura
 /// @pre |seconds| < 9.2e9, so that the result is representable.
 constexpr Duration from_seconds(double seconds) {
   return static_cast<Duration>(seconds * 1e9 + (seconds < 0.0 ? -0.5 : 0.5));
+}
+
+/// A longest time that is none: nothing is longer.
+constexpr Duration kNoLongestTime = std::numeric_limits<Duration>::max();
+
+/// The same for a longest time, which may be infinite.
+constexpr Duration longest_from_seconds(double seconds) {
+  return seconds == std::numeric_limits<double>::infinity() ? kNoLongestTime
+                                                            : from_seconds(seconds);
+}
+/// Seconds of a longest time, infinite for none.
+constexpr double longest_to_seconds(Duration longest) {
+  return longest == kNoLongestTime ? std::numeric_limits<double>::infinity() : to_seconds(longest);
 }
 
 /// The smallest whole multiple of `period` that is not less than `stamp`.

@@ -33,13 +33,17 @@ struct EventCounts {
 /// compare(Event, Event). Queries change nothing.
 ///
 /// Before its first event the system is in its initial state; the first event's stamp is therefore
-/// the earliest time at which there is a state. The window reaches `history` back from the newest
+/// the earliest time at which there is a state, unless the timeline begins at a stated one
+/// (begin()). The window reaches `history` back from the newest
 /// event, or less when more than `max_events` events lie in it.
 ///
 /// A flow or reset whose result is not finite, or beyond 1e150, is skipped: the last good state is
 /// held, and only its timers go on. A state counts as held until a flow over some time succeeds
 /// again, whatever events do to it. That, too, is a function of the events alone. A sample or jump
 /// without effect counts as an event only.
+///
+/// A jump that a withdrawal is about has no effect, whichever of them comes first: the system does
+/// not see it, only the withdrawal.
 ///
 /// Everything is allocated by the constructor; afterwards nothing is.
 class Timeline {
@@ -122,6 +126,10 @@ class Timeline {
   /// log. They may become more where other stamps are asked for meanwhile, and events taken in.
   std::int64_t approach(Stamp stamp, std::int64_t steps) const;
 
+  /// Forgets all events; the initial state holds at `stamp`, until an event of that stamp or a
+  /// later one. Earlier events are before the window.
+  void begin(Stamp stamp);
+
   /// Forgets all events; `state` holds at `stamp`, and events up to `stamp` are before the window.
   /// It may be one that was `held`.
   void restart(Stamp stamp, ConstStateRef state, bool held = false);
@@ -139,8 +147,18 @@ class Timeline {
   /// Stamp of the newest event in the log; nothing where it is empty.
   std::optional<Stamp> newest() const;
 
-  /// Whether the log has a jump, taken or rejected, with a stamp in (after, until].
+  /// Whether the log has a jump, taken or rejected and not withdrawn, with a stamp in (after,
+  /// until].
   bool has_jump(Stamp after, Stamp until) const;
+
+  /// States of the log.
+  struct Around {
+    const double* before;  ///< after the newest event up to a stamp, or where the log begins
+    const double* after;   ///< after the first jump, or withdrawal of one, behind it
+  };
+
+  /// Those around `stamp`; nothing where no jump is behind it. Valid until the timeline changes.
+  std::optional<Around> around_next_jump(Stamp stamp) const;
 
   /// The earliest stamp at which an event can be taken in now; nothing where any can.
   std::optional<Stamp> earliest_insertion() const;
@@ -160,6 +178,7 @@ class Timeline {
   /// What the base is.
   enum class Base {
     kInitial,   ///< the initial state, at no time: it holds where the first event comes
+    kStart,     ///< the initial state at its stamp, before events of that
     kRestart,   ///< a given state at its stamp
     kForgotten  ///< the newest event that was forgotten
   };
@@ -187,6 +206,8 @@ class Timeline {
   void open_position(std::size_t position, const Event& event);
   void apply(std::size_t position);
   Effect reset(std::size_t position);
+  bool is_withdrawn(std::size_t position) const;
+  bool withdraws_any(std::size_t position) const;
   Query find(Stamp at, std::size_t& position) const;
   void flow_from(std::size_t position, Duration duration, StateRef state) const;
   void flow_to(std::size_t position, Duration whole, const ConstStateRef& state) const;

@@ -63,7 +63,7 @@ class MessageSource {
   /// values live until the next call, or as long as the message.
   /// @param message  one that this source gave
   /// @param receipt  the event's stamp where the source is configured so
-  /// @param event    of the kind that its channel has
+  /// @param event    of the kind that its channel has; a jump becomes a withdrawal where it is one
   virtual Reading read(const MessagePointer& message, Stamp receipt, Event& event) = 0;
 
   /// Writes which transform a message lacks (see write_pair()).

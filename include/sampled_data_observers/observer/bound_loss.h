@@ -12,10 +12,11 @@ enum class BoundLoss : std::uint8_t {
   kAngle,            ///< an angular innovation may have been wrapped
   kTooLarge,         ///< it grew beyond what it can be computed for
   kUnknownInput,     ///< an input was rejected: the estimate rests on another one
-  kUnknownJump,      ///< a jump was rejected: the estimate did not take it
+  kUnknownJump,      ///< a jump was rejected or lost: the estimate did not take it
   kStillOnTheirWay,  ///< events before its stamp may still come
   kNearJump,         ///< a jump told near its stamp may have been before or after it
-  kUncertainJump     ///< the time of a jump is not known well enough to bound what it did
+  kUncertainJump,    ///< the time of a jump is not known well enough to bound what it did
+  kDwellTimes        ///< jumps came at other times than those configured
 };
 
 /// A guaranteed bound on |x − x̂|, infinite where there is none, and why; NaN without certificate.

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,6 +36,29 @@ class StateBound {
 
  protected:
   ~StateBound() = default;
+};
+
+/// How the jumps that took effect compare with the times between them that are configured.
+enum class DwellCheck : std::uint8_t {
+  kNone,    ///< there was no jump
+  kWithin,  ///< as they are configured
+  kShort,   ///< the time before the jump was too short
+  kLong,    ///< it was too long
+  kMany,    ///< jumps come too often on average
+  kFew      ///< jumps come too seldom on average
+};
+
+/// What a law keeps of the times between jumps.
+class DwellWatch {
+ public:
+  /// Of the newest jump.
+  virtual DwellCheck dwell_check(const double* state) const = 0;
+
+  /// How often the times left those configured since the start, up to now.
+  virtual double dwell_violations(const double* state) const = 0;
+
+ protected:
+  ~DwellWatch() = default;
 };
 
 /// What a law keeps of the jumps that no event told of.
@@ -97,6 +122,26 @@ class ObserverLaw : public HybridSystem {
     return jump_watch_ != nullptr ? jump_watch_->missing_jumps(state) : 0.0;
   }
 
+  /// How many jumps were lost up to a state, as the numbers of the others tell, since the start; 0
+  /// where nobody counts.
+  double skipped_jumps(const double* state) const {
+    return skipped_jumps_ ? skipped_jumps_->of(state) : 0.0;
+  }
+
+  /// How often the times between jumps left those configured since the start, up to the time of a
+  /// state; 0 where none are.
+  double dwell_violations(const double* state) const {
+    return dwell_watch_ != nullptr ? dwell_watch_->dwell_violations(state) : 0.0;
+  }
+
+  /// How the newest jump of a state compares with the times configured; kNone where none are.
+  DwellCheck dwell_check(const double* state) const {
+    return dwell_watch_ != nullptr ? dwell_watch_->dwell_check(state) : DwellCheck::kNone;
+  }
+
+  /// Whether times between jumps are configured.
+  bool watches_dwell_times() const { return dwell_watch_ != nullptr; }
+
   void distrust(double* state) const final {
     if (bound_ != nullptr) bound_->give_up(state);
   }
@@ -112,6 +157,10 @@ class ObserverLaw : public HybridSystem {
   void set_bound(const StateBound* bound) { bound_ = bound; }
   /// To be called where a law looks for jumps that are missing.
   void set_jump_watch(const JumpWatch* watch) { jump_watch_ = watch; }
+  /// To be called where a law counts the jumps that were lost, there.
+  void set_skipped_jumps(NumberSlot slot) { skipped_jumps_ = slot; }
+  /// To be called where a law watches the times between jumps.
+  void set_dwell_watch(const DwellWatch* watch) { dwell_watch_ = watch; }
   /// To be called where a law delays jumps.
   void set_delays_jumps() { delays_jumps_ = true; }
 
@@ -119,6 +168,8 @@ class ObserverLaw : public HybridSystem {
   const PlantObserver* observer_;
   const StateBound* bound_ = nullptr;
   const JumpWatch* jump_watch_ = nullptr;
+  const DwellWatch* dwell_watch_ = nullptr;
+  std::optional<NumberSlot> skipped_jumps_;
   bool delays_jumps_ = false;
 };
 

@@ -117,6 +117,8 @@ class Diagnosis {
   Stamp now_ = 0;
   Duration elapsed_ = 0;
   std::uint64_t newly_missing_ = 0;
+  std::uint64_t newly_skipped_ = 0;
+  std::uint64_t new_dwell_violations_ = 0;
   std::optional<Suspension> suspension_;
   /// When the last suspension ended, and what it was.
   Stamp restored_ = 0;

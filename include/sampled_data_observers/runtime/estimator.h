@@ -22,8 +22,8 @@ bool is_admissible(const Eigen::Ref<const Eigen::VectorXd>& values);
 /// The bounds T1 <= T2 on the time between samples, or between jumps where there are no samples,
 /// for which the gains were designed [ns].
 struct SamplingBounds {
-  Duration T1 = 0;  ///< the shortest, > 0
-  Duration T2 = 0;  ///< the longest
+  Duration T1 = 0;  ///< the shortest, >= 0
+  Duration T2 = 0;  ///< the longest; kNoLongestTime where there is none
 };
 
 /// An estimate and what it rests on.
@@ -88,6 +88,8 @@ class Estimator {
     Duration latency = 0;
     /// By how much the stamps of jumps may be off [ns], >= 0.
     Duration jump_stamp_error = 0;
+    /// Where the estimate begins, > 0; nothing: with the first event.
+    std::optional<Stamp> start = std::nullopt;
   };
 
   /// @throws std::invalid_argument for options out of range.
@@ -177,9 +179,11 @@ class Estimator {
   void insert_rejected(EventKind kind, Stamp stamp);
   BoundLoss withheld(Stamp stamp, Stamp now) const;
   bool is_before_jump(Stamp stamp) const;
+  bool is_before_gap(Stamp stamp) const;
   bool prepare_restart(Estimator& from, Stamp stamp);
   void begin(Stamp stamp);
   void begin_at(const Event& sample);
+  DwellCheck dwell_check_at(Stamp stamp);
   double innovation_of(const Event& measured);
   bool has_earlier() const;
   bool is_earlier(Stamp stamp) const;

@@ -26,11 +26,14 @@ enum class EventOutcome : std::uint8_t {
   kDropped = 16,       ///< more messages came than could be taken in: never looked at
   kNotPossible = 17,   ///< taken in without effect: a jump where the estimate can't jump
   kRepeated = 18,      ///< taken in without effect: a jump with the number of the one before
-  kJumpAlone = 19      ///< a jump taken in without what was measured at it, or a part of it
+  kJumpAlone = 19,     ///< a jump taken in without what was measured at it, or a part of it
+  kTakenBack = 20,     ///< a withdrawal: the jump that it is about was taken out
+  kWithdrawn = 21,     ///< a jump taken in without effect: its withdrawal came before
+  kNoSuchJump = 22     ///< a withdrawal taken in without effect, unless its jump comes yet
 };
 
 /// How many outcomes there are: their codes lie below.
-constexpr std::size_t kEventOutcomes = static_cast<std::size_t>(EventOutcome::kJumpAlone) + 1;
+constexpr std::size_t kEventOutcomes = static_cast<std::size_t>(EventOutcome::kNoSuchJump) + 1;
 
 /// The outcome in a few words.
 const char* describe(EventOutcome outcome);

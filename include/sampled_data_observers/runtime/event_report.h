@@ -7,6 +7,7 @@
 
 #include "sampled_data_observers/hybrid/hybrid_system.h"
 #include "sampled_data_observers/observer/innovation_watch.h"
+#include "sampled_data_observers/observer/observer_law.h"
 #include "sampled_data_observers/runtime/event_outcome.h"
 
 namespace sampled_data_observers {
@@ -32,6 +33,9 @@ struct EventReport {
   std::optional<Duration> interval;
   /// How `interval` compares with T1 and T2.
   IntervalCheck interval_check = IntervalCheck::kNone;
+  /// How the newest jump of its stamp compares with the times between jumps that are configured;
+  /// used jumps only.
+  DwellCheck dwell_check = DwellCheck::kNone;
   /// The norm of the innovation of a sample or a continuous output, before it took effect; NaN for
   /// other events, and where there was no estimate.
   double innovation = std::numeric_limits<double>::quiet_NaN();

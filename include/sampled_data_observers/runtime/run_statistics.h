@@ -67,6 +67,10 @@ struct RunStatistics {
   std::uint64_t saturated = 0;
   /// Of the newest estimate: jumps that no event told of, since the start.
   std::uint64_t missing_jumps = 0;
+  /// Likewise: jumps that were lost, as the numbers of the others tell.
+  std::uint64_t skipped_jumps = 0;
+  /// Likewise: how often the times between jumps left those configured.
+  std::uint64_t dwell_violations = 0;
   /// CPU time that each tick of the publishing thread took [ns].
   Range tick_cpu_time;
   /// Of the newest estimate.
@@ -135,6 +139,8 @@ class StatisticsRecorder {
   std::atomic<std::uint64_t> held_{0};
   std::atomic<std::uint64_t> saturated_{0};
   std::atomic<std::uint64_t> missing_jumps_{0};
+  std::atomic<std::uint64_t> skipped_jumps_{0};
+  std::atomic<std::uint64_t> dwell_violations_{0};
   /// 0 where there is none.
   std::atomic<Stamp> newest_estimate_{0};
   std::atomic<Stamp> bound_lost_since_{0};

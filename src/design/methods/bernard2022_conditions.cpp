@@ -1,6 +1,7 @@
 #include <cmath>
 #include <utility>
 
+#include "certificate/theorems.h"
 #include "design/methods/bernard2022_parameters.h"
 #include "design/methods/gain_bound.h"
 #include "design/methods/methods.h"
@@ -13,26 +14,23 @@ namespace {
 /// Schur complement.
 class QuadraticDesign : public LmiDesignMethod {
  public:
-  QuadraticDesign(std::string number, std::string summary, std::string theorem, bool in_flow,
+  QuadraticDesign(std::string name, std::string summary, const Theorem& theorem, bool in_flow,
                   bool at_jumps)
-      : number_(std::move(number)),
+      : name_(std::move(name)),
         summary_(std::move(summary)),
-        theorem_(std::move(theorem)),
+        theorem_(theorem),
         in_flow_(in_flow),
         at_jumps_(at_jumps) {}
 
-  std::string name() const override { return "bernard2022_equation" + number_; }
+  std::string name() const override { return name_; }
   std::string summary() const override { return summary_; }
-  const Theorem& theorem() const override { return *find_theorem(theorem_); }
+  const Theorem& theorem() const override { return theorem_; }
 
   std::vector<DesignParameter> parameters(const CertificateSubject& subject) const override {
-    if (in_flow_) {
-      return {flow_decay_parameter(subject, theorem()), jump_decay_parameter(),
-              gain_bound_parameter()};
-    }
-    return {{"flow_growth", "rate at which V may grow in flow, a_c [1/s]", std::nullopt,
-             theorem().search_ranges(subject).front().range},
-            jump_decay_parameter()};
+    const DesignParameter decay =
+        has_dwell_time() ? decay_parameter_of(subject) : jump_decay_parameter();
+    if (!in_flow_) return {flow_growth_parameter(subject), decay};
+    return {flow_decay_parameter(subject, theorem()), decay, gain_bound_parameter()};
   }
 
   std::vector<std::string> bounded_gains(const CertificateSubject&) const override {
@@ -42,7 +40,7 @@ class QuadraticDesign : public LmiDesignMethod {
 
   std::vector<Objective> objectives(const CertificateSubject&) const override {
     // With T1 alone in the conditions there is no largest T2.
-    if (in_flow_) return {Objective::kFeasible, Objective::kMaxDecay};
+    if (in_flow_ || has_dwell_time()) return {Objective::kFeasible, Objective::kMaxDecay};
     return {Objective::kFeasible, Objective::kMaxT2, Objective::kMaxDecay};
   }
 
@@ -51,9 +49,8 @@ class QuadraticDesign : public LmiDesignMethod {
                      Objective) const override {
     const ModeMatrices& plant = subject.plant.mode();
     const Eigen::Index n = subject.plant.states();
-    const double a_c = in_flow_ ? -parameters.at("flow_decay") : parameters.at("flow_growth");
-    const double a_d =
-        -a_c * (in_flow_ ? subject.T1 : subject.T2) - 2.0 * parameters.at("jump_decay");
+    const auto [a_c, a_d] =
+        rates_of(subject, in_flow_ ? FlowOfError::kDecays : FlowOfError::kMayGrow, parameters);
     LmiProgram program;
     const MatrixExpression P = program.symmetric("P", n);
     program.require_positive("P > 0", P);
@@ -82,9 +79,14 @@ class QuadraticDesign : public LmiDesignMethod {
   }
 
  private:
-  std::string number_;
+  bool has_dwell_time() const {
+    return theorem_.times() == TheoremTimes::kAverageDwellTime ||
+           theorem_.times() == TheoremTimes::kReverseAverageDwellTime;
+  }
+
+  std::string name_;
   std::string summary_;
-  std::string theorem_;
+  const Theorem& theorem_;
   bool in_flow_;
   bool at_jumps_;
 };
@@ -92,22 +94,47 @@ class QuadraticDesign : public LmiDesignMethod {
 }  // namespace
 
 const DesignMethod& bernard2022_coupled_design() {
-  static const QuadraticDesign method("15", "coupled gains L_c in flow and L_d at jumps",
-                                      "bernard2022_equation14", true, true);
+  static const QuadraticDesign method("bernard2022_equation15",
+                                      "coupled gains L_c in flow and L_d at jumps",
+                                      bernard2022_equation14(), true, true);
+  return method;
+}
+
+const DesignMethod& bernard2022_coupled_average_design() {
+  static const QuadraticDesign method(
+      "bernard2022_equation15_average_dwell_time",
+      "coupled gains L_c in flow and L_d at jumps, for jumps that are not too frequent on average",
+      bernard2022_equation14_average_dwell_time(), true, true);
   return method;
 }
 
 const DesignMethod& bernard2022_flow_based_design() {
-  static const QuadraticDesign method("22",
+  static const QuadraticDesign method("bernard2022_equation22",
                                       "flow-based gain L_c, for jumps that are not too frequent",
-                                      "bernard2022_equation22", true, false);
+                                      bernard2022_equation22(), true, false);
+  return method;
+}
+
+const DesignMethod& bernard2022_flow_based_average_design() {
+  static const QuadraticDesign method(
+      "bernard2022_equation22_average_dwell_time",
+      "flow-based gain L_c, for jumps that are not too frequent on average",
+      bernard2022_equation22_average_dwell_time(), true, false);
   return method;
 }
 
 const DesignMethod& bernard2022_jump_based_design() {
-  static const QuadraticDesign method("26",
+  static const QuadraticDesign method("bernard2022_equation26",
                                       "jump-based gain L_d, for jumps that are frequent enough",
-                                      "bernard2022_equation26", false, true);
+                                      bernard2022_equation26(), false, true);
+  return method;
+}
+
+const DesignMethod& bernard2022_jump_based_average_design() {
+  static const QuadraticDesign method(
+      "bernard2022_equation26_reverse_average_dwell_time",
+      "jump-based gain L_d, for jumps that are frequent enough on average",
+      bernard2022_equation26_reverse_average_dwell_time(), false, true);
   return method;
 }
 

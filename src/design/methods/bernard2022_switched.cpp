@@ -1,5 +1,7 @@
 #include <cmath>
+#include <utility>
 
+#include "certificate/theorems.h"
 #include "design/methods/bernard2022_jump_based.h"
 #include "design/methods/bernard2022_parameters.h"
 #include "design/methods/gain_bound.h"
@@ -10,22 +12,30 @@
 namespace sampled_data_observers {
 namespace {
 
-/// bernard2022, example 7.1: with L̃_q = P_q L_q the conditions of all modes are linear.
-class SwitchedFlowBased : public LmiDesignMethod {
+/// bernard2022 (47b) and (49), as in example 7.1: with L̃_q = P_q L_q the conditions of all modes
+/// are linear. Gains at switches, which are right of the P' of every next mode, take as in section
+/// 7.3.2 a matrix G of their own.
+class RatesOfModesDesign : public LmiDesignMethod {
  public:
-  std::string name() const override { return "bernard2022_example7_1"; }
-  std::string summary() const override {
-    return "flow-based gain L_c for each mode of a switched plant, for slow switching";
-  }
-  const Theorem& theorem() const override { return *find_theorem("bernard2022_example7_1"); }
+  RatesOfModesDesign(std::string name, std::string summary, const Theorem& theorem,
+                     FlowOfError kind)
+      : name_(std::move(name)), summary_(std::move(summary)), theorem_(theorem), kind_(kind) {}
+
+  std::string name() const override { return name_; }
+  std::string summary() const override { return summary_; }
+  const Theorem& theorem() const override { return theorem_; }
 
   std::vector<DesignParameter> parameters(const CertificateSubject& subject) const override {
-    return {flow_decay_parameter(subject, theorem()), jump_decay_parameter(),
-            gain_bound_parameter()};
+    const DesignParameter decay = theorem_.times() == TheoremTimes::kFromT1
+                                      ? jump_decay_parameter()
+                                      : decay_parameter_of(subject);
+    if (!in_flow()) return {flow_growth_parameter(subject), decay};
+    return {flow_decay_parameter(subject, theorem_), decay, gain_bound_parameter()};
   }
 
   std::vector<std::string> bounded_gains(const CertificateSubject& subject) const override {
     std::vector<std::string> all;
+    if (!in_flow()) return all;
     for (const ModeMatrices& mode : subject.plant.modes) all.push_back(of_mode("L_c", mode));
     return all;
   }
@@ -38,24 +48,22 @@ class SwitchedFlowBased : public LmiDesignMethod {
   LmiProgram program(const CertificateSubject& subject, const Parameters& parameters,
                      Objective) const override {
     const Eigen::Index n = subject.plant.states();
-    const double flow_decay = parameters.at("flow_decay");
-    const double a_d = flow_decay * subject.T1 - 2.0 * parameters.at("jump_decay");
+    const NumericRates rates = rates_of(subject, kind_, parameters);
     LmiProgram program;
     for (const ModeMatrices& mode : subject.plant.modes) {
       const MatrixExpression P = program.symmetric(of_mode("P", mode), n);
-      const MatrixExpression J = program.matrix(of_mode("P L_c", mode), n, mode.C_c.rows());
       program.require_positive("P > 0", P);
       program.bound_above("P <= I", P, identity(n));
-      program.require_negative("(47b)", He(P * mode.A - J * mode.C_c) + flow_decay * P);
-      bound_gain(program, of_mode("L_c", mode), P, J, parameters.at("gain_bound"));
+      MatrixExpression flow = P * mode.A;
+      if (in_flow()) {
+        const MatrixExpression J = program.matrix(of_mode("P L_c", mode), n, mode.C_c.rows());
+        flow = flow - J * mode.C_c;
+        bound_gain(program, of_mode("L_c", mode), P, J, parameters.at("gain_bound"));
+      }
+      program.require_negative("(47b)", He(flow) - rates.a_c * P);
     }
     for (const ModeMatrices& mode : subject.plant.modes) {
-      const MatrixExpression P = symbol(of_mode("P", mode), n, n);
-      const MatrixExpression A_d = jump_of(mode);
-      for (const ModeMatrices& next : subject.plant.modes) {
-        program.require_positive(
-            "(49)", std::exp(a_d) * P - transpose(A_d) * symbol(of_mode("P", next), n, n) * A_d);
-      }
+      require_at_switches(subject, mode, std::exp(rates.a_d), program);
     }
     return program;
   }
@@ -64,11 +72,44 @@ class SwitchedFlowBased : public LmiDesignMethod {
                       const NamedMatrices& solution) const override {
     NamedMatrices result;
     for (const ModeMatrices& mode : subject.plant.modes) {
-      result[of_mode("L_c", mode)] =
-          solve_linear(solution.at(of_mode("P", mode)), solution.at(of_mode("P L_c", mode)));
+      const std::string gain = in_flow() ? "L_c" : "L_d";
+      const std::string factor = in_flow() ? "P" : "G";
+      result[of_mode(gain, mode)] = solve_linear(solution.at(of_mode(factor, mode)),
+                                                 solution.at(of_mode(factor + " " + gain, mode)));
     }
     return result;
   }
+
+ private:
+  bool in_flow() const { return kind_ == FlowOfError::kDecays; }
+
+  /// (49), for switches that leave a mode.
+  void require_at_switches(const CertificateSubject& subject, const ModeMatrices& mode,
+                           double factor, LmiProgram& program) const {
+    const Eigen::Index n = subject.plant.states();
+    const MatrixExpression kept = factor * symbol(of_mode("P", mode), n, n);
+    const MatrixExpression A_d = jump_of(mode);
+    if (in_flow()) {
+      for (const ModeMatrices& next : subject.plant.modes) {
+        program.require_positive("(49)",
+                                 kept - transpose(A_d) * symbol(of_mode("P", next), n, n) * A_d);
+      }
+      return;
+    }
+    const MatrixExpression G = program.matrix(of_mode("G", mode), n, n);
+    const MatrixExpression reset =
+        G * A_d - program.matrix(of_mode("G L_d", mode), n, mode.C_d.rows()) * mode.C_d;
+    for (const ModeMatrices& next : subject.plant.modes) {
+      program.require_positive(
+          "(49)",
+          symmetric_blocks({{kept, transpose(reset)}, {He(G) - symbol(of_mode("P", next), n, n)}}));
+    }
+  }
+
+  std::string name_;
+  std::string summary_;
+  const Theorem& theorem_;
+  FlowOfError kind_;
 };
 
 /// bernard2022, section 7.3.2, as (36) for each mode. The gain is right of the P' of every next
@@ -124,7 +165,28 @@ class SwitchedJumpBased : public JumpBasedDesign {
 }  // namespace
 
 const DesignMethod& bernard2022_switched_flow_based_design() {
-  static const SwitchedFlowBased method;
+  static const RatesOfModesDesign method(
+      "bernard2022_example7_1",
+      "flow-based gain L_c for each mode of a switched plant, for slow switching",
+      bernard2022_example7_1(), FlowOfError::kDecays);
+  return method;
+}
+
+const DesignMethod& bernard2022_switched_flow_based_average_design() {
+  static const RatesOfModesDesign method("bernard2022_example7_1_average_dwell_time",
+                                         "flow-based gain L_c for each mode of a switched plant, "
+                                         "for switching that is slow on average",
+                                         bernard2022_example7_1_average_dwell_time(),
+                                         FlowOfError::kDecays);
+  return method;
+}
+
+const DesignMethod& bernard2022_switched_jump_based_average_design() {
+  static const RatesOfModesDesign method(
+      "bernard2022_equation49_reverse_average_dwell_time",
+      "jump-based gain L_d for each mode of a switched plant, for switching that is frequent on "
+      "average",
+      bernard2022_equation49_reverse_average_dwell_time(), FlowOfError::kMayGrow);
   return method;
 }
 

@@ -6,11 +6,16 @@ namespace sampled_data_observers {
 
 // One source file each, or each family.
 const DesignMethod& bernard2022_coupled_design();
+const DesignMethod& bernard2022_coupled_average_design();
+const DesignMethod& bernard2022_flow_based_average_design();
 const DesignMethod& bernard2022_flow_based_design();
 const DesignMethod& bernard2022_high_gain_design();
+const DesignMethod& bernard2022_jump_based_average_design();
 const DesignMethod& bernard2022_jump_based_design();
 const DesignMethod& bernard2022_polytopic_design();
+const DesignMethod& bernard2022_switched_flow_based_average_design();
 const DesignMethod& bernard2022_switched_flow_based_design();
+const DesignMethod& bernard2022_switched_jump_based_average_design();
 const DesignMethod& bernard2022_switched_jump_based_design();
 const DesignMethod& etienne2019_proposition1_design();
 const DesignMethod& etienne2019_proposition2_design();

@@ -7,6 +7,7 @@
 #include "config/certificate_config.h"
 #include "config/claimed_gains.h"
 #include "config/design_config.h"
+#include "config/event_times.h"
 #include "config/law_config.h"
 #include "console/option_checks.h"
 #include "console/output_checks.h"
@@ -18,6 +19,7 @@
 #include "sampled_data_observers/config/yaml_file.h"
 #include "sampled_data_observers/observer/plant_observer.h"
 #include "tools/design/commands.h"
+#include "tools/design/event_time_options.h"
 #include "tools/design/gain_files.h"
 #include "tools/design/run_time_report.h"
 
@@ -30,8 +32,7 @@ struct AnalyzeArguments {
   std::string theorem;
   std::string objective;
   std::string output;
-  std::optional<double> T1;  // [s]
-  std::optional<double> T2;  // [s]
+  EventTimeArguments times;
   std::vector<std::string> assignments;
   unsigned jobs = default_jobs();
   double time_limit = 20.0;
@@ -67,7 +68,7 @@ const Theorem& theorem_for(ConfigSection& root, const std::string& name,
     const auto types = theorem->observer_types();
     if (std::find(types.begin(), types.end(), type) == types.end()) continue;
     try {
-      theorem->require_applicable(subject);
+      require_subject(*theorem, subject);
       const std::vector<std::string> beside = gains_beside(*theorem, subject, law);
       if (beside.empty()) return *theorem;
       throw std::invalid_argument("it is not about gains/" + beside.front());
@@ -112,13 +113,11 @@ AnalysisProblem read_problem(const AnalyzeArguments& arguments, const DesignConf
     problem.subject = claim->certificate.subject;
   } else if (root.has("sampling")) {
     ConfigSection sampling = root.section("sampling");
-    problem.subject.T1 = sampling.number("T1");
-    problem.subject.T2 = sampling.number("T2");
+    read_event_times(sampling, problem.subject);
   }
-  if (arguments.T1) problem.subject.T1 = *arguments.T1;
-  if (arguments.T2) problem.subject.T2 = *arguments.T2;
-  if (!(problem.subject.T2 > 0.0 && problem.subject.T1 <= problem.subject.T2)) {
-    throw root.error("sampling", "0 <= T1 <= T2, or --T1 and --T2", "other times");
+  take_event_times(arguments.times, problem.subject);
+  if (!(problem.subject.T2 > 0.0)) {
+    throw root.error("sampling", "times between events, here or by --T1 and --T2", "none");
   }
   problem.theorem = claim && arguments.theorem.empty()
                         ? claim->certificate.theorem
@@ -144,7 +143,9 @@ void print_result(Objective objective, const Design& design) {
                 scalar_value(certificate.values, shape.name));
     separator = ", ";
   }
-  std::printf("%sT2 = %.6g s\n", separator, certificate.subject.T2);
+  const auto& dwell_time = certificate.subject.dwell_time;
+  std::printf(dwell_time ? "%stau = %.6g s\n" : "%sT2 = %.6g s\n", separator,
+              dwell_time ? dwell_time->tau : certificate.subject.T2);
   if (design.has_no_maximum) {
     std::printf("             the search ended here: no largest value was found\n");
   }
@@ -225,10 +226,7 @@ void add_analyze(CommandLine& tool, const std::string& command_line) {
       .choices({"feasible", "min-gamma", "max-T2", "max-decay", "min-final-error"});
   command.option("-o, --output FILE", arguments->output,
                  "Gain file to write, with the first of the proofs found");
-  command.option("--T1 SECONDS", arguments->T1, "Instead of that of the gain file [s]")
-      .check(number_above(0));
-  command.option("--T2 SECONDS", arguments->T2, "Instead of that of the gain file [s]")
-      .check(number_above(0));
+  add_event_times(command, "the gain file", arguments->times);
   command.option("--set NAME=NUMBER...", arguments->assignments,
                  "Fix a parameter of the theorem; may be given several times");
   command.option("--jobs NUMBER", arguments->jobs, "Solvers at a time, as many as processors")

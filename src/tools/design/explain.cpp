@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -106,9 +107,14 @@ void explain_command(const ExplainArguments& arguments) {
   CertificateSubject subject = read_design_config(arguments.files, load_plant_plugin).subject;
   if (arguments.T2) {
     subject.T2 = *arguments.T2;
+    subject.dwell_time.reset();
     subject.T1 = std::min(subject.T1 > 0.0 ? subject.T1 : subject.T2, subject.T2);
   }
   if (arguments.T1) subject.T1 = *arguments.T1;
+  if (std::isinf(subject.T2)) {
+    throw DesignError(
+        "T2 = inf: what a plant shows is told of times up to a longest one; give --T2");
+  }
   if (subject.T1 > subject.T2) throw DesignError("T1 > T2");
   std::printf("%s", explain(subject).c_str());
   if (!arguments.plot.empty()) draw(subject, arguments);
@@ -120,8 +126,8 @@ void add_explain(CommandLine& tool) {
   CommandLine& command = tool.command("explain", "Why designs for a plant can or can't exist");
   auto arguments = std::make_shared<ExplainArguments>();
   command.argument("PLANT...", arguments->files, "Files with plant, sensors and design");
-  command.option("--T1 SECONDS", arguments->T1, "Instead of design/sampling/T1 [s]")
-      .check(number_above(0));
+  command.option("--T1 SECONDS", arguments->T1, "Instead of design/sampling/T1 [s]; 0 for any")
+      .check(number_at_least(0));
   command.option("--T2 SECONDS", arguments->T2, "Instead of design/sampling/T2 [s]")
       .check(number_above(0));
   command

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <map>
@@ -74,12 +75,12 @@ SweepRequest request_of(const SweepArguments& arguments, const DesignConfig& con
   if (arguments.T2) {
     low = arguments.T2->front();
     high = arguments.T2->back();
-  } else if (config.subject.T2 > 0.0) {
+  } else if (config.subject.T2 > 0.0 && std::isfinite(config.subject.T2)) {
     high = config.subject.T2;
     low = config.subject.T1 < high ? config.subject.T1 : kShortest * high;
   } else {
     throw DesignError(
-        "the times between samples are missing: give --T2 LOW HIGH, or "
+        "a longest time between samples is missing: give --T2 LOW HIGH, or "
         "design/sampling in " +
         arguments.files.front());
   }
@@ -91,6 +92,7 @@ SweepRequest request_of(const SweepArguments& arguments, const DesignConfig& con
   }
   request.subject.T1 = T1 > 0.0 ? std::min(T1, request.T2.front()) : request.T2.front();
   request.subject.T2 = request.T2.back();
+  request.subject.dwell_time.reset();
   request.objective = objective_for(arguments, request.subject);
   for (const std::string& name : arguments.methods) {
     request.methods.push_back(find_design_method(name));

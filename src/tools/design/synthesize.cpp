@@ -20,6 +20,7 @@
 #include "messages/plant_plugins.h"
 #include "tools/design/commands.h"
 #include "tools/design/cross_check.h"
+#include "tools/design/event_time_options.h"
 #include "tools/design/gain_files.h"
 #include "tools/design/run_time_report.h"
 
@@ -31,8 +32,7 @@ struct SynthesizeArguments {
   std::string method;
   std::string objective;
   std::string output;
-  std::optional<double> T1;  // [s]
-  std::optional<double> T2;  // [s]
+  EventTimeArguments times;
   std::vector<std::string> assignments;
   std::vector<std::string> searched;
   unsigned jobs = default_jobs();
@@ -61,17 +61,10 @@ DesignProblem read_problem(const SynthesizeArguments& arguments, const DesignCon
                            const DesignMethod* method) {
   DesignProblem problem;
   problem.subject = config.subject;
-  if (arguments.T1) problem.subject.T1 = *arguments.T1;
-  if (arguments.T2) problem.subject.T2 = *arguments.T2;
+  take_event_times(arguments.times, problem.subject);
   if (problem.subject.T2 <= 0.0) {
     throw DesignError("the times between samples are missing: give --T2, or design/sampling in " +
                       arguments.files.front());
-  }
-  if (problem.subject.T1 > problem.subject.T2) {
-    char text[96];
-    std::snprintf(text, sizeof text, "T1 = %.9g s is larger than T2 = %.9g s", problem.subject.T1,
-                  problem.subject.T2);
-    throw DesignError(text);
   }
   problem.given = parameters_for(method, problem.subject, config.parameters);
   for (const std::string& assignment : arguments.assignments) assign(assignment, problem.given);
@@ -244,10 +237,7 @@ void add_synthesize(CommandLine& tool, const std::string& command_line) {
               "What to look for (default: min-final-error, or feasible where that is not for the "
               "method)")
       .choices({"min-final-error", "feasible", "min-gamma", "max-T2", "max-decay"});
-  command.option("--T1 SECONDS", arguments->T1, "Instead of design/sampling/T1 [s]")
-      .check(number_above(0));
-  command.option("--T2 SECONDS", arguments->T2, "Instead of design/sampling/T2 [s]")
-      .check(number_above(0));
+  add_event_times(command, "design/sampling", arguments->times);
   command.option("--set NAME=NUMBER...", arguments->assignments,
                  "Fix a parameter of the method; may be given several times");
   command.option(

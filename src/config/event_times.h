@@ -1,0 +1,23 @@
+#pragma once
+
+#include <optional>
+
+#include "certificate/certificate.h"
+#include "sampled_data_observers/config/config_section.h"
+
+namespace sampled_data_observers {
+
+/// T2 of a section that says which times between events there are [s]: a number from `least` to
+/// 1e6, or `.inf` for no longest time, ∞.
+/// @throws ConfigError for anything else
+double read_longest_time(ConfigSection& section, double least);
+
+/// The section average_dwell_time or reverse_average_dwell_time; none where neither is there.
+/// @throws ConfigError for both, and for values that are none
+std::optional<DwellTime> read_dwell_time(ConfigSection& section);
+
+/// T1 and T2, or a dwell time, of a section that says which times between events there are.
+/// @throws ConfigError where T1 > T2, and for both
+void read_event_times(ConfigSection& section, CertificateSubject& subject);
+
+}  // namespace sampled_data_observers

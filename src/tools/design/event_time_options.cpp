@@ -1,0 +1,74 @@
+#include "tools/design/event_time_options.h"
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <limits>
+
+#include "console/option_checks.h"
+#include "design/request_error.h"
+
+namespace sampled_data_observers {
+namespace {
+
+DwellTime dwell_time_of(DwellTime::Kind kind, const std::array<double, 2>& values) {
+  const auto [tau, N0] = values;
+  if (tau > 0.0 && N0 >= 1.0 && N0 == std::floor(N0)) return {kind, tau, N0};
+  throw RequestError("a dwell time: expected TAU > 0 [s] and a whole number N0 >= 1");
+}
+
+}  // namespace
+
+void add_event_times(CommandLine& command, const std::string& source,
+                     EventTimeArguments& arguments) {
+  command
+      .option("--T1 SECONDS", arguments.T1,
+              "Shortest time between events, instead of " + source + "'s [s]; 0 for any")
+      .check(number_at_least(0));
+  command
+      .option("--T2 SECONDS", arguments.T2,
+              "Longest time between events, instead of " + source + "'s [s]; inf for none")
+      .check(number_above_or_infinite(0));
+  command
+      .option("--average-dwell-time TAU N0", arguments.average_dwell_time,
+              "Instead of both: at most t / TAU + N0 jumps within any time t [s]")
+      .check(any_number());
+  command
+      .option("--reverse-average-dwell-time TAU N0", arguments.reverse_average_dwell_time,
+              "Instead of both: at least t / TAU - N0 jumps within any time t [s]")
+      .check(any_number());
+}
+
+void take_event_times(const EventTimeArguments& arguments, CertificateSubject& subject) {
+  const bool has_dwell_time = arguments.average_dwell_time || arguments.reverse_average_dwell_time;
+  const bool has_bounds = arguments.T1 || !arguments.T2.empty();
+  if ((has_dwell_time && has_bounds) ||
+      (arguments.average_dwell_time && arguments.reverse_average_dwell_time)) {
+    throw RequestError(
+        "expected one of --T1 and --T2, --average-dwell-time and --reverse-average-dwell-time, "
+        "found several");
+  }
+  if (has_bounds && subject.dwell_time) {
+    subject.dwell_time.reset();
+    subject.T2 = 0.0;
+  }
+  if (arguments.T1) subject.T1 = *arguments.T1;
+  if (!arguments.T2.empty()) subject.T2 = std::strtod(arguments.T2.c_str(), nullptr);
+  if (has_dwell_time) {
+    subject.T1 = 0.0;
+    subject.T2 = std::numeric_limits<double>::infinity();
+    subject.dwell_time =
+        arguments.average_dwell_time
+            ? dwell_time_of(DwellTime::Kind::kAverage, *arguments.average_dwell_time)
+            : dwell_time_of(DwellTime::Kind::kReverseAverage,
+                            *arguments.reverse_average_dwell_time);
+  }
+  if (subject.T2 > 0.0 && subject.T1 > subject.T2) {
+    char text[96];
+    std::snprintf(text, sizeof text, "T1 = %.9g s is larger than T2 = %.9g s", subject.T1,
+                  subject.T2);
+    throw RequestError(text);
+  }
+}
+
+}  // namespace sampled_data_observers
