@@ -1,9 +1,12 @@
 #include "sampled_data_observers/real_time/deadline_thread.h"
 
 #include <ctime>
+#include <future>
 #include <mutex>
 #include <system_error>
 #include <utility>
+
+#include "real_time/short_slices.h"
 
 namespace sampled_data_observers {
 
@@ -14,7 +17,13 @@ DeadlineThread::DeadlineThread(Task task, const std::string& name) : task_(std::
   pthread_condattr_setclock(&attributes, CLOCK_MONOTONIC);
   pthread_cond_init(&changed_, &attributes);
   pthread_condattr_destroy(&attributes);
-  thread_ = std::thread(&DeadlineThread::run, this);
+  std::promise<void> scheduled;
+  thread_ = std::thread([this, &scheduled] {
+    ask_for_short_slices();
+    scheduled.set_value();
+    run();
+  });
+  scheduled.get_future().wait();  // else it might take back a priority that is set at once
   pthread_setname_np(thread_.native_handle(), name.c_str());
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 /// Between two calls: so many laws are kept (Estimator::kEarlierLaws) that samples which are late
 /// by less are used however often somebody calls.
-constexpr std::chrono::milliseconds kPause{100};
+constexpr std::chrono::milliseconds kPause{500};
 
 }  // namespace
 

@@ -8,9 +8,12 @@
 #include <string>
 #include <vector>
 
+#include "real_time/short_slices.h"
+
 namespace sampled_data_observers {
 
 int run_node_twin(const char* type, const char* node_name, int argc, char** argv) {
+  ask_for_short_slices();  // before roscpp starts its threads
   ros::init(argc, argv, node_name);
   try {
     nodelet::Loader loader(false);

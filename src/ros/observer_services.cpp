@@ -1,5 +1,7 @@
 #include "sampled_data_observers/ros/observer_services.h"
 
+#include <boost/function.hpp>
+#include <thread>
 #include <utility>
 
 #include "messages/runtime_messages.h"
@@ -12,15 +14,22 @@ namespace sampled_data_observers {
 ObserverServices::ObserverServices(const ros::NodeHandle& handle, SharedRuntime& runtime,
                                    GainReloader& gains, NodeLog log)
     : runtime_(runtime), gains_(gains), log_(std::move(log)) {
-  ros::NodeHandle advertiser(handle);
-  const auto advertise = [&](const char* service, auto method) {
-    servers_.push_back(advertiser.advertiseService(service, method, this));
+  advertise(handle, "reset", &ObserverServices::reset);
+  advertise(handle, "get_estimate", &ObserverServices::get_estimate);
+  advertise(handle, "reload_gains", &ObserverServices::reload_gains);
+  advertise(handle, "set_enabled", &ObserverServices::set_enabled);
+  advertise(handle, "enable_sensor", &ObserverServices::enable_sensor);
+}
+
+template <typename Request, typename Response>
+void ObserverServices::advertise(ros::NodeHandle handle, const char* service,
+                                 bool (ObserverServices::*serve)(Request&, Response&)) {
+  const boost::function<bool(Request&, Response&)> paced = [this, serve](Request& request,
+                                                                         Response& response) {
+    std::this_thread::sleep_until(pace_.turn(CallPace::Clock::now()));
+    return (this->*serve)(request, response);
   };
-  advertise("reset", &ObserverServices::reset);
-  advertise("get_estimate", &ObserverServices::get_estimate);
-  advertise("reload_gains", &ObserverServices::reload_gains);
-  advertise("set_enabled", &ObserverServices::set_enabled);
-  advertise("enable_sensor", &ObserverServices::enable_sensor);
+  servers_.push_back(handle.advertiseService(service, paced));
 }
 
 std::vector<std::string> ObserverServices::names() const {

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "sampled_data_observers/ros/call_pace.h"
 #include "sampled_data_observers/ros/gain_reloader.h"
 #include "sampled_data_observers/ros/node_log.h"
 #include "sampled_data_observers/ros/one_at_a_time.h"
@@ -19,7 +20,8 @@
 
 namespace sampled_data_observers {
 
-/// The services of a live observer. They may be called on any thread, several at a time.
+/// The services of a live observer. They may be called on any thread, several at a time; together
+/// they answer at the pace of CallPace.
 class ObserverServices {
  public:
   /// Advertises them.
@@ -37,6 +39,9 @@ class ObserverServices {
   void stop() { is_stopping_ = true; }
 
  private:
+  template <typename Request, typename Response>
+  void advertise(ros::NodeHandle handle, const char* service,
+                 bool (ObserverServices::*serve)(Request&, Response&));
   std::string compute_estimate(const ros::Time& at, StateEstimate& message);
   bool reset(Reset::Request& request, Reset::Response& response);
   bool get_estimate(GetEstimate::Request& request, GetEstimate::Response& response);
@@ -48,6 +53,7 @@ class ObserverServices {
   GainReloader& gains_;
   const NodeLog log_;
   std::atomic<bool> is_stopping_{false};
+  CallPace pace_;
   OneAtATime queries_;
   std::vector<ros::ServiceServer> servers_;
 };
