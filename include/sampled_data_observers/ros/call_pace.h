@@ -11,6 +11,7 @@ namespace sampled_data_observers {
 /// is not taken from estimates. A few calls in a row go through at once.
 class CallPace {
  public:
+  /// Of the turns.
   using Clock = std::chrono::steady_clock;
 
   /// When a call that came at `now` is to be answered: once 50 ms from the call before in the long
