@@ -71,6 +71,7 @@ void require_subject(const Theorem& theorem, const CertificateSubject& subject) 
 const std::vector<const Theorem*>& theorems() {
   static const std::vector<const Theorem*> all = {
       &bernard2022_corollary5_2(),
+      &bernard2022_corollary5_2_metric(),
       &bernard2022_equation14(),
       &bernard2022_equation14_average_dwell_time(),
       &bernard2022_equation22(),
@@ -81,7 +82,9 @@ const std::vector<const Theorem*>& theorems() {
       &bernard2022_example7_1(),
       &bernard2022_example7_1_average_dwell_time(),
       &bernard2022_equation49_reverse_average_dwell_time(),
+      &bernard2022_section7_3_1(),
       &bernard2022_section7_3_2(),
+      &bernard2022_section7_3_2_metric(),
       &etienne2019_proposition1(),
       &etienne2019_proposition2(),
       &etienne2019_proposition2_channels(),

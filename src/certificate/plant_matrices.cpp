@@ -54,6 +54,10 @@ Eigen::MatrixXd jump_of(const ModeMatrices& mode) {
                   : Eigen::MatrixXd(Eigen::MatrixXd::Identity(mode.A.rows(), mode.A.rows()));
 }
 
+const Eigen::MatrixXd& output_at_switches(const ModeMatrices& mode) {
+  return mode.C_d.rows() > 0 ? mode.C_d : mode.C_c;
+}
+
 bool PlantMatrices::jumps() const {
   return std::any_of(modes.begin(), modes.end(),
                      [](const ModeMatrices& mode) { return mode.A_d.has_value(); });

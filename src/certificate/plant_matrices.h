@@ -25,6 +25,9 @@ std::string of_mode(const std::string& symbol, const ModeMatrices& mode);
 /// n x n: A_d, or the identity for a mode without jump map.
 Eigen::MatrixXd jump_of(const ModeMatrices& mode);
 
+/// What a mode shows at a switch: C_d, or C_c where nothing is measured at jumps.
+const Eigen::MatrixXd& output_at_switches(const ModeMatrices& mode);
+
 /// Maps of the observer's error e = x − x̂ that a design states, ė = A e in flow and e⁺ = A_d e at
 /// jumps before any innovation, each n x n. They stand for maps of the plant that are no matrices:
 /// where the observer takes what is nonlinear from measured outputs (output injection), it cancels

@@ -6,6 +6,7 @@ namespace sampled_data_observers {
 
 // One source file each, or each family.
 const Theorem& bernard2022_corollary5_2();
+const Theorem& bernard2022_corollary5_2_metric();
 const Theorem& bernard2022_equation14();
 const Theorem& bernard2022_equation14_average_dwell_time();
 const Theorem& bernard2022_equation22();
@@ -16,7 +17,9 @@ const Theorem& bernard2022_equation49_reverse_average_dwell_time();
 const Theorem& bernard2022_example4_2();
 const Theorem& bernard2022_example7_1();
 const Theorem& bernard2022_example7_1_average_dwell_time();
+const Theorem& bernard2022_section7_3_1();
 const Theorem& bernard2022_section7_3_2();
+const Theorem& bernard2022_section7_3_2_metric();
 const Theorem& etienne2019_proposition1();
 const Theorem& etienne2019_proposition2();
 const Theorem& etienne2019_proposition2_channels();

@@ -35,7 +35,10 @@ class Unscaling {
     if (base == "chi") {
       return value * (level_ / (time * scaling_.nonlinearity * scaling_.nonlinearity));
     }
-    if (base == "P" || base == "P1") return form_of_state(level_, value);
+    if (base == "P" || base == "P1" || base == "Q" || base == "metric" || base == "projection") {
+      return form_of_state(level_, value);
+    }
+    if (base == "S") return form_of_output_at_switches(value);
     if (base == "P2") return level_ * (from_y_.asDiagonal() * value * from_y_.asDiagonal());
     if (base == "L") return gain(acts_at_samples ? 1.0 : time, value, scaling_.output);
     if (base == "L_c") return gain(time, value, scaling_.continuous_output);
@@ -61,6 +64,13 @@ class Unscaling {
 
   Eigen::MatrixXd form_of_state(double factor, const Eigen::MatrixXd& value) const {
     return factor * (from_x_.asDiagonal() * value * from_x_.asDiagonal());
+  }
+
+  Eigen::MatrixXd form_of_output_at_switches(const Eigen::MatrixXd& value) const {
+    const bool is_at_jumps = scaling_.jump_output.size() > 0;
+    const Eigen::VectorXd from_y =
+        (is_at_jumps ? scaling_.jump_output : scaling_.continuous_output).cwiseInverse();
+    return level_ * (from_y.asDiagonal() * value * from_y.asDiagonal());
   }
 
   Eigen::MatrixXd gain(double time, const Eigen::MatrixXd& value,

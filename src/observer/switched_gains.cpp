@@ -1,8 +1,10 @@
 #include "observer/switched_gains.h"
 
 #include <optional>
+#include <stdexcept>
 #include <string>
 
+#include "linear_algebra/definite_matrix.h"
 #include "linear_algebra/matrix_functions.h"
 #include "observer/gain_requirement.h"
 #include "sampled_data_observers/observer/gain_check.h"
@@ -47,20 +49,26 @@ void check_switched_gains(const SwitchedGains& gains, const Plant& plant) {
   require_of_gains(plant.switches(), "the plant must have several modes (plant/modes)");
   require_of_gains(plant.is_affine(), "all modes of the plant must be affine");
   const std::size_t modes = plant.modes().size();
+  const bool corrects_jumps = !gains.L_d.empty() || !gains.metrics.empty();
   const auto fits = [modes](std::size_t size) { return size == 0 || size == modes; };
-  require_of_gains(fits(gains.L_c.size()) && fits(gains.L_d.size()) && fits(gains.P.size()),
+  require_of_gains(fits(gains.L_c.size()) && fits(gains.L_d.size()) && fits(gains.P.size()) &&
+                       fits(gains.metrics.size()),
                    "one gain per mode of the plant");
-  require_of_gains(!gains.L_c.empty() || !gains.L_d.empty() || !gains.P.empty(),
-                   "at least one of L_c, L_d and projection");
+  require_of_gains(!gains.L_c.empty() || corrects_jumps || !gains.P.empty(),
+                   "at least one of L_c, L_d, metric and projection");
+  require_of_gains(gains.L_d.empty() || gains.metrics.empty(),
+                   "one of L_d and metric, which stands for an L_d");
   const bool continuous = plant.outputs(SensorTiming::kContinuous) > 0;
   const bool at_jumps = plant.outputs(SensorTiming::kAtJumps) > 0;
   require_of_gains(gains.L_c.empty() || continuous,
                    "L_c needs a sensor that is measured continuously");
   require_of_gains(gains.L_d.empty() || at_jumps, "L_d needs a sensor that is measured at jumps");
+  require_of_gains(gains.metrics.empty() || at_jumps,
+                   "metric needs a sensor that is measured at jumps");
   require_of_gains(!continuous || !gains.L_c.empty() || !gains.P.empty(),
                    "sensors that are measured continuously need L_c or projection");
-  require_of_gains(!at_jumps || !gains.L_d.empty() || !gains.P.empty(),
-                   "sensors that are measured at jumps need L_d or projection");
+  require_of_gains(!at_jumps || corrects_jumps || !gains.P.empty(),
+                   "sensors that are measured at jumps need L_d, metric or projection");
   for (const std::vector<Eigen::MatrixXd>& L_c : gains.L_c) {
     check_gains("L_c", L_c, plant, SensorTiming::kContinuous);
   }
@@ -74,6 +82,26 @@ void check_switched_gains(const SwitchedGains& gains, const Plant& plant) {
           "L_d of sensor '" + sensor.name + "': one row per state, one column per output");
     }
   }
+}
+
+std::vector<MetricGain> make_metric_gains(SwitchedGains& gains, const Plant& plant) {
+  check_switched_gains(gains, plant);
+  std::vector<MetricGain> all;
+  const Eigen::Index n = plant.states();
+  for (std::size_t mode = 0; mode < gains.metrics.size(); ++mode) {
+    const PlantMode& of_plant = plant.modes()[mode];
+    const std::string where = " of mode " + std::to_string(of_plant.label);
+    gains.metrics[mode] = checked_positive_definite("metric" + where, gains.metrics[mode], n);
+    const Eigen::MatrixXd A_d = of_plant.jump ? of_plant.jump->affine()->M()
+                                              : Eigen::MatrixXd(Eigen::MatrixXd::Identity(n, n));
+    try {
+      all.emplace_back(of_plant.flow->affine()->M(), A_d,
+                       plant.stacked_outputs(mode, SensorTiming::kAtJumps), gains.metrics[mode]);
+    } catch (const std::invalid_argument& fault) {
+      throw std::invalid_argument("metric" + where + ": " + fault.what());
+    }
+  }
+  return all;
 }
 
 std::vector<Projection> make_projections(const SwitchedGains& gains, const Plant& plant) {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "observer/metric_gain.h"
 #include "sampled_data_observers/plant/plant.h"
 
 namespace sampled_data_observers {
@@ -17,6 +18,9 @@ struct SwitchedGains {
   /// Jump-based: per mode one map of τ [s] per sensor to the n x m_i entries of L_d(τ), row by row;
   /// of sensors that do not measure at jumps, null.
   std::vector<std::vector<std::shared_ptr<const VectorMap>>> L_d;
+  /// Jump-based, in place of L_d: per mode the metric P_q (n x n) from which L_d(τ) follows
+  /// (MetricGain).
+  std::vector<Eigen::MatrixXd> metrics;
   /// Projection: the metric P_q (n x n) of the modes that have one.
   std::vector<std::optional<Eigen::MatrixXd>> P;
 };
@@ -24,6 +28,11 @@ struct SwitchedGains {
 /// @throws std::invalid_argument for a plant without modes or with one that is not affine, gains
 /// that do not fit, and sensors that no gain uses.
 void check_switched_gains(const SwitchedGains& gains, const Plant& plant);
+
+/// The gains of all modes, for the stacked outputs at jumps; none where there are no metrics.
+/// @throws std::invalid_argument for a metric that is not symmetric positive definite, and outputs
+/// of a mode at jumps that are dependent.
+std::vector<MetricGain> make_metric_gains(SwitchedGains& gains, const Plant& plant);
 
 /// P⁻¹ Hᵀ (H P⁻¹ Hᵀ)⁻¹ for the outputs H of one timing; empty where there are none or no metric.
 struct Projection {

@@ -23,8 +23,8 @@ Eigen::MatrixXd constant_gain(const VectorMap& map, Eigen::Index n) {
 
 SwitchedObserver::SwitchedObserver(const ObserverContext& context, SwitchedGains gains)
     : PlantObserver(context, {SensorTiming::kContinuous, SensorTiming::kAtJumps}),
-      gains_(std::move(gains)) {
-  check_switched_gains(gains_, plant());
+      gains_(std::move(gains)),
+      metric_gains_(make_metric_gains(gains_, plant())) {
   projections_ = make_projections(gains_, plant());
   build_flow();
 }
@@ -43,6 +43,7 @@ LawGains SwitchedObserver::gains() const {
       }
       all.add("L_d/" + label, L_d, plant(), SensorTiming::kAtJumps);
     }
+    if (!gains_.metrics.empty()) all.add("metric/" + label, gains_.metrics[mode]);
     if (!gains_.P.empty() && gains_.P[mode]) all.add("projection/" + label, *gains_.P[mode]);
   }
   return all;
@@ -71,6 +72,9 @@ void SwitchedObserver::compute_correction(const Held& held, const JumpOutputs& o
                                           const double* state, double* correction,
                                           double* workspace) const {
   std::fill_n(correction, n(), 0.0);
+  if (!metric_gains_.empty()) {
+    return correct_by_metric(held, outputs, state, correction, workspace);
+  }
   if (gains_.L_d.empty()) return;
   double* innovation = innovation_.of(workspace);
   double* L_d = L_d_.of(workspace);
@@ -87,6 +91,27 @@ void SwitchedObserver::compute_correction(const Held& held, const JumpOutputs& o
       }
     }
   }
+}
+
+Eigen::Index SwitchedObserver::metric_workspace() const {
+  Eigen::Index largest = 0;
+  for (const MetricGain& gain : metric_gains_) largest = std::max(largest, gain.workspace_size());
+  return largest;
+}
+
+void SwitchedObserver::correct_by_metric(const Held& held, const JumpOutputs& outputs,
+                                         const double* state, double* correction,
+                                         double* workspace) const {
+  if (!all_known(outputs)) return;
+  double* innovations = innovations_.of(workspace);
+  for (const std::size_t i : sensors_of(SensorTiming::kAtJumps)) {
+    compute_innovation(plant(), held.mode, i, outputs.of(i), state, held.u,
+                       innovations + output_offset(i));
+  }
+  double* L_d = metric_L_d_.of(workspace);
+  metric_gains_[held.mode].evaluate(static_cast<Duration>(since_jump(state)), L_d,
+                                    metric_workspace_.of(workspace));
+  add_product(L_d, n(), plant().outputs(SensorTiming::kAtJumps), innovations, correction);
 }
 
 bool SwitchedObserver::all_known(const JumpOutputs& outputs) const {

@@ -448,6 +448,71 @@ def bernard2022_section7_3_2(claim):
                            times(mpmath.exp(-2 * jump_decay), P))
 
 
+def metrics(claim, metric_of, next_modes):
+    """Before a jump V is e'Psi e, Psi = e^{-A'tau} P e^{-A tau}; the gain leaves A_d of what is in the
+    null space of the output, of which the next mode's V must be less than e^{-2 jump_decay} of it."""
+    n = claim.states
+    jump_decay = claim.value("jump_decay")
+    yield times_are_valid(claim, T1_may_be_zero=True)
+    yield Number("jump_decay > 0", jump_decay)
+    yield Fixed("independent outputs", product(claim.C_d, transposed(claim.C_d)))
+    yield Statement("no L_d beside", "L_d" not in claim.gains and "L_c" not in claim.gains)
+    N = null_space(claim.C_d)
+    for mode in claim.modes:
+        P = claim.value(metric_of(mode))
+        yield Fixed(f"P > 0 in mode {mode.label}", P)
+        Z = root_of(P)
+        if Z is None or not N or not N[0]:
+            continue
+        for other in next_modes(mode):
+            after = product(jump_of(mode, n), N)
+            left = products(transposed(after), claim.value(metric_of(other)), after)
+            yield at_times(claim, f"jump from {mode.label} to {other.label}", 1,
+                           times(mpmath.exp(-jump_decay), Z), times(mpf(-1), mode.A), N, left)
+
+
+def bernard2022_corollary5_2_metric(claim):
+    yield from metrics(claim, lambda mode: "metric", lambda mode: claim.modes)
+
+
+def bernard2022_section7_3_2_metric(claim):
+    yield from metrics(claim, lambda mode: f"metric/{mode.label}",
+                       lambda mode: [other for other in claim.modes if other is not mode])
+
+
+def bernard2022_section7_3_1(claim):
+    """(47b) for P = Pi'Q Pi + H'S H, where a switch makes Pi e of e, and Pi depends on the mode's metric.
+
+    That V does not grow at switches needs no numbers but is looked at: V before less V after is
+    H'S H, which is the difference of both as they are computed.
+    """
+    n = claim.states
+    H = claim.C_d or claim.C_c
+    decay, Q = claim.value("decay"), claim.value("Q")
+    yield times_are_valid(claim, T1_may_be_zero=True)
+    yield Number("decay > 0", decay)
+    yield Fixed("Q > 0", Q)
+    projectors, forms = [], []
+    for mode in claim.modes:
+        yield Statement("no jump map", mode.A_d is None or mode.A_d == identity(n))
+        lifted = product(inverse(claim.value(f"projection/{mode.label}")), transposed(H))
+        projector = minus(identity(n), products(lifted, inverse(product(H, lifted)), H))
+        measured = products(transposed(H), claim.value(f"S/{mode.label}"), H)
+        P = plus(products(transposed(projector), Q, projector), measured)
+        flow = minus(mode.A, product(claim.value(f"L_c/{mode.label}"), claim.C_c))
+        yield Fixed(f"P > 0 in mode {mode.label}", P)
+        yield Fixed(f"flow in mode {mode.label}",
+                    minus(times(-2 * decay, P), symmetrized(product(P, flow))))
+        projectors.append(projector)
+        forms.append((P, measured))
+    for projector, (P, measured) in zip(projectors, forms):
+        for after, _ in forms:
+            fall = minus(P, products(transposed(projector), after, projector))
+            error = max(abs(value) for row in minus(fall, measured) for value in row)
+            size = max(abs(value) for row in P for value in row)
+            yield Statement("V falls at switches", bool(error < size * mpf(10) ** -20))
+
+
 OBSERVERS = {
     ferrante2016_theorem1: "ConstantGainObserver",
     ferrante2019_theorem2: "IntersampleInjectionObserver",
@@ -466,11 +531,14 @@ OBSERVERS = {
     bernard2022_equation14_average_dwell_time: "SynchronizedObserver",
     bernard2022_equation22_average_dwell_time: "SynchronizedObserver",
     bernard2022_equation26_reverse_average_dwell_time: "SynchronizedObserver",
+    bernard2022_corollary5_2_metric: "SynchronizedObserver",
     bernard2022_corollary5_2: "SynchronizedObserver",
     bernard2022_example4_2: "HighGainObserver",
     bernard2022_example7_1: "SwitchedObserver",
     bernard2022_example7_1_average_dwell_time: "SwitchedObserver",
     bernard2022_equation49_reverse_average_dwell_time: "SwitchedObserver",
+    bernard2022_section7_3_1: "SwitchedObserver",
+    bernard2022_section7_3_2_metric: "SwitchedObserver",
     bernard2022_section7_3_2: "SwitchedObserver",
 }
 

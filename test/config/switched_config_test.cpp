@@ -43,7 +43,8 @@ TEST(SwitchedConfigTest, EachKindOfGainMayBeMissingButNotAll) {
   EXPECT_EQ("no fault", fault(head + text.substr(at_jumps)));
   EXPECT_EQ("no fault", fault(head + text.substr(projection)));
   const std::string none = fault(text.substr(0, text.find("gains:")) + "gains: {}\n");
-  EXPECT_NE(std::string::npos, none.find("at least one of L_c, L_d and projection")) << none;
+  EXPECT_NE(std::string::npos, none.find("at least one of L_c, L_d, metric and projection"))
+      << none;
 }
 
 TEST(SwitchedConfigTest, ADetectorTellsTheMode) {

@@ -1,17 +1,24 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include "sampled_data_observers/observer/plant_observer.h"
 
 namespace sampled_data_observers {
 
+class MetricGain;
+
 /// The gains of a synchronized observer. Either may be zero: L_c alone makes it flow-based, L_d
 /// alone jump-based.
 struct SynchronizedGains {
   std::vector<Eigen::MatrixXd> L_c;  ///< per sensor that measures continuously, n x m_i
   std::vector<Eigen::MatrixXd> L_d;  ///< per sensor that measures at jumps, n x m_i
+  /// In place of L_d: the metric (n x n) from which a gain L_d(τ) follows that depends on the time
+  /// since the jump before.
+  std::optional<Eigen::MatrixXd> metric = std::nullopt;
   /// Empty: f takes all states from x̂.
   std::vector<OutputInjection> output_injections;
 };
@@ -28,7 +35,9 @@ struct SynchronizedGains {
 /// Innovations of angular outputs are wrapped.
 class SynchronizedObserver : public PlantObserver {
  public:
-  /// @throws std::invalid_argument when a size does not fit the plant.
+  /// @throws std::invalid_argument when a size does not fit the plant, for a metric that is not
+  /// symmetric positive definite, and one for a plant whose flow, jump map or outputs at jumps are
+  /// not linear or whose outputs at jumps are dependent.
   SynchronizedObserver(const ObserverContext& context, SynchronizedGains gains);
 
   LawGains gains() const override;
@@ -40,9 +49,19 @@ class SynchronizedObserver : public PlantObserver {
             double* workspace) const override;
 
  private:
+  Eigen::Index metric_workspace() const;
+  /// correction ← L_d(τ) (y_d − H x̂) with the gain of the metric, where all of y_d is known.
+  void correct_by_metric(const Held& held, const JumpOutputs& outputs, const double* state,
+                         double* correction, double* workspace) const;
+
   SynchronizedGains gains_;
-  VectorSlot x_ = scratch(n());           ///< x̂ with injected outputs
-  VectorSlot correction_ = scratch(n());  ///< of x̂ at a jump
+  std::shared_ptr<const MetricGain> metric_gain_;  ///< null without metric
+  VectorSlot x_ = scratch(n());                    ///< x̂ with injected outputs
+  VectorSlot correction_ = scratch(n());           ///< of x̂ at a jump
+  // Of the gain of a metric.
+  VectorSlot innovations_ = scratch(plant().outputs(SensorTiming::kAtJumps));
+  VectorSlot L_d_ = scratch(n() * plant().outputs(SensorTiming::kAtJumps));
+  VectorSlot metric_workspace_ = scratch(metric_workspace());
 };
 
 }  // namespace sampled_data_observers

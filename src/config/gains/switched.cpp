@@ -57,6 +57,13 @@ SwitchedGains read_switched_gains(ConfigSection& gains, const LawContext& contex
     }
     modes.finish();
   }
+  if (gains.has("metric")) {
+    ConfigSection modes = gains.section("metric");
+    for (const PlantMode& mode : plant.modes()) {
+      result.metrics.push_back(modes.matrix(label_of(mode), plant.states(), plant.states()));
+    }
+    modes.finish();
+  }
   if (gains.has("projection")) {
     ConfigSection modes = gains.section("projection");
     for (const PlantMode& mode : plant.modes()) {

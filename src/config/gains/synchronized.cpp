@@ -19,12 +19,14 @@ std::vector<Eigen::MatrixXd> read_gains(ConfigSection& gains, const std::string&
 
 SynchronizedGains read_synchronized_gains(ConfigSection& gains, const LawContext& context) {
   const Plant& plant = context.plant();
-  if (!gains.has("L_c") && !gains.has("L_d")) {
-    throw ConfigError(gains.origin(), gains.path(), "L_c, L_d or both", "neither");
+  if (!gains.has("L_c") && !gains.has("L_d") && !gains.has("metric")) {
+    throw ConfigError(gains.origin(), gains.path(), "L_c, L_d or both, or metric in place of L_d",
+                      "neither");
   }
   SynchronizedGains result;
   result.L_c = read_gains(gains, "L_c", plant, SensorTiming::kContinuous);
   result.L_d = read_gains(gains, "L_d", plant, SensorTiming::kAtJumps);
+  if (gains.has("metric")) result.metric = gains.matrix("metric", plant.states(), plant.states());
   result.output_injections = read_output_injections(gains, plant);
   return result;
 }
