@@ -169,7 +169,7 @@ class RandomPlant:
             "jumping": ("bernard2022_equation", "bernard2022_example4", "bernard2022_corollary"),
             "switched": ("bernard2022_example7", "bernard2022_section7"),
         }[self.kind]
-        return [name for name in names if name.startswith(papers)]
+        return [name for name in names if name.startswith(papers) and "dwell_time" not in name]
 
     def settings(self, method):
         """What a design can't find itself: the rate of ferrante2019."""
