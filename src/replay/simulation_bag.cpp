@@ -29,7 +29,7 @@ SimulationSummary record_simulation(const Scenario& scenario, const std::string&
     progress.advance_to(static_cast<std::size_t>(simulator.time()));
   }
   bag.finish();
-  summary.jumps = simulator.jumps();
+  summary.jumps = simulator.describe_jumps();
   summary.end = simulator.describe_end();
   return summary;
 }

@@ -13,7 +13,8 @@ namespace sampled_data_observers {
 struct SimulationSummary {
   /// Number of messages by topic.
   std::map<std::string, std::size_t> messages;
-  std::uint64_t jumps = 0;
+  /// How many jumps there were, and what was told of them wrongly, in words.
+  std::string jumps;
   /// Why the simulation ended, in words.
   std::string end;
 };

@@ -105,8 +105,8 @@ void PlantSimulatorNodelet::run() {
     run_by_clock();
   }
   if (!running_) return;
-  NodeLog(getName()).info("the simulation %s; %zu jumps", simulator_->describe_end().c_str(),
-                          static_cast<std::size_t>(simulator_->jumps()));
+  NodeLog(getName()).info("the simulation %s; %s", simulator_->describe_end().c_str(),
+                          simulator_->describe_jumps().c_str());
   pause(0.5);  // lets the last messages reach recorders
   const bool is_own_node = getName() == ros::this_node::getName();
   if (running_ && is_own_node) ros::requestShutdown();

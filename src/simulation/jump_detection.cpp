@@ -7,7 +7,7 @@ namespace sampled_data_observers {
 JumpDetection::JumpDetection(const DetectionFaults& faults, RandomNumbers of_jumps,
                              RandomNumbers of_alarms)
     : faults_(faults), of_jumps_(of_jumps), of_alarms_(of_alarms) {
-  if (faults_.false_rate > 0.0) pass_false_alarm();
+  if (faults_.false_rate > 0.0) await_false_alarm();
 }
 
 std::vector<Duration> JumpDetection::tell() {
@@ -17,10 +17,19 @@ std::vector<Duration> JumpDetection::tell() {
   if (!twice) errors.pop_back();
   if (missed) errors.clear();
   std::sort(errors.begin(), errors.end());
+  if (missed) ++tally_.missed;
+  if (errors.size() > 1) ++tally_.doubled;
+  const auto is_off = [](Duration error) { return error != 0; };
+  if (std::any_of(errors.begin(), errors.end(), is_off)) ++tally_.off;
   return errors;
 }
 
 void JumpDetection::pass_false_alarm() {
+  ++tally_.false_alarms;
+  await_false_alarm();
+}
+
+void JumpDetection::await_false_alarm() {
   // Of a Poisson process; two of one nanosecond would be one, and one later than any scenario ends
   // is none.
   constexpr double kNever = 1e7;  // s

@@ -21,6 +21,16 @@ struct DetectionFaults {
   double false_rate = 0.0;
 };
 
+/// What was told wrongly.
+struct DetectionTally {
+  std::uint64_t missed = 0;
+  std::uint64_t doubled = 0;
+  std::uint64_t off = 0;  ///< told with a stamp that is off, or two
+  std::uint64_t false_alarms = 0;
+
+  bool is_empty() const { return missed + doubled + off + false_alarms == 0; }
+};
+
 /// Decides which jumps are told of, and when.
 class JumpDetection {
  public:
@@ -37,16 +47,21 @@ class JumpDetection {
   /// On to the next such time.
   void pass_false_alarm();
 
+  /// Of the jumps so far, and of the false alarms passed.
+  const DetectionTally& tally() const { return tally_; }
+
   /// A position below `count` by chance, for the present false alarm.
   std::size_t choose(std::size_t count);
 
  private:
+  void await_false_alarm();
   Duration stamp_error() { return of_jumps_.whole(-faults_.stamp_error, faults_.stamp_error); }
 
   DetectionFaults faults_;
   RandomNumbers of_jumps_;
   RandomNumbers of_alarms_;
   std::optional<Duration> false_alarm_;
+  DetectionTally tally_;
 };
 
 }  // namespace sampled_data_observers

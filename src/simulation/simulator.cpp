@@ -263,6 +263,16 @@ std::string Simulator::describe_rest() const {
   return text;
 }
 
+std::string Simulator::describe_jumps() const {
+  std::string text = std::to_string(jumps_) + " jumps";
+  const DetectionTally& tally = detection_.tally();
+  if (tally.is_empty()) return text;
+  return text + ", of which " + std::to_string(tally.missed) + " were not told of, " +
+         std::to_string(tally.doubled) + " twice, " + std::to_string(tally.off) +
+         " with stamps that are off; " + std::to_string(tally.false_alarms) +
+         " told of that never happened";
+}
+
 std::string Simulator::describe_end() const {
   char at[64];
   std::snprintf(at, sizeof(at), "%.9f s", to_seconds(plant_.time()));

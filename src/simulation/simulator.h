@@ -75,6 +75,8 @@ class Simulator {
   /// How far it came since the start [ns].
   Duration time() const { return plant_.time(); }
   std::uint64_t jumps() const { return jumps_; }
+  /// How many jumps there were and, in words, how many of them were told of wrongly.
+  std::string describe_jumps() const;
 
  private:
   /// A sensor that measures on a schedule or at jumps, or a signal.

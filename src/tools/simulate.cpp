@@ -36,8 +36,8 @@ int simulate(const Arguments& arguments) {
   for (const auto& [topic, count] : summary.messages) {
     std::printf("%8zu messages on %s\n", count, topic.c_str());
   }
-  std::printf("%8zu jumps\n%s\nwritten to %s\n", static_cast<std::size_t>(summary.jumps),
-              summary.end.c_str(), arguments.output.c_str());
+  std::printf("%s\n%s\nwritten to %s\n", summary.jumps.c_str(), summary.end.c_str(),
+              arguments.output.c_str());
   return 0;
 }
 

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <set>
+#include <string>
 
 #include "simulation/simulation_support.h"
 #include "simulation/simulator.h"
@@ -98,6 +100,28 @@ TEST(JumpDetectionTest, MissedJumpsAndWhatIsMeasuredAtThemAreNotThere) {
     EXPECT_EQ(jumps[i].stamp, impacts[i].stamp);
   }
   EXPECT_EQ(2000u, run.simulator.jumps());
+}
+
+TEST(JumpDetectionTest, TheEndSaysWhatWasToldWrongly) {
+  EXPECT_EQ("2000 jumps", SimulatedRun("").simulator.describe_jumps());
+  const SimulatedRun run(", missed: 0.2, duplicate: 0.25, stamp_error: 0.005, false_rate: 2");
+  // What was sent is all that was told: twice where it is doubled.
+  const std::string text = run.simulator.describe_jumps();
+  int missed = 0;
+  int doubled = 0;
+  int off = 0;
+  int invented = 0;
+  ASSERT_EQ(4,
+            std::sscanf(text.c_str(),
+                        "2000 jumps, of which %d were not told of, %d twice, %d with stamps that "
+                        "are off; %d told of that never happened",
+                        &missed, &doubled, &off, &invented))
+      << text;
+  EXPECT_EQ(2000 - missed + doubled + invented, static_cast<int>(run.on("jumps").size()));
+  EXPECT_EQ(2000 - missed, off);  // one of 10 million is not, by chance
+  EXPECT_NEAR(400, missed, 100);
+  EXPECT_NEAR(400, doubled, 100);
+  EXPECT_NEAR(400, invented, 100);
 }
 
 TEST(JumpDetectionTest, DuplicatesHaveAStampOfTheirOwn) {
