@@ -128,6 +128,7 @@ void GuaranteedBound::flow(Duration duration, double* state, double* workspace) 
   law().flow(duration, state, workspace);
   if (law().missing_jumps(state) != missing) give_up(state);
   if (law().dwell_violations(state) != violations) give_up(state, BoundLoss::kDwellTimes);
+  if (law().is_at_rest(state)) give_up(state, BoundLoss::kAtRest);
   since_.advance(duration, state);
   since_start_.advance(duration, state);
   since_jump_.advance(duration, state);
@@ -168,6 +169,7 @@ Effect GuaranteedBound::reset(const Event& event, double* state, double* workspa
   const Effect effect = law().reset(event, state, workspace);
   if (law().skipped_jumps(state) > skipped) give_up(state, BoundLoss::kUnknownJump);
   if (law().dwell_violations(state) != violations) give_up(state, BoundLoss::kDwellTimes);
+  if (law().is_at_rest(state)) give_up(state, BoundLoss::kAtRest);
   if (is_jump) note_stamp_of_jump(state, workspace);
   if (!took_effect(effect)) {
     if (is_jump) refuse_jump(state);

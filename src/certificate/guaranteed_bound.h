@@ -19,6 +19,7 @@ namespace sampled_data_observers {
 /// - after an input or a jump that was rejected: an event of kind kRejected says so;
 /// - after jumps that are missing, or were lost as the numbers of others tell, and where the times
 ///   between jumps leave those configured;
+/// - where the estimate is taken to be at rest;
 /// - at a jump whose angular outputs may be wrapped by another number of turns than the error, and
 ///   at such a sample where the law goes on injecting it; elsewhere such a sample moves the
 ///   estimate by what is known, and the bound with it. Which number of turns fits is known where

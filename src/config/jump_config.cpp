@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "config/dwell_times.h"
+#include "config/expression_config.h"
 #include "sampled_data_observers/runtime/estimator.h"
 
 namespace sampled_data_observers {
@@ -12,12 +13,7 @@ constexpr double kLongestTime = 1e6;    // s
 constexpr double kShortestTime = 1e-9;  // s: one tick of the clock
 
 /// One margin for all formulas of a set, or one for each.
-StateSet read_margins(ConfigSection& section, const std::shared_ptr<const VectorMap>& set,
-                      const std::string& set_key) {
-  if (!set) {
-    throw section.error("margin", "plant/" + set_key + " beside it, the formulas that it is about",
-                        "none");
-  }
+StateSet read_margins(ConfigSection& section, const std::shared_ptr<const VectorMap>& set) {
   StateSet result{set, {}};
   if (!section.is_list("margin")) {
     const double margin = section.number_in("margin", 0.0, kLargestValue, std::nullopt);
@@ -30,6 +26,44 @@ StateSet read_margins(ConfigSection& section, const std::shared_ptr<const Vector
                         "a negative one");
   }
   return result;
+}
+
+/// Of a set of the plant's.
+StateSet read_margins(ConfigSection& section, const std::shared_ptr<const VectorMap>& set,
+                      const std::string& set_key) {
+  if (!set) {
+    throw section.error("margin", "plant/" + set_key + " beside it, the formulas that it is about",
+                        "none");
+  }
+  return read_margins(section, set);
+}
+
+RestState read_rest(ConfigSection& jumps, const PlantConfig& plant_config) {
+  const Plant& plant = *plant_config.plant;
+  if (plant.outputs(SensorTiming::kContinuous) > 0) {
+    throw jumps.error("rest",
+                      "no sensor with measured: continuous, which moves the estimate all "
+                      "the time",
+                      "one");
+  }
+  ConfigSection section = jumps.section("rest");
+  const ExpressionReader reader(plant_config.names);
+  RestState rest;
+  rest.set = read_margins(section, reader.read_list(section, "set", 0));
+  ConfigSection states = section.section("state");
+  std::vector<NamedExpression> formulas;
+  for (const std::string& name : plant.state_names()) {
+    formulas.push_back({name, states.has(name) ? states.text(name) : name});
+  }
+  states.finish();
+  try {
+    rest.state = std::make_shared<const ExpressionMap>(plant_config.names,
+                                                       std::vector<NamedExpression>{}, formulas);
+  } catch (const ExpressionError& fault) {
+    throw states.error(fault.name(), "a formula of the states that can be evaluated", fault.what());
+  }
+  section.finish();
+  return rest;
 }
 
 JumpGate read_jump_gate(ConfigSection section, const Plant& plant) {
@@ -63,8 +97,9 @@ MissingJumps read_missing_jumps(ConfigSection section, const Plant& plant, bool 
 
 }  // namespace
 
-TopicSource read_jumps(ConfigSection& root, const Plant& plant, LawLayers& layers,
+TopicSource read_jumps(ConfigSection& root, const PlantConfig& plant_config, LawLayers& layers,
                        Duration& stamp_error) {
+  const Plant& plant = *plant_config.plant;
   ConfigSection section = root.section_or_empty("jumps");
   TopicSource source = read_jump_source(root, section, plant);
   layers.delays_jumps =
@@ -79,6 +114,7 @@ TopicSource read_jumps(ConfigSection& root, const Plant& plant, LawLayers& layer
   if (section.has("missing")) {
     layers.missing = read_missing_jumps(section.section("missing"), plant, layers.delays_jumps);
   }
+  if (section.has("rest")) layers.rest = read_rest(section, plant_config);
   layers.dwell_times = read_dwell_times(section);
   section.finish();
   return source;

@@ -2,8 +2,8 @@
 
 #include "config/law_config.h"
 #include "sampled_data_observers/config/config_section.h"
+#include "sampled_data_observers/config/plant_config.h"
 #include "sampled_data_observers/config/topic_config.h"
-#include "sampled_data_observers/plant/plant.h"
 
 namespace sampled_data_observers {
 
@@ -11,7 +11,7 @@ namespace sampled_data_observers {
 /// the law takes them.
 /// @param stamp_error  set to how much their stamps may be off [ns]
 /// @throws ConfigError for the first fault found.
-TopicSource read_jumps(ConfigSection& root, const Plant& plant, LawLayers& layers,
+TopicSource read_jumps(ConfigSection& root, const PlantConfig& plant, LawLayers& layers,
                        Duration& stamp_error);
 
 }  // namespace sampled_data_observers

@@ -51,6 +51,7 @@ std::shared_ptr<const ObserverLaw> assemble(std::shared_ptr<const ObserverLaw> l
                                             const std::shared_ptr<const Plant>& plant,
                                             LawLayers layers) {
   if (layers.delays_jumps) law = std::make_shared<const DelayedJumps>(law);
+  if (layers.rest) law = std::make_shared<const RestingEstimate>(law, std::move(*layers.rest));
   if (layers.missing) law = std::make_shared<const MissingJumpsWatch>(law, *layers.missing);
   if (layers.jump_limits) {
     law = std::make_shared<const LimitedJumps>(law, *layers.jump_limits);

@@ -100,7 +100,7 @@ ObserverConfig read_observer_config(const ConfigNode& tree, const PlantPluginLoa
   if (plant.inputs() > 0) config.input = read_input_source(root, plant);
   LawLayers layers;
   if (plant.jumps()) {
-    config.jumps = read_jumps(root, plant, layers, config.options.jump_stamp_error);
+    config.jumps = read_jumps(root, plant_config, layers, config.options.jump_stamp_error);
   }
 
   config.static_transforms = read_static_transforms(root);

@@ -92,6 +92,7 @@ void write(const Estimate& estimate, const PublishedBound& bound, const std::str
   message.missing_jumps = static_cast<std::uint64_t>(law.missing_jumps(whole));
   message.skipped_jumps = static_cast<std::uint64_t>(law.skipped_jumps(whole));
   message.dwell_violations = static_cast<std::uint64_t>(law.dwell_violations(whole));
+  message.at_rest = law.is_at_rest(whole) ? 1 : 0;
   message.held = estimate.held ? 1 : 0;
 }
 

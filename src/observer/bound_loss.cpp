@@ -29,6 +29,8 @@ const char* describe(BoundLoss loss) {
     case BoundLoss::kDwellTimes:
       return "the times between jumps were not as jumps/dwell_time, average_dwell_time and "
              "reverse_average_dwell_time say";
+    case BoundLoss::kAtRest:
+      return "the estimate was taken to be at rest (jumps/rest), which the plant's model is not";
   }
   return "";
 }

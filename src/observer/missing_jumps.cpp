@@ -56,6 +56,7 @@ void MissingJumpsWatch::initialize(double* state) const {
   has_double_.set(false, state);
   since_double_.restart(state);
   flowed_.set(0.0, state);
+  double_jumps_.set(0.0, state);
   is_noticed_.set(false, state);
   is_doubted_.set(false, state);
   missing_.set(0.0, state);
@@ -69,33 +70,47 @@ void MissingJumpsWatch::flow(Duration duration, double* state, double* workspace
 }
 
 void MissingJumpsWatch::flow_step_of(Duration duration, double* state, double* workspace) const {
+  if (has_double_.of(state)) flow_double(duration, state, workspace);
   before_.set(state, workspace);
   law().flow(duration, state, workspace);
   since_double_.advance(duration, state);
-  if (has_double_.of(state)) {
-    law().flow(duration, double_.of(state), workspace);
-    flowed_.set(flowed_.of(state) + static_cast<double>(duration), state);
-  }
   if (is_doubted_.of(state)) return;
-  if (is_inside(state, workspace)) {
+  if (law().is_at_rest(state) || is_inside(state, workspace)) {
     has_double_.set(false, state);
     is_noticed_.set(false, state);
     return;
   }
   const bool predicts = options_.action == MissingJumps::Action::kPredict;
   if (predicts && !has_double_.of(state) && leaves_further(state, workspace)) {
-    has_double_.set(make_double(duration, state, workspace), state);
+    has_double_.set(jump_where_it_left(duration, double_.of(state), workspace), state);
     since_double_.restart(state);
     flowed_.set(0.0, state);
+    double_jumps_.set(1.0, state);
   }
   if (is_within_margin(state, workspace)) return;
-  if (!is_noticed_.of(state)) missing_.set(missing_.of(state) + 1.0, state);
   const bool is_made_up = has_double_.of(state);
+  const double jumps = is_made_up ? double_jumps_.of(state) : 1.0;
+  if (!is_noticed_.of(state)) missing_.set(missing_.of(state) + jumps, state);
   if (is_made_up) {
     std::copy_n(double_.of(state), double_.size(), state);
     has_double_.set(false, state);
   }
   is_noticed_.set(!is_made_up, state);
+}
+
+void MissingJumpsWatch::flow_double(Duration duration, double* state, double* workspace) const {
+  double* twin = double_.of(state);
+  before_.set(twin, workspace);
+  law().flow(duration, twin, workspace);
+  flowed_.set(flowed_.of(state) + static_cast<double>(duration), state);
+  const bool jumps_on = law().can_rest() && !law().is_at_rest(twin) &&
+                        !is_inside(twin, workspace) && leaves_further(twin, workspace);
+  if (!jumps_on) return;
+  if (jump_where_it_left(duration, twin, workspace)) {
+    double_jumps_.set(double_jumps_.of(state) + 1.0, state);
+  } else {
+    has_double_.set(false, state);
+  }
 }
 
 /// Whether the estimate was inside the flow set before the last step, or nearer to it. What comes
@@ -107,10 +122,10 @@ bool MissingJumpsWatch::leaves_further(const double* state, double* workspace) c
   return excess <= 0.0 || !(flow_set_.excess(state, observer().held_part(state), values) < excess);
 }
 
-/// Sets the double to the estimate of before the last step, which jumps as soon as it is outside
-/// the flow set, and goes on to the end of the step. Returns whether it could.
-bool MissingJumpsWatch::make_double(Duration duration, double* state, double* workspace) const {
-  double* jumped = double_.of(state);
+/// Sets `jumped` to the state of before the last step, which jumps as soon as it is outside the
+/// flow set, and goes on to the end of the step. Returns whether it could.
+bool MissingJumpsWatch::jump_where_it_left(Duration duration, double* jumped,
+                                           double* workspace) const {
   const Duration leaves_after = time_of_leaving(duration, jumped, workspace);
   const Effect effect = law().reset(jump_without_outputs(), jumped, workspace);
   law().flow(duration - leaves_after, jumped, workspace);

@@ -28,7 +28,9 @@ struct MissingJumps {
 ///
 /// With Action::kPredict the estimate has a double from the time on at which it leaves the set
 /// itself: one that jumped then. Both take all events. When the event of a jump comes, the double
-/// goes; when the estimate is beyond the margin, the double takes its place. What is seen depends
+/// goes; when the estimate is beyond the margin, the double takes its place. Where estimates may
+/// come to rest (RestingEstimate), the double jumps on, once a step, until it does; nothing is
+/// missing while the estimate is at rest. What is seen depends
 /// on the events alone, however flows are divided. No gate or limit of jumps may be within: they
 /// are about jumps that are told.
 ///
@@ -49,8 +51,9 @@ class MissingJumpsWatch : public LawDecorator, private JumpWatch {
   double missing_jumps(const double* state) const override { return missing_.of(state); }
 
   void flow_step_of(Duration duration, double* state, double* workspace) const;
+  void flow_double(Duration duration, double* state, double* workspace) const;
   bool leaves_further(const double* state, double* workspace) const;
-  bool make_double(Duration duration, double* state, double* workspace) const;
+  bool jump_where_it_left(Duration duration, double* jumped, double* workspace) const;
   Duration time_of_leaving(Duration duration, double* trial, double* workspace) const;
   void forget_where_held(double* state) const;
   bool is_inside(const double* state, double* workspace) const;
@@ -67,6 +70,7 @@ class MissingJumpsWatch : public LawDecorator, private JumpWatch {
   /// were held meanwhile.
   TimerSlot since_double_ = state_layout().timer();
   NumberSlot flowed_ = state_layout().number();
+  NumberSlot double_jumps_ = state_layout().number();  ///< that it made
   FlagSlot is_noticed_ = state_layout().flag();
   FlagSlot is_doubted_ = state_layout().flag();
   NumberSlot missing_ = state_layout().number();

@@ -299,6 +299,13 @@ TEST(BoundRecoveryTest, JumpsAtOtherTimesThanConfiguredTakeTheBoundAway) {
   EXPECT_EQ(BoundLoss::kDwellTimes, many.loss_at(1.4));
 }
 
+TEST(BoundRecoveryTest, AnEstimateThatIsTakenToBeAtRestHasNone) {
+  NumberedRun run("{rest: {set: [x1], margin: 1000, state: {x1: 0}}}");
+  run.jump(0.5, 1);
+  EXPECT_EQ(BoundLoss::kNone, run.loss_at(0.4));
+  EXPECT_EQ(BoundLoss::kAtRest, run.loss_at(0.6));
+}
+
 TEST(BoundRecoveryTest, AJumpThatIsRefusedMayHaveBeenOneOrNot) {
   for (const bool is_real : {false, true}) {
     const ObserverConfig config = CertifiedGains(kImpulsive)

@@ -130,6 +130,29 @@ TEST(MistakenBounces, WhatIsMadeUpAndRefusedIsTheSameHoweverLateTheEventsAre) {
   EXPECT_TRUE(are_same(at_once, late));
 }
 
+// Nobody tells of the bounces from the ninth on. They end at 7.97 s.
+TEST(MistakenBounces, ARestingEstimateLiesStillBehindTheLastBounce) {
+  Example example("bernard2022_bouncing_ball", "gains_kalman_jitter.yaml");
+  example.tell([](ToldJumps& jumps) {
+    for (std::size_t k = 8; k < 30; ++k) jumps.drop(k);
+  });
+  const ExampleRun guarded = example.run("scenario_noisy.yaml", "observer_guarded.yaml");
+  const ExampleRun resting = example.run("scenario_noisy.yaml", "observer_resting.yaml");
+  EXPECT_GT(guarded.error.from(8.0).median(), 0.2);
+  // It falls through the ground by the margin until each of them is made up.
+  EXPECT_LT(resting.error.component(0).from(6.5).max(), 0.35);
+  EXPECT_EQ(0.0, resting.error.from(8.0).max());
+}
+
+TEST(MistakenBounces, ARestingEstimateIsTheGuardedOneUntilItRests) {
+  const Recovery guarded = ball("gains_kalman_jitter.yaml", "observer_guarded.yaml");
+  const Recovery resting = ball("gains_kalman_jitter.yaml", "observer_resting.yaml");
+  for (std::size_t i = 0; i < guarded.truthful().estimate.size(); ++i) {
+    if (guarded.truthful().estimate.time(i) > 7.0) break;
+    ASSERT_EQ(guarded.truthful().estimate.value(i), resting.truthful().estimate.value(i));
+  }
+}
+
 /// Its error is below 1e-4 m before the tenth jump, at about 37 s.
 Recovery impulsive(const std::string& gains) {
   return {Example("bernard2022_impulsive", gains), 30 * kMillisecond, "observer.yaml"};

@@ -20,6 +20,7 @@
 #include "observer/missing_jumps.h"
 #include "observer/numbered_jumps.h"
 #include "observer/possible_jumps.h"
+#include "observer/resting_estimate.h"
 #include "support/long_tests.h"
 #include "support/stamps.h"
 #include "support/type_examples.h"
@@ -81,6 +82,7 @@ struct Tally {
   std::size_t repeated = 0;
   std::size_t taken_back = 0;
   std::size_t skipped = 0;
+  std::size_t at_rest = 0;
   std::size_t ill_timed = 0;
   std::size_t made_up = 0;
   std::size_t overflowing = 0;
@@ -138,6 +140,9 @@ class ArrivalOrderTest : public ::testing::TestWithParam<std::string> {
       law = {config_.law, &config_.law->observer()};
       if (config_.plant->jumps()) {
         if (in_one_of(2)) law = std::make_shared<const DelayedJumps>(law);
+        if (in_one_of(2) && config_.plant->outputs(SensorTiming::kContinuous) == 0) {
+          law = std::make_shared<const RestingEstimate>(law, any_rest());
+        }
         if (in_one_of(2)) law = std::make_shared<const MissingJumpsWatch>(law, any_watch(*law));
         const double most = any(3) == 0 ? 2.0 : 100.0;
         const JumpLimits limits{in_one_of(2) ? 0 : kSpan / 5, most};
@@ -159,6 +164,12 @@ class ArrivalOrderTest : public ::testing::TestWithParam<std::string> {
     Eigen::MatrixXd first = Eigen::MatrixXd::Zero(1, config_.plant->states());
     first(0, 0) = in_one_of(2) ? 1.0 : -1.0;
     return {std::make_shared<const AffineMap>(first), Eigen::VectorXd::Constant(1, 0.1 * any(5))};
+  }
+
+  RestState any_rest() {
+    const Eigen::MatrixXd half =
+        0.5 * Eigen::MatrixXd::Identity(config_.plant->states(), config_.plant->states());
+    return {any_set(), std::make_shared<const AffineMap>(half)};
   }
 
   DwellTimes any_dwell_times() {
@@ -262,6 +273,7 @@ class ArrivalOrderTest : public ::testing::TestWithParam<std::string> {
       if (query == Timeline::Query::kHeld) ++tally_.held;
       if (std::isfinite(law_->error_bound(found.state.data()))) ++tally_.bounded;
       if (law_->missing_jumps(found.state.data()) > 0.0) ++tally_.made_up;
+      if (law_->is_at_rest(found.state.data())) ++tally_.at_rest;
       if (law_->skipped_jumps(found.state.data()) > 0.0) ++tally_.skipped;
       if (law_->dwell_violations(found.state.data()) > 0.0) ++tally_.ill_timed;
       if (!same_bits(expected.state, found.state) ||
@@ -374,11 +386,11 @@ TEST_P(ArrivalOrderTest, GivesTheSameBits) {
       "%s: %zu sets of events in %zu orders; %zu events used, %zu too old, %zu not finite, "
       "%zu gated, %zu too frequent, %zu not possible, %zu repeated, %zu taken back, %zu would "
       "overflow; of the estimates compared %zu held, %zu with a bound, %zu with missing jumps, "
-      "%zu with lost ones, %zu with some at other times\n",
+      "%zu with lost ones, %zu with some at other times, %zu at rest\n",
       GetParam().c_str(), sets, tally_.orders, tally_.used, tally_.too_old, tally_.not_finite,
       tally_.gated, tally_.too_frequent, tally_.not_possible, tally_.repeated, tally_.taken_back,
       tally_.overflowing, tally_.held, tally_.bounded, tally_.made_up, tally_.skipped,
-      tally_.ill_timed);
+      tally_.ill_timed, tally_.at_rest);
 }
 
 INSTANTIATE_TEST_SUITE_P(EverySubject, ArrivalOrderTest, ::testing::ValuesIn(subjects()),

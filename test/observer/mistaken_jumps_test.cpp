@@ -10,6 +10,7 @@
 
 #include "sampled_data_observers/config/observer_config.h"
 #include "sampled_data_observers/config/yaml_file.h"
+#include "support/config_faults.h"
 #include "support/random_events.h"
 #include "support/stamps.h"
 
@@ -40,6 +41,12 @@ const char kGate[] = "jumps: {gate: {margin: [0.6, 1], recovery: {after: 2}}}";
 const char kPredict[] =
     "jumps: {gate: {margin: [0.6, 1], recovery: {after: 2}}, "
     "missing: {margin: 0.6, action: predict}}";
+
+const char kRest[] =
+    "jumps: {gate: {margin: [0.6, 1], recovery: {after: 2}}, "
+    "missing: {margin: 0.6, action: predict}, "
+    "rest: {set: [height, -height, velocity, -velocity], margin: [0.1, 0.1, 0.3, 0.3], "
+    "state: {height: 0, velocity: 0}}}";
 
 /// A ball dropped from 5 m at kStart, and its bounces until 7 s.
 class Ball {
@@ -123,6 +130,10 @@ class MistakenJumpsTest : public ::testing::Test {
     double missing_at(Stamp stamp) {
       at(stamp);
       return estimate_.law->missing_jumps(estimate_.state.data());
+    }
+    bool is_at_rest(Stamp stamp) {
+      at(stamp);
+      return estimate_.law->is_at_rest(estimate_.state.data());
     }
     std::ptrdiff_t count(EventOutcome outcome) const {
       return std::count(outcomes.begin(), outcomes.end(), outcome);
@@ -291,6 +302,81 @@ TEST_F(MistakenJumpsTest, BehindTheLastBounceTheBallRests) {
   EXPECT_LT(std::abs(run.at(kStart + 9 * kSecond + kSecond / 2)(0)), 0.65);
 }
 
+TEST_F(MistakenJumpsTest, WithAStateAtRestItLiesOnTheFloorUntilItIsFoundElsewhere) {
+  std::vector<OwnedEvent> events = bounces();
+  const std::size_t told = 5;
+  const Stamp first_untold = events[told].stamp;
+  events.resize(told);
+  const auto after = [](double seconds) { return kStart + from_seconds(seconds); };
+  Run run(configure(kRest), events);
+  // It bounces on with the ball, once it is noticed that a bounce was not told.
+  EXPECT_LT(largest_error(run, to_seconds(first_untold - kStart) + 0.4, 6.9), 1e-5);
+  // After a bounce at less than 0.3 m/s, some 0.3 s before the last one at 9.08 s.
+  EXPECT_FALSE(run.is_at_rest(after(8.6)));
+  for (const double time : {9.1, 12.0, 90.0}) {
+    EXPECT_TRUE(run.is_at_rest(after(time))) << time;
+    EXPECT_EQ(Eigen::Vector2d::Zero(), run.at(after(time))) << time;
+  }
+  const double missing = run.missing_at(after(90.0));
+  EXPECT_GT(missing, 6.0);
+  EXPECT_LT(missing, 16.0);
+  // Bounces at the floor say that it lies there; one 2 m above does not.
+  events.push_back(bounce(after(10.0)));
+  Run lying(configure(kRest), events);
+  EXPECT_EQ(EventOutcome::kUsed, lying.outcomes.back());
+  EXPECT_EQ(Eigen::Vector2d::Zero(), lying.at(after(12.0)));
+  events.push_back(bounce(after(12.0)));
+  events.back().values = {2.0};
+  Run lifted(configure(kRest), events);
+  EXPECT_FALSE(lifted.is_at_rest(after(12.0)));
+  EXPECT_NEAR(2.0, lifted.at(after(12.0))(0), 1e-9);
+  EXPECT_LT(lifted.at(after(12.2))(0), 1.7);
+}
+
+TEST_F(MistakenJumpsTest, AJumpThatIsToldLeadsToRestAsWell) {
+  const std::string rest =
+      "jumps: {rest: {set: [height, -height, velocity, -velocity], margin: 0.3, "
+      "state: {velocity: 0}}}";
+  std::vector<OwnedEvent> events = bounces();
+  Run falling(configure(rest), events, Eigen::Vector2d(5.0, 0.0));
+  EXPECT_FALSE(falling.is_at_rest(kStart + 6 * kSecond));
+  // A state that is not named stays as it was.
+  events = {bounce(kStart + kSecond / 10)};
+  events.front().values = {0.25};
+  Run run(configure(rest), events, Eigen::Vector2d(0.3, 0.7));
+  EXPECT_TRUE(run.is_at_rest(kStart + kSecond / 10));
+  EXPECT_NEAR(0.25, run.at(kStart + kSecond)(0), 1e-9);
+  EXPECT_EQ(0.0, run.at(kStart + kSecond)(1));
+}
+
+TEST_F(MistakenJumpsTest, FaultsOfRestAreRefused) {
+  const auto fault = [](const std::string& rest, const std::string& change = "{}") {
+    return test::fault_of([&] {
+      read_observer_config(
+          override_with(override_with(read_yaml_text(kBall, "ball.yaml"),
+                                      read_yaml_text("jumps: {rest: " + rest + "}", "jumps.yaml")),
+                        read_yaml_text(change, "change.yaml")),
+          no_plant_plugins);
+    });
+  };
+  const auto names = [](const std::string& message, const char* part) {
+    return message.find(part) != std::string::npos;
+  };
+  EXPECT_EQ("no fault", fault("{set: [height], margin: 0, state: {height: 0}}"));
+  EXPECT_PRED2(names, fault("{set: [height], margin: [0, 1], state: {}}"), "jumps/rest/margin");
+  EXPECT_PRED2(names, fault("{set: [high], margin: 0, state: {}}"), "jumps/rest/set");
+  EXPECT_PRED2(names, fault("{margin: 0, state: {}}"), "jumps/rest/set");
+  EXPECT_PRED2(names, fault("{set: [height], margin: 0}"), "jumps/rest/state");
+  EXPECT_PRED2(names, fault("{set: [height], margin: 0, state: {high: 0}}"), "high");
+  EXPECT_PRED2(names, fault("{set: [height], margin: 0, state: {height: x}}"),
+               "jumps/rest/state/height");
+  EXPECT_PRED2(names,
+               fault("{set: [height], margin: 0, state: {height: 0}}",
+                     "{sensors: {eye: {C: [[1, 0]], measured: continuous, source: {topic: eye}}}, "
+                     "gains: {L_c: [[1], [1]]}}"),
+               "jumps/rest");
+}
+
 TEST_F(MistakenJumpsTest, WhatIsMadeUpNeedsNoLeaveOfTheGate) {
   const ObserverConfig config = configure(
       "plant: {jump_set: [height, -height, velocity]}\n"
@@ -343,7 +429,7 @@ TEST_F(MistakenJumpsTest, EstimatesDoNotDependOnTheOrderOfArrival) {
     events.erase(events.begin() + static_cast<std::ptrdiff_t>(choice(generator)));
     events.push_back(bounce(any(generator), 5));
     events.push_back(bounce(any(generator), 5));
-    const ObserverConfig config = configure(kPredict);
+    const ObserverConfig config = configure(trial % 2 == 0 ? kPredict : kRest);
     Run reference(config, events);
     std::shuffle(events.begin(), events.end(), generator);
     Run shuffled(config, events);

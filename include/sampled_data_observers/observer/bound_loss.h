@@ -16,7 +16,8 @@ enum class BoundLoss : std::uint8_t {
   kStillOnTheirWay,  ///< events before its stamp may still come
   kNearJump,         ///< a jump told near its stamp may have been before or after it
   kUncertainJump,    ///< the time of a jump is not known well enough to bound what it did
-  kDwellTimes        ///< jumps came at other times than those configured
+  kDwellTimes,       ///< jumps came at other times than those configured
+  kAtRest            ///< the estimate was taken to be at rest
 };
 
 /// A guaranteed bound on |x − x̂|, infinite where there is none, and why; NaN without certificate.

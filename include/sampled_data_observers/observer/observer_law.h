@@ -139,6 +139,12 @@ class ObserverLaw : public HybridSystem {
     return dwell_watch_ != nullptr ? dwell_watch_->dwell_check(state) : DwellCheck::kNone;
   }
 
+  /// Whether an estimate may come to rest.
+  bool can_rest() const { return at_rest_.has_value(); }
+
+  /// Whether the estimate of a state is at rest, where it does not flow (see RestingEstimate).
+  bool is_at_rest(const double* state) const { return at_rest_ && at_rest_->of(state); }
+
   /// Whether times between jumps are configured.
   bool watches_dwell_times() const { return dwell_watch_ != nullptr; }
 
@@ -159,6 +165,8 @@ class ObserverLaw : public HybridSystem {
   void set_jump_watch(const JumpWatch* watch) { jump_watch_ = watch; }
   /// To be called where a law counts the jumps that were lost, there.
   void set_skipped_jumps(NumberSlot slot) { skipped_jumps_ = slot; }
+  /// To be called where a law keeps, there, whether its estimate is at rest.
+  void set_at_rest(FlagSlot slot) { at_rest_ = slot; }
   /// To be called where a law watches the times between jumps.
   void set_dwell_watch(const DwellWatch* watch) { dwell_watch_ = watch; }
   /// To be called where a law delays jumps.
@@ -170,6 +178,7 @@ class ObserverLaw : public HybridSystem {
   const JumpWatch* jump_watch_ = nullptr;
   const DwellWatch* dwell_watch_ = nullptr;
   std::optional<NumberSlot> skipped_jumps_;
+  std::optional<FlagSlot> at_rest_;
   bool delays_jumps_ = false;
 };
 
