@@ -53,7 +53,8 @@ class MessageTransformer {
   /// The message in the configured frames at its stamp; null while a transform is not known.
   /// It lives until the next call, or as long as the message.
   /// @pre stamp > 0; `transforms` is not null where the source has frames
-  const M* transform(const M& message, Stamp stamp, const TransformBuffer* transforms) {
+  const M* transform(const M& message, [[maybe_unused]] Stamp stamp,
+                     const TransformBuffer* transforms) {
     if (!frames_.any()) return &message;
     transformed_ = message;
     if constexpr (HasFrame<M>::value) {
@@ -76,8 +77,8 @@ class MessageTransformer {
   /// Writes which transform transform() did not find, "from -> to", into a text with room for
   /// kLongestPair characters: names are cut where they are too long for it.
   /// @pre the source has frames
-  void name_missing(const M& message, Stamp stamp, const TransformBuffer& transforms,
-                    std::string& text) const {
+  void name_missing(const M& message, [[maybe_unused]] Stamp stamp,
+                    const TransformBuffer& transforms, std::string& text) const {
     if constexpr (HasBody<M>::value) {
       const bool is_of_body =
           !frames_.body_frame.empty() &&

@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
-"""Every example of the papers, launched live: its estimates are those of simulate and replay."""
+"""Every example of the papers, launched live: its estimates are those of simulate and replay, also
+where jumps are told wrongly and the observer is guarded against that."""
 import concurrent.futures
 import os
+import re
 import sys
 import tempfile
 import unittest
@@ -18,6 +20,20 @@ USUAL = (20, 8)
 SPECIAL = {"bernard2022_neuron_high_gain": (10, 2), "bernard2022_neuron_jump_based": (10, 2),
            "bernard2022_clutch": (10, 4), "bernard2022_impulsive": (40, 16), "sferlazza2019_aircraft_1_3": (40, 8),
            "sferlazza2019_aircraft_4_8": (40, 8)}
+
+# Guarded examples whose jumps are missed, invented and told twice: simulated seconds, those per
+# second, the gains, how often neurons send their potential [s], and what goes wrong.
+MISTAKEN = {
+    "bernard2022_bouncing_ball": (8, 8, "gains_kalman_jitter.yaml", None, """
+scenario: {seed: 5, jumps: {missed: 0.1, duplicate: 0.2, false_rate: 0.3, stamp_error: 0.002}}
+"""),
+    "bernard2022_neuron_high_gain": (50, 10, "gains.yaml", 0.005, """
+scenario: {seed: 2, jumps: {missed: 0.3, duplicate: 1, false_rate: 0.1, stamp_error: 0.002}}
+"""),
+    "bernard2022_neuron_jump_based": (120, 24, "gains.yaml", 0.02, """
+scenario: {seed: 4, jumps: {missed: 0.3, duplicate: 0.5, false_rate: 0.03, stamp_error: 0.01}}
+"""),
+}
 
 # How many of the estimates must rest on the same events live and replayed, in percent. The others had
 # an event still on its way when they were published, which is more often so where the machine is
@@ -37,6 +53,13 @@ class LiveExamplesTest(unittest.TestCase):
         for name in example_names():
             launches[name] = (name, *("%s:=%d" % argument for argument in zip(
                 ("duration", "speed"), SPECIAL.get(name, USUAL))))
+        launches = {run: (launch_file(name), *arguments)
+                    for run, (name, *arguments) in launches.items()}
+        for name, (duration, speed, *_) in MISTAKEN.items():
+            scenario, observer = cls.mistaken_files(name)
+            launches[name + "_mistaken"] = (
+                os.path.join(ROOT, "launch", "example.launch"), "scenario:=" + " ".join(scenario),
+                "observer:=" + " ".join(observer), "duration:=%d" % duration, "speed:=%d" % speed)
         pool = concurrent.futures.ThreadPoolExecutor(AT_ONCE)
         cls.launched = {run: pool.submit(cls.launch, run, *arguments)
                         for run, arguments in launches.items()}
@@ -52,10 +75,25 @@ class LiveExamplesTest(unittest.TestCase):
         return os.path.join(cls.folder.name, run, name)
 
     @classmethod
-    def launch(cls, run, name, *arguments):
+    def mistaken_files(cls, name):
+        """Files of the scenario, and of the observer beside them."""
+        _, _, gains, period, mistakes = MISTAKEN[name]
+        with open(os.path.join(EXAMPLES, name, "scenario.yaml"), encoding="utf-8") as original:
+            scenario = original.read()
+        if period is not None:
+            scenario = re.sub("{period: [0-9.]+}", "{period: %g}" % period, scenario)
+        for file, text in ("scenario.yaml", scenario), ("mistakes.yaml", mistakes):
+            with open(cls.path(name + "_mistaken", file), "w", encoding="utf-8") as copy:
+                copy.write(text)
+        plant = os.path.join(EXAMPLES, name, "plant.yaml")
+        return ([plant] * os.path.exists(plant) +
+                [cls.path(name + "_mistaken", file) for file in ("scenario.yaml", "mistakes.yaml")],
+                [os.path.join(EXAMPLES, name, file) for file in ("observer_guarded.yaml", gains)])
+
+    @classmethod
+    def launch(cls, run, file, *arguments):
         port = free_port()
-        command = ["roslaunch", "--port", str(port),
-                   os.path.join(EXAMPLES, name, name + ".launch"),
+        command = ["roslaunch", "--port", str(port), file,
                    "output:=" + cls.path(run, "live.bag"), *arguments]
         with RosProcess(command, port) as process:
             process.wait(120)
@@ -66,14 +104,37 @@ class LiveExamplesTest(unittest.TestCase):
         scenario = [path for path in (os.path.join(EXAMPLES, name, "plant.yaml"),
                                       os.path.join(EXAMPLES, name, "scenario.yaml"))
                     if os.path.exists(path)]
-        run_tool("simulate", *scenario, "-o", self.path(name, "simulated.bag"), "--duration",
+        self.compare(name, duration, scenario, [os.path.join(EXAMPLES, name, "observer.yaml"),
+                                                os.path.join(EXAMPLES, name, "gains.yaml")])
+
+    def compare(self, run, duration, scenario, observer):
+        run_tool("simulate", *scenario, "-o", self.path(run, "simulated.bag"), "--duration",
                  str(duration))
-        run_tool("replay", self.path(name, "simulated.bag"), *scenario,
-                 os.path.join(EXAMPLES, name, "observer.yaml"),
-                 os.path.join(EXAMPLES, name, "gains.yaml"), "-o",
-                 self.path(name, "replayed.bag"))
-        run_tool("compare_estimates", self.path(name, "live.bag"),
-                 self.path(name, "replayed.bag"), "--at-least", str(AT_LEAST))
+        run_tool("replay", self.path(run, "simulated.bag"), *scenario, *observer, "-o",
+                 self.path(run, "replayed.bag"))
+        run_tool("compare_estimates", self.path(run, "live.bag"), self.path(run, "replayed.bag"),
+                 "--at-least", str(AT_LEAST))
+
+    def check_mistaken(self, name):
+        import rosbag
+        run = name + "_mistaken"
+        self.launched[run].result()
+        self.compare(run, MISTAKEN[name][0], *self.mistaken_files(name))
+        missing = 0
+        outcomes = set()
+        with rosbag.Bag(self.path(run, "live.bag")) as bag:
+            for topic, message, _ in bag.read_messages(["/estimate", "/events"]):
+                if topic == "/estimate":
+                    missing = message.missing_jumps
+                else:
+                    outcomes.add(message.outcome)
+                    not_possible = message.NOT_POSSIBLE
+        self.assertGreater(missing, 0)
+        self.assertIn(not_possible, outcomes)
+        with rosbag.Bag(self.path(run, "simulated.bag")) as bag:
+            stamps = sorted(message.header.stamp.to_sec()
+                            for _, message, _ in bag.read_messages(["jumps", "/jumps"]))
+        self.assertLess(min(b - a for a, b in zip(stamps, stamps[1:])), 0.02)  # told twice
 
     def test_in_real_time_the_estimates_approach_the_truth(self):
         import rosbag
@@ -91,6 +152,10 @@ class LiveExamplesTest(unittest.TestCase):
         self.assertLess(errors[-1], 0.5 * max(errors))
 
 
+def launch_file(name):
+    return os.path.join(EXAMPLES, name, name + ".launch")
+
+
 def example_names():
     names = sorted(os.listdir(EXAMPLES))
     assert len(names) >= 13, names
@@ -101,6 +166,9 @@ def add_tests():
     for name in example_names():
         setattr(LiveExamplesTest, "test_%s_live_as_replayed" % name,
                 lambda self, name=name: self.check(name))
+    for name in MISTAKEN:
+        setattr(LiveExamplesTest, "test_%s_with_mistaken_jumps_live_as_replayed" % name,
+                lambda self, name=name: self.check_mistaken(name))
 
 
 add_tests()
