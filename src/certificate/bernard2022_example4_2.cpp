@@ -10,18 +10,29 @@ namespace sampled_data_observers {
 namespace {
 
 /// bernard2022, example 4.2: (22) with the high-gain L_c(ℓ) of (24), for one continuous output.
-/// Corollary 4.1 says that some ℓ is large enough; this says that one is.
+/// Corollary 4.1 says that for any average dwell time some ℓ is large enough; this says that one
+/// is, for such a time or for times of T1 or more.
 class Example42 : public Theorem {
  public:
-  std::string name() const override { return "bernard2022_example4_2"; }
+  explicit Example42(TheoremTimes times) : times_(times) {}
+
+  std::string name() const override {
+    return has_dwell_time() ? "bernard2022_example4_2_average_dwell_time"
+                            : "bernard2022_example4_2";
+  }
 
   std::string guarantee() const override {
+    if (has_dwell_time()) {
+      return "the error falls at the rate decay in the norm of P but for a factor "
+             "exp((flow_decay - 2 decay) tau N0 / 2), for all jumps with an average dwell time: "
+             "N(t, s) <= (t - s) / tau + N0, with the continuous output known at all times";
+    }
     return "the error falls by the factor exp(-jump_decay) or more from jump to jump, in the norm "
            "of P, for all times between jumps of T1 or more, with the continuous output known at "
            "all times";
   }
 
-  TheoremTimes times() const override { return TheoremTimes::kFromT1; }
+  TheoremTimes times() const override { return times_; }
 
   std::vector<std::string> observer_types() const override { return {"HighGainObserver"}; }
 
@@ -45,12 +56,17 @@ class Example42 : public Theorem {
   }
 
   std::vector<NamedShape> parameters(const CertificateSubject&) const override {
-    return {scalar_shape("flow_decay"), scalar_shape("jump_decay")};
+    return lyapunov_parameters(FlowOfError::kDecays, has_dwell_time());
   }
 
-  std::string decay_parameter() const override { return "jump_decay"; }
+  std::string decay_parameter() const override { return has_dwell_time() ? "decay" : "jump_decay"; }
   GuaranteedFigure decay_figure(const NamedMatrices& values) const override {
-    return jump_decay_figure(values);
+    return has_dwell_time() ? Theorem::decay_figure(values) : jump_decay_figure(values);
+  }
+  std::vector<GuaranteedFigure> guaranteed_figures(const CertificateSubject& subject,
+                                                   const NamedMatrices& values) const override {
+    if (!has_dwell_time()) return {};
+    return {transient_figure(subject, FlowOfError::kDecays, values)};
   }
 
   std::vector<NamedRange> search_ranges(const CertificateSubject& subject) const override {
@@ -83,6 +99,8 @@ class Example42 : public Theorem {
   }
 
  private:
+  bool has_dwell_time() const { return times_ == TheoremTimes::kAverageDwellTime; }
+
   /// 𝒱⁻¹ (𝐃 + ℓ 𝓛(ℓ) 𝐊), (24)
   static MatrixExpression high_gain_of(const ModeMatrices& plant) {
     const Eigen::Index n = plant.A.rows();
@@ -99,12 +117,19 @@ class Example42 : public Theorem {
     }
     return MatrixExpression(form.basis) * gain;
   }
+
+  TheoremTimes times_;
 };
 
 }  // namespace
 
 const Theorem& bernard2022_example4_2() {
-  static const Example42 theorem;
+  static const Example42 theorem(TheoremTimes::kFromT1);
+  return theorem;
+}
+
+const Theorem& bernard2022_example4_2_average_dwell_time() {
+  static const Example42 theorem(TheoremTimes::kAverageDwellTime);
   return theorem;
 }
 

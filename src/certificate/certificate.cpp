@@ -79,6 +79,7 @@ const std::vector<const Theorem*>& theorems() {
       &bernard2022_equation26(),
       &bernard2022_equation26_reverse_average_dwell_time(),
       &bernard2022_example4_2(),
+      &bernard2022_example4_2_average_dwell_time(),
       &bernard2022_example7_1(),
       &bernard2022_example7_1_average_dwell_time(),
       &bernard2022_equation49_reverse_average_dwell_time(),

@@ -15,6 +15,7 @@ const Theorem& bernard2022_equation26();
 const Theorem& bernard2022_equation26_reverse_average_dwell_time();
 const Theorem& bernard2022_equation49_reverse_average_dwell_time();
 const Theorem& bernard2022_example4_2();
+const Theorem& bernard2022_example4_2_average_dwell_time();
 const Theorem& bernard2022_example7_1();
 const Theorem& bernard2022_example7_1_average_dwell_time();
 const Theorem& bernard2022_section7_3_1();

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "config/claim_contradiction.h"
+#include "config/dwell_times.h"
 #include "config/event_times.h"
 #include "config/named_values.h"
 #include "config/plant_fingerprint.h"
@@ -13,6 +14,26 @@
 
 namespace sampled_data_observers {
 namespace {
+
+/// What an observer's configuration says of the times between jumps, where it is one thing.
+void take_watched_times(ConfigSection& root, CertificateSubject& subject) {
+  ConfigSection jumps = root.section_or_empty("jumps");
+  const std::optional<DwellTimes> times = read_dwell_times(jumps);
+  if (!times) return;
+  const bool has_interval = jumps.has("dwell_time");
+  if (has_interval && !times->average && !times->reverse_average) {
+    subject.T1 = to_seconds(times->shortest);
+    subject.T2 = longest_to_seconds(times->longest.value_or(kNoLongestTime));
+    return;
+  }
+  if (has_interval || (times->average && times->reverse_average)) return;
+  const bool is_average = times->average.has_value();
+  const DwellTimes::Average& average = is_average ? *times->average : *times->reverse_average;
+  subject.T2 = std::numeric_limits<double>::infinity();
+  subject.dwell_time =
+      DwellTime{is_average ? DwellTime::Kind::kAverage : DwellTime::Kind::kReverseAverage,
+                to_seconds(average.tau), average.N0};
+}
 
 /// Those of the section `design`, or else what an observer's configuration expects.
 void read_design_times(ConfigSection& root, ConfigSection& design, CertificateSubject& subject) {
@@ -25,7 +46,7 @@ void read_design_times(ConfigSection& root, ConfigSection& design, CertificateSu
     subject.T2 = std::numeric_limits<double>::infinity();
     return;
   }
-  if (!design.has("sampling") && !root.has("sampling")) return;
+  if (!design.has("sampling") && !root.has("sampling")) return take_watched_times(root, subject);
   ConfigSection sampling = (design.has("sampling") ? design : root).section("sampling");
   subject.T1 = sampling.number_in("T1", 0.0, 1e6, std::nullopt);
   subject.T2 = read_longest_time(sampling, 1e-9);

@@ -9,6 +9,7 @@
 #include "config/certificate_config.h"
 #include "config/claim_contradiction.h"
 #include "config/claimed_gains.h"
+#include "config/dwell_times.h"
 #include "config/integration_check.h"
 #include "config/number_text.h"
 #include "config/plant_fingerprint.h"
@@ -56,6 +57,37 @@ std::optional<ConfigError> objection_to_statements(ConfigSection& root,
       .error(found->key, found->expected + kGainsRemedy, found->found);
 }
 
+std::string dwell_time_text(double tau, double N0) {
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text.precision(12);
+  text << "{tau: " << tau << ", N0: " << N0 << "}";
+  return text.str();
+}
+
+/// An average dwell time that is configured must imply that for which the gains were made.
+std::optional<ConfigError> objection_to_dwell_times(ConfigSection& root,
+                                                    const CertificateSubject& subject) {
+  if (!subject.dwell_time) return std::nullopt;
+  ConfigSection jumps = root.section_or_empty("jumps");
+  const std::optional<DwellTimes> configured = read_dwell_times(jumps);
+  if (!configured) return std::nullopt;
+  const DwellTime& claimed = *subject.dwell_time;
+  const bool is_average = claimed.kind == DwellTime::Kind::kAverage;
+  const auto& own = is_average ? configured->average : configured->reverse_average;
+  if (!own) return std::nullopt;
+  const Duration tau = from_seconds(claimed.tau);
+  if (own->N0 <= claimed.N0 && (is_average ? own->tau >= tau : own->tau <= tau)) {
+    return std::nullopt;
+  }
+  return jumps.error(is_average ? kAverageDwellTime : kReverseAverageDwellTime,
+                     std::string(is_average ? "a tau not less" : "a tau not larger") +
+                         " and an N0 not larger than in " +
+                         dwell_time_text(claimed.tau, claimed.N0) +
+                         ", for which the gains were made" + kGainsRemedy,
+                     dwell_time_text(to_seconds(own->tau), own->N0));
+}
+
 /// Why a certificate does not hold for a configuration, if so.
 std::optional<ConfigError> objection(ConfigSection& root, const ConfigNode& tree,
                                      const CertificateConfig& claim, const ObserverConfig& config) {
@@ -83,6 +115,7 @@ std::optional<ConfigError> objection(ConfigSection& root, const ConfigNode& tree
                           ", for which the gains were made" + kGainsRemedy,
                       interval(to_seconds(sampling.T1), longest_to_seconds(sampling.T2)));
   }
+  if (auto error = objection_to_dwell_times(root, subject)) return error;
   if (auto error = objection_to_statements(root, claim, config)) return error;
   if (auto error = objection_to_step(root, *config.plant, *config.law, true)) return error;
   const std::vector<ConditionCheck> checks = check(certificate);

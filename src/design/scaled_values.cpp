@@ -121,7 +121,7 @@ bool has_norm_of_state(const Theorem& theorem) {
 }
 
 bool has_conditions_for_units(const Theorem& theorem) {
-  return has_norm_of_state(theorem) || theorem.name() == "bernard2022_example4_2";
+  return has_norm_of_state(theorem) || theorem.name().rfind("bernard2022_example4_2", 0) == 0;
 }
 
 Parameters scaled(const Theorem& theorem, const Parameters& parameters,

@@ -380,6 +380,10 @@ def bernard2022_example4_2(claim):
     yield from lyapunov(claim, minus(claim.A, product(L_c, claim.C_c)), claim.A_d, decays=True)
 
 
+def bernard2022_example4_2_average_dwell_time(claim):
+    yield from bernard2022_example4_2(claim)
+
+
 def bernard2022_corollary5_2(claim):
     """(32), by the factor e^{-2 jump_decay}."""
     P, jump_decay = claim.value("P"), claim.value("jump_decay")
@@ -534,6 +538,7 @@ OBSERVERS = {
     bernard2022_corollary5_2_metric: "SynchronizedObserver",
     bernard2022_corollary5_2: "SynchronizedObserver",
     bernard2022_example4_2: "HighGainObserver",
+    bernard2022_example4_2_average_dwell_time: "HighGainObserver",
     bernard2022_example7_1: "SwitchedObserver",
     bernard2022_example7_1_average_dwell_time: "SwitchedObserver",
     bernard2022_equation49_reverse_average_dwell_time: "SwitchedObserver",

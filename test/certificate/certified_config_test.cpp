@@ -196,6 +196,27 @@ TEST(CertifiedConfigTest, RefusesWhatIsNotProved) {
   }
 }
 
+TEST(CertifiedConfigTest, TakesAverageDwellTimesThatImplyThatOfTheProof) {
+  const char kAveraged[] = "test/certificate/bernard2022_bouncing_ball_reverse_average.yaml";
+  const auto averaged = [&](const std::string& jumps) {
+    return CertifiedGains(kAveraged).with("jumps: {" + jumps + "}");
+  };
+  expect_parts(averaged("").config().guarantee, {"tau = 0.5 s", "N0 = 4"});
+  EXPECT_TRUE(averaged("").claim()->is_proved);
+  for (const char* stronger :
+       {"reverse_average_dwell_time: {tau: 0.5, N0: 4}",
+        "reverse_average_dwell_time: {tau: 0.4, N0: 1}", "average_dwell_time: {tau: 9, N0: 9}"}) {
+    EXPECT_NE("", averaged(stronger).config().guarantee) << stronger;
+  }
+  for (const char* weaker : {"reverse_average_dwell_time: {tau: 0.6, N0: 4}",
+                             "reverse_average_dwell_time: {tau: 0.5, N0: 5}"}) {
+    expect_parts(refusal_of(averaged(weaker)),
+                 {"jumps/reverse_average_dwell_time: expected a tau not larger and an N0 not "
+                  "larger than in {tau: 0.5, N0: 4}",
+                  "for which the gains were made"});
+  }
+}
+
 TEST(CertifiedConfigTest, RefusesAnOutputInjectionThatTheProofDoesNotKnow) {
   const std::string message =
       refusal_of(CertifiedGains("config/examples/bernard2022_bouncing_ball/gains.yaml")

@@ -323,6 +323,25 @@ TEST(Bernard2022, TheLeastHighGainFallsWithTheDwellTime) {
   }
 }
 
+TEST(Bernard2022, AHighGainBearsAnyAverageDwellTime) {
+  CertificateSubject subject = bouncing_ball();
+  ModeMatrices& mode = subject.plant.modes.front();
+  mode.C_c = Eigen::MatrixXd::Identity(1, 2);
+  mode.A_d = Eigen::MatrixXd(-3.0 * Eigen::MatrixXd::Identity(2, 2));
+  for (const double tau : {2.0, 0.1}) {
+    const Design design = designed("bernard2022_example4_2_average_dwell_time",
+                                   with_dwell_time(subject, average(tau, 5.0)));
+    const NamedMatrices& values = design.certificate.values;
+    // Jumps of e^{a_d}, a_d = 2 log 3, take a decay in flow of a_d / tau and what is to be left.
+    const double needed = 2.0 * std::log(3.0) + 2.0 * 0.01;
+    EXPECT_NEAR(scalar_value(values, "flow_decay") * tau, needed, 2e-3 * needed);
+    EXPECT_NEAR(design.certificate.theorem->guaranteed_figures(design.certificate.subject, values)
+                    .front()
+                    .value,
+                std::pow(3.0, 5.0), 0.01 * std::pow(3.0, 5.0));
+  }
+}
+
 TEST(Bernard2022, ConstantGainsForTheSwitchedPlantWhoseModesShowTheStateOnlyTogether) {
   const CertificateSubject subject = switched();
   const Design design = designed("bernard2022_section7_3_2", subject);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,7 @@ CertificateSubject rewritten(CertificateSubject subject, const Rewriting& units)
   plant.C_p = plant.C_p * D.asDiagonal();
   subject.T1 /= units.c;
   subject.T2 /= units.c;
+  if (subject.dwell_time) subject.dwell_time->tau /= units.c;
   return subject;
 }
 
@@ -222,6 +224,28 @@ TEST(UnitIndependence, OfGainsAtJumps) {
   CertificateSubject only_at_jumps = switched();
   for (ModeMatrices& mode : only_at_jumps.plant.modes) mode.C_c.resize(0, 2);
   expect_same("bernard2022_section7_3_2", only_at_jumps, {}, fastest);
+  expect_same("bernard2022_section7_3_2_metric", only_at_jumps, {}, fastest);
+  CertificateSubject only_at_bounces = bouncing();
+  only_at_bounces.plant.modes.front().C_c.resize(0, 2);
+  expect_same("bernard2022_corollary5_2_metric", only_at_bounces, {}, fastest);
+}
+
+CertificateSubject with_dwell_time(CertificateSubject subject, DwellTime::Kind kind) {
+  subject.T1 = 0.0;
+  subject.T2 = std::numeric_limits<double>::infinity();
+  subject.dwell_time = DwellTime{kind, 1.0, 2.0};
+  return subject;
+}
+
+TEST(UnitIndependence, OfGainsForTimesWithoutBounds) {
+  const Aim fastest = {Objective::kMaxDecay, 2e-3};
+  const CertificateSubject seldom = with_dwell_time(bouncing(), DwellTime::Kind::kAverage);
+  expect_same("bernard2022_equation22_average_dwell_time", seldom, {{"flow_decay", 0.5}}, fastest);
+  const CertificateSubject often = with_dwell_time(bouncing(), DwellTime::Kind::kReverseAverage);
+  expect_same("bernard2022_equation26_reverse_average_dwell_time", often, {}, fastest);
+  CertificateSubject projected = switched();
+  projected.T1 = 0.0;
+  expect_same("bernard2022_section7_3_1", projected, {}, fastest);
 }
 
 /// For noise and disturbance in the units of the outputs and of N, the same design comes out: its

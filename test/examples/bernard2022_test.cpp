@@ -166,6 +166,13 @@ TEST(Bernard2022Switched, ConvergesBySwitching) {
   EXPECT_LT(run.error.from(50.0).max(), 1e-6);
 }
 
+TEST(Bernard2022Switched, ConvergesWithTheGainsOfMetrics) {
+  const ExampleRun run = Example("bernard2022_switched", "gains_metric.yaml").from_zero().run();
+  EXPECT_GT(run.jumps.size(), 50u);
+  EXPECT_GT(run.error.at(0.0), 2.0);
+  EXPECT_LT(run.error.from(40.0).max(), 1e-3);
+}
+
 TEST(Bernard2022Switched, StaysUndeterminedWithoutSwitches) {
   const ExampleRun run = Example("bernard2022_switched", "gains_formula.yaml")
                              .from_zero()

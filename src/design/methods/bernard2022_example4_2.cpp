@@ -1,6 +1,8 @@
 #include <cmath>
+#include <string>
 #include <utility>
 
+#include "certificate/theorems.h"
 #include "design/certify.h"
 #include "design/methods/bernard2022_parameters.h"
 #include "design/methods/methods.h"
@@ -11,18 +13,19 @@ namespace {
 /// bernard2022, example 4.2: the least ℓ for which its high gain satisfies (22).
 class HighGainDesign : public DesignMethod {
  public:
-  std::string name() const override { return "bernard2022_example4_2"; }
-  std::string summary() const override {
-    return "least high gain ell for the time between jumps, with all zeros of K at -1";
-  }
-  const Theorem& theorem() const override { return *find_theorem("bernard2022_example4_2"); }
+  HighGainDesign(std::string summary, const Theorem& theorem)
+      : summary_(std::move(summary)), theorem_(theorem) {}
 
-  std::vector<DesignParameter> parameters(const CertificateSubject&) const override {
+  std::string name() const override { return theorem_.name(); }
+  std::string summary() const override { return summary_; }
+  const Theorem& theorem() const override { return theorem_; }
+
+  std::vector<DesignParameter> parameters(const CertificateSubject& subject) const override {
     return {
         {"ell", "the gain [1/s]; the least where not given", std::nullopt, std::nullopt},
         {"decay_per_ell", "rate at which V falls in flow, in units of ell", std::nullopt,
          SearchRange{0.1, 1.98, false}},
-        jump_decay_parameter(),
+        decay_parameter() == "decay" ? decay_parameter_of(subject) : jump_decay_parameter(),
     };
   }
 
@@ -35,7 +38,7 @@ class HighGainDesign : public DesignMethod {
     const auto given = parameters.find("ell");
     if (given != parameters.end()) return with_gain(subject, parameters, given->second);
     // What holds for an ell need not hold for larger ones: peaks of the high gain grow, too.
-    double low = kLeastGain / subject.T2;
+    double low = kLeastGain / time_scale(subject);
     double high = low;
     DesignCandidate best = with_gain(subject, parameters, high);
     for (int i = 0; i < kScanSteps && !best.is_verified(); ++i) {
@@ -53,7 +56,7 @@ class HighGainDesign : public DesignMethod {
   }
 
  private:
-  static constexpr double kLeastGain = 0.1;  ///< in units of 1/T2
+  static constexpr double kLeastGain = 0.1;  ///< in units of 1/time_scale()
   static constexpr double kScanRatio = 1.2;
   static constexpr int kScanSteps = 76;  ///< up to a million times the least gain
   static constexpr double kSearchRatio = 1.001;
@@ -73,17 +76,29 @@ class HighGainDesign : public DesignMethod {
                      {{"ell", scalar_matrix(ell)},
                       {"K", K},
                       {"flow_decay", scalar_matrix(ell * parameters.at("decay_per_ell"))},
-                      {"jump_decay", scalar_matrix(parameters.at("jump_decay"))}},
+                      {decay_parameter(), scalar_matrix(parameters.at(decay_parameter()))}},
                      Objective::kFeasible);
     candidate.cost = ell;
     return candidate;
   }
+
+  std::string summary_;
+  const Theorem& theorem_;
 };
 
 }  // namespace
 
 const DesignMethod& bernard2022_high_gain_design() {
-  static const HighGainDesign method;
+  static const HighGainDesign method(
+      "least high gain ell for the time between jumps, with all zeros of K at -1",
+      bernard2022_example4_2());
+  return method;
+}
+
+const DesignMethod& bernard2022_high_gain_average_design() {
+  static const HighGainDesign method(
+      "least high gain ell for an average dwell time, with all zeros of K at -1",
+      bernard2022_example4_2_average_dwell_time());
   return method;
 }
 

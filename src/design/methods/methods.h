@@ -9,6 +9,7 @@ const DesignMethod& bernard2022_coupled_design();
 const DesignMethod& bernard2022_coupled_average_design();
 const DesignMethod& bernard2022_flow_based_average_design();
 const DesignMethod& bernard2022_flow_based_design();
+const DesignMethod& bernard2022_high_gain_average_design();
 const DesignMethod& bernard2022_high_gain_design();
 const DesignMethod& bernard2022_jump_based_average_design();
 const DesignMethod& bernard2022_jump_based_design();
