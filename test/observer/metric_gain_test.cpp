@@ -17,7 +17,7 @@
 namespace sampled_data_observers {
 namespace {
 
-constexpr auto kAtJumps = SensorTiming::kAtJumps;
+constexpr auto kMeasuredAtJumps = SensorTiming::kAtJumps;
 
 Eigen::MatrixXd three_by_three(std::initializer_list<double> rows) {
   Eigen::MatrixXd transposed(3, 3);
@@ -73,7 +73,7 @@ ObserverContext plant_of(const Example& example, bool switches) {
   const auto map = [](const Eigen::MatrixXd& M) { return std::make_shared<const AffineMap>(M); };
   PlantDescription plant;
   plant.state_names = {"a", "b", "c"};
-  plant.sensors = {{"first", kAtJumps, {false}}, {"second", kAtJumps, {false}}};
+  plant.sensors = {{"first", kMeasuredAtJumps, {false}}, {"second", kMeasuredAtJumps, {false}}};
   PlantMode mode;
   mode.flow = map(example.A);
   mode.jump = map(example.A_d);
