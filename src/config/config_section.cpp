@@ -255,26 +255,18 @@ bool ConfigSection::is_matrix(const std::string& key) {
 
 Eigen::Vector2d ConfigSection::interval_in(const std::string& key, double low, double high) {
   const std::string expected = "a list of two numbers from " + number_text(low) + " to " +
-                               number_text(high) +
-                               ", the first not above the second, which may be .inf";
+                               number_text(high) + ", the second not below the first, or .inf";
   const ConfigNode& node = required(key, expected);
-  if (node.kind != ConfigNode::Kind::kSequence || node.items.size() != 2) {
-    throw error(key, expected, node.describe());
+  if (node.items.size() != 2) throw error(key, expected, node.describe());
+  const std::string& second = node.items[1].scalar;
+  const bool is_unbounded = std::count(std::begin(kInfinities), std::end(kInfinities), second) > 0;
+  const double infinity = std::numeric_limits<double>::infinity();
+  const Eigen::Vector2d result(as_number(node.items[0]).value_or(-infinity),
+                               as_number(node.items[1]).value_or(is_unbounded ? infinity : low));
+  if (result(0) < low || result(1) < result(0) || (!is_unbounded && !(result(1) <= high)) ||
+      (!is_unbounded && !as_number(node.items[1]))) {
+    throw error(key, expected, "[" + joined({node.items[0].scalar, second}) + "]");
   }
-  Eigen::Vector2d result;
-  for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
-    const ConfigNode& item = node.items[i];
-    const bool is_infinite =
-        i == 1 && item.kind == ConfigNode::Kind::kScalar &&
-        std::count(std::begin(kInfinities), std::end(kInfinities), item.scalar) > 0;
-    const std::optional<double> value = as_number(item);
-    if (!is_infinite && (!value || *value < low || *value > high)) {
-      throw error(key, expected, item.describe());
-    }
-    result(static_cast<Eigen::Index>(i)) =
-        is_infinite ? std::numeric_limits<double>::infinity() : *value;
-  }
-  if (result(0) > result(1)) throw error(key, expected, "the first above the second");
   return result;
 }
 

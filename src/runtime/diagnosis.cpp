@@ -2,54 +2,26 @@
 
 #include <algorithm>
 #include <cmath>
-#include <locale>
-#include <sstream>
 #include <utility>
 
+#include "runtime/diagnosis_text.h"
 #include "sampled_data_observers/runtime/no_clock.h"
 
 namespace sampled_data_observers {
 namespace {
 
-/// A sensor that was silent for longer than this, and than T2, is reported.
-constexpr Duration kSilence = 2 * kNanosecondsPerSecond;
+using diagnosis_text::extremes;
+using diagnosis_text::in_milliseconds;
+using diagnosis_text::instant;
+using diagnosis_text::kSilence;
+using diagnosis_text::longest;
+using diagnosis_text::seconds;
+using diagnosis_text::shown;
+
 /// Estimates that come later than two periods and this are reported.
 constexpr Duration kLate = 20'000'000;
 /// Less than this part of the rate is reported.
 constexpr double kLowestRate = 0.9;
-
-std::string shown(double value) {
-  std::ostringstream out;
-  out.imbue(std::locale::classic());
-  out.precision(6);
-  out << value;
-  return out.str();
-}
-
-std::string seconds(Duration duration) { return shown(to_seconds(duration)) + " s"; }
-
-std::string longest(Duration duration) { return shown(longest_to_seconds(duration)) + " s"; }
-
-/// All digits that matter: six would not do for the seconds since 1970.
-std::string instant(Stamp stamp) {
-  std::ostringstream out;
-  out.imbue(std::locale::classic());
-  out.precision(3);
-  out << std::fixed << to_seconds(stamp) << " s";
-  return out.str();
-}
-
-std::string in_milliseconds(double nanoseconds) { return shown(nanoseconds * 1e-6) + " ms"; }
-
-std::string in_milliseconds(std::int64_t nanoseconds) {
-  return in_milliseconds(static_cast<double>(nanoseconds));
-}
-
-/// "smallest … largest", empty where nothing was recorded.
-std::string extremes(const Range& range) {
-  if (range.count == 0) return "none";
-  return in_milliseconds(range.smallest) + " to " + in_milliseconds(range.largest);
-}
 
 std::uint64_t rejected(const ChannelStatistics& statistics) {
   std::uint64_t sum = 0;
@@ -123,47 +95,6 @@ void Diagnosis::update(const RunStatistics& window, Stamp now, Duration elapsed)
 
 void Diagnosis::set_published_type(std::size_t channel, std::string type) {
   memory_[channel].published_type = std::move(type);
-}
-
-std::optional<Diagnosis::Suspension> Diagnosis::find_suspension() const {
-  if (subject_.guarantee.empty()) return std::nullopt;
-  if (window_.bound_lost_since) return Suspension{*window_.bound_lost_since, why_bound_is_lost()};
-  if (newly_skipped_ > 0) return Suspension{now_, describe(BoundLoss::kUnknownJump)};
-  if (new_dwell_violations_ > 0) return Suspension{now_, describe(BoundLoss::kDwellTimes)};
-  for (std::size_t i = 0; i < subject_.channels.size(); ++i) {
-    const ChannelStatistics& statistics = window_.channels[i];
-    if (statistics.violations.count > 0) {
-      const bool is_long = statistics.long_intervals > 0;
-      return Suspension{
-          statistics.violations.smallest,
-          "a time between events of " + subject_.channels[i].name + " of " +
-              seconds(is_long ? statistics.interval.largest : statistics.interval.smallest) +
-              (is_long ? ", above T2 = " + longest(subject_.sampling.T2)
-                       : ", below T1 = " + seconds(subject_.sampling.T1))};
-    }
-    if (statistics.after_bound > 0) {
-      return Suspension{now_, std::to_string(statistics.after_bound) + " events of " +
-                                  subject_.channels[i].name + ", up to " +
-                                  seconds(statistics.latency.largest) +
-                                  " late, came after error bounds of later stamps were published, "
-                                  "which rested on their absence: set error_assumptions/latency "
-                                  "to what is never exceeded, and publish_delay to as much"};
-    }
-    const bool is_silent = subject_.channels[i].kind == EventKind::kSample && memory_[i].used > 0 &&
-                           now_ - memory_[i].used > std::max(subject_.sampling.T2, kSilence);
-    if (is_silent) {
-      return Suspension{memory_[i].used,
-                        "no sample of " + subject_.channels[i].name +
-                            " for longer than T2 = " + longest(subject_.sampling.T2)};
-    }
-  }
-  return std::nullopt;
-}
-
-std::string Diagnosis::why_bound_is_lost() const {
-  std::string reason = describe(window_.bound_loss);
-  const std::string old_stamps = why_stamps_are_old();
-  return old_stamps.empty() ? reason : reason + "; " + old_stamps;
 }
 
 std::string Diagnosis::rejections(const ChannelStatistics& statistics) const {

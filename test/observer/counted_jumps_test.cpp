@@ -214,10 +214,10 @@ TEST_P(BadDwellTimesTest, AreRefusedWithAMessageThatHelps) {
 INSTANTIATE_TEST_SUITE_P(
     Faults, BadDwellTimesTest,
     ::testing::Values(
-        Fault{"[0.5, 2]", "[2, 0.5]", {"jumps/dwell_time", "first above the second"}},
+        Fault{"[0.5, 2]", "[2, 0.5]", {"jumps/dwell_time", "[2, 0.5]"}},
         Fault{"[0.5, 2]", "[0.5]", {"jumps/dwell_time", "two numbers", "list of 1"}},
-        Fault{"[0.5, 2]", "[.inf, .inf]", {"jumps/dwell_time", "'.inf'"}},
-        Fault{"[0.5, 2]", "[-1, 2]", {"jumps/dwell_time", "'-1'"}},
+        Fault{"[0.5, 2]", "[.inf, .inf]", {"jumps/dwell_time", "[.inf, .inf]"}},
+        Fault{"[0.5, 2]", "[-1, 2]", {"jumps/dwell_time", "[-1, 2]"}},
         Fault{"{tau: 1, N0: 2}", "{tau: 0, N0: 2}", {"jumps/average_dwell_time/tau"}},
         Fault{"{tau: 1, N0: 2}", "{tau: 1}", {"jumps/average_dwell_time/N0", "missing"}},
         Fault{"{tau: 3, N0: 4}", "{tau: 3, N0: 0}", {"jumps/reverse_average_dwell_time/N0", "0"}},
