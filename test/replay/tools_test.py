@@ -178,14 +178,14 @@ class ToolsTest(FolderTest):
                       self.refuse("replay", *self.replay("--around-jumps", "1")))
 
     def test_estimates_begin_where_they_are_to_begin(self):
-        self.write("observer.yaml", OBSERVER.replace("DELAY", "0") + "start: {at: 1000}\n")
-        # The simulation starts at 1000 s; the input comes at once, the first position 30 ms later.
+        self.write("observer.yaml", OBSERVER.replace("DELAY", "0") + "start: {at: 999.9}\n")
+        # The first event comes at 1000 s, the last at 1003.04 s.
         self.simulate()
         text = self.succeed("replay", *self.replay())
-        self.assertIn("estimates   151,", text)
+        self.assertIn("estimates   158,", text)
         self.write("observer.yaml", OBSERVER.replace("DELAY", "0") + "start: {at: 1001.5}\n")
         text = self.succeed("replay", *self.replay())
-        self.assertIn("estimates   76,", text)
+        self.assertIn("estimates   78,", text)
         self.assertIn(" older than the history window, the start or the last reset\n", text)
 
     def test_a_comparison_that_begins_after_the_bag_is_refused(self):
