@@ -175,12 +175,11 @@ class TrajectoryExplanation {
       Eigen::VectorXd workspace(n + 2 * T.size());
       differentiate(T, step.begin.data(), step.u.data(), coordinates.scales, J.data(),
                     workspace.data());
-      for (Eigen::Index i = 0; i < T.size(); ++i) {
-        J.row(i) *= std::pow(coordinates.ell, -static_cast<double>(i));
-      }
+      J = coordinates.powers.asDiagonal() * J;
       J *= coordinates.scales.asDiagonal();
       if (!J.allFinite()) continue;
-      relative.push_back(singular_values(J)(std::min(T.size(), n) - 1) / J.row(0).norm());
+      relative.push_back(singular_values(J)(std::min(T.size(), n) - 1) /
+                         size_of_outputs(J, coordinates.powers));
       if (relative.back() < least) t_least = step.t;
       least = std::min(least, relative.back());
       if (T.size() != n) continue;
@@ -212,6 +211,18 @@ class TrajectoryExplanation {
     }
     out_.bullet(
         "for the original form: gains/damping of the size of that median, or a few times it");
+  }
+
+  /// |ĵ_1| of a DampedInverse
+  static double size_of_outputs(const Eigen::MatrixXd& J, const Eigen::VectorXd& powers) {
+    double sum = 0.0;
+    double outputs = 0.0;
+    for (Eigen::Index i = 0; i < powers.size(); ++i) {
+      if (powers(i) != 1.0) continue;
+      sum += J.row(i).squaredNorm();
+      outputs += 1.0;
+    }
+    return std::sqrt(sum / outputs);
   }
 
   static double sign_of_determinant(const Eigen::MatrixXd& J) {

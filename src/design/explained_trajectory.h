@@ -24,7 +24,7 @@ struct TrajectoryStep {
 struct TrajectoryCoordinates {
   /// Per mode: n to d
   std::vector<std::shared_ptr<const VectorMap>> T;
-  double ell = 0.0;
+  Eigen::VectorXd powers;  ///< d: what its rows count, as inverse_powers() has it
   Eigen::VectorXd scales;  ///< n: sizes of usual changes of the states
 };
 

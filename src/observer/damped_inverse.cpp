@@ -10,12 +10,10 @@
 
 namespace sampled_data_observers {
 
-DampedInverse::DampedInverse(double ell, Eigen::VectorXd scales, double damping)
-    : powers_(scales.size()), scales_(std::move(scales)), damping_(damping) {
+DampedInverse::DampedInverse(Eigen::VectorXd powers, Eigen::VectorXd scales, double damping)
+    : powers_(std::move(powers)), scales_(std::move(scales)), damping_(damping) {
   require_of_gains(damping >= 0.0 && std::isfinite(damping), "damping: a number of 0 or more");
-  for (Eigen::Index i = 0; i < powers_.size(); ++i) {
-    powers_(i) = std::pow(ell, -static_cast<double>(i));
-  }
+  require_of_gains(powers_.size() == scales_.size(), "K: as many entries as the plant has states");
 }
 
 void DampedInverse::apply(double* J, double* r, double* workspace) const {
@@ -24,17 +22,21 @@ void DampedInverse::apply(double* J, double* r, double* workspace) const {
     solve_in_place(J, r, n);
     return;
   }
-  double first_row = 0.0;
+  double of_outputs = 0.0;
+  double outputs = 0.0;
+  for (Eigen::Index i = 0; i < n; ++i) outputs += powers_(i) == 1.0 ? 1.0 : 0.0;
   for (Eigen::Index j = 0; j < n; ++j) {
     double* column = J + j * n;
-    for (Eigen::Index i = 0; i < n; ++i) column[i] *= powers_(i) * scales_(j);
-    first_row += column[0] * column[0];
+    for (Eigen::Index i = 0; i < n; ++i) {
+      column[i] *= powers_(i) * scales_(j);
+      if (powers_(i) == 1.0) of_outputs += column[i] * column[i];
+    }
   }
   for (Eigen::Index i = 0; i < n; ++i) r[i] *= powers_(i);
   double* normal = workspace;
   for (Eigen::Index j = 0; j < n; ++j) {
     for (Eigen::Index i = 0; i < n; ++i) normal[j * n + i] = dot(J + i * n, J + j * n, n);
-    normal[j * n + j] += damping_ * damping_ * first_row;
+    normal[j * n + j] += damping_ * damping_ * (of_outputs / outputs);
   }
   double* solution = workspace + n * n;
   for (Eigen::Index j = 0; j < n; ++j) solution[j] = dot(J + j * n, r, n);

@@ -10,14 +10,15 @@ namespace sampled_data_observers {
 ///   S (Ĵᵀ Ĵ + δ² |ĵ_1|² I)⁻¹ Ĵᵀ 𝓛(ℓ)⁻¹ r,   𝓛(ℓ) = diag(1, ℓ, …, ℓ^(n−1)),
 ///
 /// which minimizes |Ĵ c − 𝓛⁻¹ r|² + δ² |ĵ_1|² |c|² over c (Levenberg–Marquardt). ĵ_1 is the first
-/// row of Ĵ, that of the output, so that δ has no unit. Where all of it has no value, it is zero.
+/// row of Ĵ, that of the output, so that δ has no unit; |ĵ_1|² is the mean over the outputs where
+/// there are several. Where all of it has no value, it is zero.
 class DampedInverse {
  public:
-  /// @param ell      ℓ > 0
+  /// @param powers   n entries: the diagonal of 𝓛(ℓ)⁻¹, 1 at the outputs
   /// @param scales   n entries > 0
   /// @param damping  δ >= 0; with 0 it is J⁻¹ r, and NaN where J is singular
   /// @throws std::invalid_argument for a δ that is negative or not finite.
-  DampedInverse(double ell, Eigen::VectorXd scales, double damping);
+  DampedInverse(Eigen::VectorXd powers, Eigen::VectorXd scales, double damping);
 
   Eigen::Index workspace_size() const { return scales_.size() * (scales_.size() + 1); }
 
@@ -28,7 +29,7 @@ class DampedInverse {
   void apply(double* J, double* r, double* workspace) const;
 
  private:
-  Eigen::VectorXd powers_;  ///< of ℓ: the diagonal of 𝓛(ℓ)⁻¹
+  Eigen::VectorXd powers_;
   Eigen::VectorXd scales_;
   double damping_;
 };

@@ -1,6 +1,6 @@
 #include "observer/high_gain_settings.h"
 
-#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "observer/gain_requirement.h"
@@ -17,26 +17,60 @@ void check_settings(const HighGainSettings& settings, const Plant& plant) {
   }
 }
 
-Eigen::Index order_of_one_output(const HighGainSettings& settings, const Plant& plant) {
-  if (plant.sensors().size() != 1 || plant.max_outputs() != 1) {
-    throw std::invalid_argument("this form takes one continuous sensor with one output");
+OutputChains chains_of(const HighGainSettings& settings, const Plant& plant) {
+  OutputChains chains;
+  for (const Sensor& sensor : plant.sensors()) {
+    chains.angular.insert(chains.angular.end(), sensor.angular.begin(), sensor.angular.end());
   }
-  require_of_gains(!settings.K.empty() && settings.K.front().size() == 1, "K: one list of numbers");
-  const Eigen::Index d = settings.K.front().front().size();
-  const bool agree = std::all_of(settings.K.begin(), settings.K.end(), [d](const auto& of_mode) {
-    return of_mode.size() == 1 && of_mode.front().size() == d;
-  });
-  require_of_gains(agree, "K: as many numbers in each mode");
-  return d;
+  const std::size_t m = chains.angular.size();
+  require_of_gains(!settings.K.empty(), "K: one per mode of the plant");
+  for (const auto& of_mode : settings.K) {
+    require_of_gains(of_mode.size() == m, "K: one list of numbers per continuous output");
+    for (std::size_t j = 0; j < m; ++j) {
+      require_of_gains(of_mode[j].size() == settings.K.front()[j].size(),
+                       "K: as many numbers in each mode");
+    }
+  }
+  Eigen::Index first = 0;
+  for (const Eigen::VectorXd& K : settings.K.front()) {
+    chains.first.push_back(first);
+    first += K.size();
+    chains.last.push_back(first - 1);
+  }
+  require_of_gains(m > 0, "a sensor that is measured continuously is needed");
+  return chains;
 }
 
-std::vector<Eigen::VectorXd> scaled_gains(const HighGainSettings& settings, const Plant& plant) {
-  order_of_one_output(settings, plant);
-  std::vector<Eigen::VectorXd> result;
+void OutputChains::innovations(const double* y_c, const double* z, double* innovation) const {
+  for (std::size_t j = 0; j < size(); ++j) {
+    const double difference = y_c[j] - z[first[j]];
+    innovation[j] = angular[j] ? wrap_angle(difference) : difference;
+  }
+}
+
+std::vector<Eigen::MatrixXd> scaled_gains(const HighGainSettings& settings, const Plant& plant) {
+  const OutputChains chains = chains_of(settings, plant);
+  std::vector<Eigen::MatrixXd> result;
   for (const auto& of_mode : settings.K) {
-    result.push_back(scaled_gain(settings.ell, of_mode.front()));
+    Eigen::MatrixXd& gain = result.emplace_back(
+        Eigen::MatrixXd::Zero(chains.entries(), static_cast<Eigen::Index>(chains.size())));
+    for (std::size_t j = 0; j < chains.size(); ++j) {
+      const Eigen::VectorXd K = scaled_gain(settings.ell, of_mode[j]);
+      gain.block(chains.first[j], static_cast<Eigen::Index>(j), K.size(), 1) = K;
+    }
   }
   return result;
+}
+
+Eigen::VectorXd inverse_powers(const HighGainSettings& settings, const Plant& plant) {
+  const OutputChains chains = chains_of(settings, plant);
+  Eigen::VectorXd powers(chains.entries());
+  for (std::size_t j = 0; j < chains.size(); ++j) {
+    for (Eigen::Index i = chains.first[j]; i <= chains.last[j]; ++i) {
+      powers(i) = std::pow(settings.ell, -static_cast<double>(i - chains.first[j]));
+    }
+  }
+  return powers;
 }
 
 LawGains list_gains(const HighGainSettings& settings, const Plant& plant,

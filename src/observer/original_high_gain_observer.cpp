@@ -14,10 +14,14 @@ OriginalHighGainObserver::OriginalHighGainObserver(const ObserverContext& contex
                                                    double damping)
     : HighGainObserver(context, settings, {"T"}),
       T_(std::move(T)),
-      gain_(scaled_gains(settings, plant())),
       damping_(damping),
-      inverse_(settings.ell, settings.saturation.scales(), damping) {
-  require_of_gains(gain_.front().size() == n(), "K: as many entries as the plant has states");
+      inverse_(inverse_powers(settings, plant()), settings.saturation.scales(), damping) {
+  for (const Eigen::MatrixXd& gain : scaled_gains(settings, plant())) {
+    gain_.emplace_back();
+    for (std::size_t i = 0; i < sensors(); ++i) {
+      gain_.back().emplace_back(gain.middleCols(output_offset(i), plant().sensors()[i].outputs()));
+    }
+  }
   require_of_gains(T_.size() == gain_.size(), "T: one per mode of the plant");
   for (const auto& T_q : T_) {
     require_of_gains(T_q && T_q->size() == n(), "T: as many entries as the plant has states");
@@ -38,11 +42,10 @@ void OriginalHighGainObserver::derivative(const Held& held, const double* s, dou
   saturation().apply(x);
   PlantObserver::derivative(held, x, ds, workspace);
   if (held.y_c == nullptr) return;
-  double innovation = 0.0;
-  compute_innovation(plant(), held.mode, 0, held.y_c, s, held.u, &innovation);
   double* correction = correction_.of(workspace);
   double* J = J_.of(workspace);
-  for (Eigen::Index i = 0; i < n(); ++i) correction[i] = gain_[held.mode](i) * innovation;
+  std::fill_n(correction, n(), 0.0);
+  add_innovations(gain_[held.mode], held, s, correction, workspace);
   differentiate(*T_[held.mode], x, held.u, saturation().scales(), J, differences_.of(workspace));
   inverse_.apply(J, correction, solving_.of(workspace));
   for (Eigen::Index i = 0; i < n(); ++i) ds[i] += correction[i];

@@ -9,7 +9,7 @@
 
 namespace sampled_data_observers {
 
-/// Example 4.3 in the plant's own coordinates, for one continuous output and d = n:
+/// Example 4.3 in the plant's own coordinates, d = n in all:
 ///
 ///   ẋ̂ = f(sat(x̂), u) + (∂T/∂x(sat(x̂)))⁻¹ ℓ 𝓛(ℓ) K (y_c − h(x̂))
 ///
@@ -17,7 +17,7 @@ namespace sampled_data_observers {
 /// integration. The Jacobian is taken by central differences.
 class OriginalHighGainObserver final : public HighGainObserver {
  public:
-  /// @param settings  K: n numbers, as for TransformedHighGainObserver
+  /// @param settings  K: n numbers in all, as for TransformedHighGainObserver
   /// @param T         per mode: n to n
   /// @param damping   δ of the DampedInverse
   /// @throws std::invalid_argument as TransformedHighGainObserver, and, without damping, where
@@ -37,7 +37,7 @@ class OriginalHighGainObserver final : public HighGainObserver {
 
  private:
   std::vector<std::shared_ptr<const VectorMap>> T_;
-  std::vector<Eigen::VectorXd> gain_;  ///< per mode: ℓ 𝓛(ℓ) K
+  std::vector<std::vector<Eigen::MatrixXd>> gain_;  ///< per mode, per sensor: of ℓ 𝓛(ℓ) K
   double damping_;
   DampedInverse inverse_;
   VectorSlot x_ = scratch(n());  ///< sat(x̂)

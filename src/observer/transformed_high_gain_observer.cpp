@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "observer/gain_requirement.h"
+#include "sampled_data_observers/linear_algebra/ordered_product.h"
 
 namespace sampled_data_observers {
 
@@ -11,13 +12,15 @@ TransformedHighGainObserver::TransformedHighGainObserver(const ObserverContext& 
                                                          const HighGainSettings& settings,
                                                          std::vector<Maps> maps)
     : HighGainObserver(context, settings, {"T", "Phi", "Theta"},
-                       order_of_one_output(settings, *context.plant)),
+                       chains_of(settings, *context.plant).entries()),
       maps_(std::move(maps)),
+      chains_(chains_of(settings, plant())),
       gain_(scaled_gains(settings, plant())) {
   require_of_gains(maps_.size() == gain_.size(), "T, Phi and Theta: of each mode of the plant");
   for (const Maps& of_mode : maps_) {
-    require_of_gains(of_mode.T && of_mode.T->size() == d_, "T: as many entries as K");
-    require_of_gains(of_mode.Phi && of_mode.Phi->size() == 1, "Phi: one entry");
+    require_of_gains(of_mode.T && of_mode.T->size() == z_.size(), "T: as many entries as K");
+    require_of_gains(of_mode.Phi && of_mode.Phi->size() == of_outputs_.size(),
+                     "Phi: one entry per continuous output");
     require_of_gains(of_mode.Theta && of_mode.Theta->size() == n(), "Theta: one entry per state");
   }
   build_flow();
@@ -41,17 +44,18 @@ void TransformedHighGainObserver::derivative(const Held& held, const double* s, 
   double* dz = z_.of(ds);
   std::fill_n(ds, n(), 0.0);  // x̂ is computed from z
   double* argument = argument_.of(workspace);
-  double* x = argument + d_;
+  double* x = argument + z_.size();
   maps.Theta->evaluate(z, held.u, x);
   saturation().apply(x);
   maps.T->evaluate(x, held.u, argument);
-  for (Eigen::Index i = 0; i + 1 < d_; ++i) dz[i] = z[i + 1];
-  maps.Phi->evaluate(argument, held.u, dz + d_ - 1);
+  std::copy(z + 1, z + z_.size(), dz);
+  double* phi = of_outputs_.of(workspace);
+  maps.Phi->evaluate(argument, held.u, phi);
+  for (std::size_t j = 0; j < chains_.size(); ++j) dz[chains_.last[j]] = phi[j];
   if (held.y_c == nullptr) return;
-  const double difference = held.y_c[0] - z[0];
-  const double innovation =
-      plant().sensors().front().angular.front() ? wrap_angle(difference) : difference;
-  for (Eigen::Index i = 0; i < d_; ++i) dz[i] += gain_[held.mode](i) * innovation;
+  double* innovation = phi;
+  chains_.innovations(held.y_c, z, innovation);
+  add_product(gain_[held.mode], innovation, dz);
 }
 
 void TransformedHighGainObserver::jump(const Held& held, std::size_t next,

@@ -130,8 +130,9 @@ INSTANTIATE_TEST_SUITE_P(
                     "    2: {K: [2, 1], T: [x1, x2]}\n    4: {K",
                     {"gains/modes/2", "unknown"}}},
         FaultyText{kSwitchedOriginal, {"ell: 3", "ell: 3\n  K: [2, 1]", {"gains/K", "unknown"}}},
-        FaultyText{kTransformed,
-                   {"h: [x1]", "h: [x1, x2]", {"one continuous sensor with one output"}}}));
+        FaultyText{kTransformed, {"h: [x1]", "h: [x1, x2]", {"gains/Phi", "2"}}},
+        FaultyText{kOriginal,
+                   {"K: [2, 1], T: [x1, x2]", "K: [2], T: [x1, x2]", {"gains/K", "2 finite"}}}));
 
 }  // namespace
 }  // namespace sampled_data_observers

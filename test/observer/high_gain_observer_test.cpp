@@ -304,12 +304,12 @@ TEST(DampedInverseTest, MinimizesWhatItSays) {
   const Eigen::Vector3d scales(0.5, 3.0, 1.0);
   const double ell = 2.0;
   const double delta = 0.1;
-  const DampedInverse inverse(ell, scales, delta);
+  const Eigen::Vector3d powers(1.0, 1.0 / ell, 1.0 / (ell * ell));
+  const DampedInverse inverse(powers, scales, delta);
   Eigen::Matrix3d destroyed = J;
   Eigen::Vector3d c = r;
   Eigen::VectorXd workspace(inverse.workspace_size());
   inverse.apply(destroyed.data(), c.data(), workspace.data());
-  const Eigen::Vector3d powers(1.0, 0.5, 0.25);
   const Eigen::Matrix3d scaled = powers.asDiagonal() * J * scales.asDiagonal();
   const Eigen::Vector3d step = c.cwiseQuotient(scales);
   // The gradient of what is minimized.
@@ -405,6 +405,65 @@ TEST(SwitchedHighGainTest, TheLinearFormHasTheGainsOfEachMode) {
                 1e-9);
   }
   EXPECT_NE(nullptr, law.gains().find("modes/2/K"));
+}
+
+/// A body in a plane with drag, whose two positions are measured: bernard2022, section 7.1.
+ObserverContext puck(const Eigen::Vector4d& start) {
+  const std::vector<std::string> x = {"px", "vx", "py", "vy"};
+  PlantDescription plant;
+  plant.state_names = x;
+  plant.sensors = {{"across", SensorTiming::kContinuous, {false}},
+                   {"along", SensorTiming::kContinuous, {false}}};
+  PlantMode mode;
+  mode.flow = formulas(x, {"vx", "-vx*sqrt(vx^2 + vy^2)", "vy", "-vy*sqrt(vx^2 + vy^2)"});
+  mode.jump = formulas(x, {"px", "-0.8*vx", "py", "vy"});
+  mode.outputs = {formulas(x, {"px"}), formulas(x, {"py"})};
+  plant.modes = {mode};
+  return {std::make_shared<const Plant>(plant), start, Eigen::VectorXd(0)};
+}
+
+TEST(NonlinearHighGainTest, SeveralOutputsHaveAChainEach) {
+  const std::vector<std::string> z = {"z1", "z2", "z3", "z4"};
+  const std::vector<std::string> z_and_x = {"z1", "z2", "z3", "z4", "px", "vx", "py", "vy"};
+  const auto identity = formulas({"px", "vx", "py", "vy"}, {"px", "vx", "py", "vy"});
+  const TransformedHighGainObserver::Maps maps{
+      identity, formulas(z_and_x, {"-vx*sqrt(vx^2 + vy^2)", "-vy*sqrt(vx^2 + vy^2)"}),
+      formulas(z, z)};
+  Saturation bounds(4);
+  for (Eigen::Index i = 0; i < 4; ++i) bounds.bound(i, -5.0, 5.0);
+  const Eigen::Vector4d start(0.0, 0.0, 0.0, 0.0);
+  const HighGainSettings two{bounds, 8.0, {{kK, Eigen::Vector2d(3.0, 2.0)}}};
+  Body in_z(std::make_shared<const TransformedHighGainObserver>(
+      puck(start), two, std::vector<TransformedHighGainObserver::Maps>{maps}));
+  Body in_x(
+      std::make_shared<const OriginalHighGainObserver>(puck(start), two, Formulas{identity}, 0.0));
+  // ż = (z2, Φ1, z4, Φ2) + (ℓ k_11, ℓ² k_12, 0, 0) (y_1 − z1) + (0, 0, ℓ k_21, ℓ² k_22) (y_2 − z3)
+  Eigen::VectorXd slope(8);
+  in_z.take(EventKind::kOutput, {0.5}, 0);
+  in_z.take(EventKind::kOutput, {-1.0}, 1);
+  in_z.law->observer().flow_derivative(in_z.state.data(), slope.data(), in_z.workspace.data());
+  EXPECT_LT((slope.tail(4) - Eigen::Vector4d(8.0, 32.0, -24.0, -128.0)).norm(), 1e-9);
+
+  Body truth(in_x.law);  // without outputs it is the plant
+  const Eigen::Vector4d x0(1.0, 2.0, -0.5, -1.0);
+  truth.law->observer().start_from(x0.data(), truth.state.data());
+  for (int i = 0; i < 2500; ++i) {
+    for (Body* body : {&in_z, &in_x}) {
+      body->take(EventKind::kOutput, {truth.state(0)}, 0);
+      body->take(EventKind::kOutput, {truth.state(2)}, 1);
+      body->flow(0.001);
+    }
+    truth.flow(0.001);
+    if (i % 900 == 899) {
+      for (Body* body : {&in_z, &in_x, &truth}) body->take(EventKind::kJump, {});
+    }
+  }
+  EXPECT_LT((in_z.state.head(4) - truth.state.head(4)).norm(), 0.01);
+  EXPECT_LT((in_x.state.head(4) - in_z.state.head(4)).norm(), 1e-6);
+  EXPECT_GT(std::abs(truth.state(1)), 0.1);
+
+  EXPECT_THROW(OriginalHighGainObserver(puck(start), settings(bounds, 8.0, {kK}), {identity}, 0.0),
+               std::invalid_argument);
 }
 
 TEST(TransformedHighGainTest, JumpsAndStartsInItsCoordinates) {

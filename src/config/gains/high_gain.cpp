@@ -67,8 +67,22 @@ TransformedHighGainObserver::Maps read_maps(ConfigSection& gains, const LawConte
   maps.Theta = theta.read_map(gains, "Theta", context.names.x);
   ExpressionReader phi(of_z_and_x);
   phi.read_definitions(gains, "definitions");
-  maps.Phi = phi.read_text(gains, "Phi");
+  const auto outputs = static_cast<std::size_t>(context.plant().outputs(SensorTiming::kContinuous));
+  maps.Phi = outputs > 1 ? phi.read_list(gains, "Phi", outputs) : phi.read_text(gains, "Phi");
   return maps;
+}
+
+/// One list for each continuous output, of as many numbers in all as T has formulas.
+std::vector<Eigen::VectorXd> read_K(ConfigSection& gains, const Plant& plant, Eigen::Index d) {
+  if (plant.outputs(SensorTiming::kContinuous) == 1) return {gains.vector("K", d)};
+  std::vector<Eigen::VectorXd> K = gains.vectors("K");
+  Eigen::Index numbers = 0;
+  for (const Eigen::VectorXd& of_output : K) numbers += of_output.size();
+  if (numbers != d) {
+    throw gains.error("K", "as many numbers in all as T has formulas, " + std::to_string(d),
+                      std::to_string(numbers));
+  }
+  return K;
 }
 
 /// Reads what each mode has, of a switched plant in gains/modes/LABEL, else in `gains` itself.
@@ -109,7 +123,7 @@ HighGains read_high_gains(ConfigSection& gains, const LawContext& context) {
     } else {
       maps.T = read_T(section, context.names);
     }
-    result.settings.K.push_back({section.vector("K", maps.T->size())});
+    result.settings.K.push_back(read_K(section, context.plant(), maps.T->size()));
   });
   if (form == Form::kOriginal && gains.has("damping")) result.damping = gains.number("damping");
   return result;

@@ -29,6 +29,9 @@ void check_ell_command(const CheckEllArguments& arguments) {
         "another one. The linear form converges with any ell; the original one can be tried as a "
         "transformed one");
   }
+  if (law->plant().outputs(SensorTiming::kContinuous) != 1) {
+    throw DesignError("expected a plant with one output, found several: they are not tried");
+  }
   std::vector<EllCheck> checks;
   bool has_second = false;
   for (std::size_t mode = 0; mode < law->maps().size(); ++mode) {

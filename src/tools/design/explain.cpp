@@ -66,7 +66,8 @@ void draw(const CertificateSubject& subject, const ExplainArguments& arguments) 
 
 /// T of a high-gain observer in one of its two nonlinear forms.
 TrajectoryCoordinates coordinates_of(const HighGainObserver& law) {
-  TrajectoryCoordinates result{{}, law.settings().ell, law.saturation().scales()};
+  TrajectoryCoordinates result{
+      {}, inverse_powers(law.settings(), law.plant()), law.saturation().scales()};
   if (const auto* transformed = dynamic_cast<const TransformedHighGainObserver*>(&law)) {
     for (const auto& maps : transformed->maps()) result.T.push_back(maps.T);
   } else if (const auto* original = dynamic_cast<const OriginalHighGainObserver*>(&law)) {
