@@ -37,18 +37,32 @@ RoundedMatrix product_at_centre(const RoundedMatrix& a, const RoundedMatrix& b) 
                                  kUnitRounding * (a.error * b.error) + terms * (size_a * size_b)};
 }
 
-/// From the residual R of A X = I + R: A⁻¹ = X (I + R)⁻¹.
-RoundedMatrix inverse_at_centre(const RoundedMatrix& a) {
+/// Powers of two d with which d_i a_ii d_i is about 1 in absolute value, where it is not zero.
+Eigen::VectorXd units_of_diagonal(const MatrixXd& a) {
+  return a.diagonal().unaryExpr([](double entry) {
+    const bool is_usable = std::isfinite(entry) && entry != 0.0;
+    return is_usable ? std::ldexp(1.0, -std::ilogb(entry) / 2) : 1.0;
+  });
+}
+
+/// From the residual R of A X = I + R: A⁻¹ = X (I + R)⁻¹. In units in which the diagonal is about
+/// 1, to which changing is exact: R depends on units.
+RoundedMatrix inverse_at_centre(const RoundedMatrix& in_any_units) {
+  const Eigen::VectorXd d = units_of_diagonal(in_any_units.value);
+  const auto scaled = [&d](const MatrixXd& matrix) {
+    return MatrixXd(d.asDiagonal() * matrix * d.asDiagonal());
+  };
+  const RoundedMatrix a{scaled(in_any_units.value), scaled(in_any_units.error)};
   const Eigen::Index n = a.value.rows();
   const MatrixXd X = inverse_of(a.value);
   const MatrixXd size = X.cwiseAbs();
   const MatrixXd R = (a.value * X - MatrixXd::Identity(n, n)).cwiseAbs() / kUnitRounding +
                      (static_cast<double>(n) * a.value.cwiseAbs() + a.error) * size;
   const double norm_of_R = R.colwise().sum().maxCoeff();
-  if (!(kUnitRounding * norm_of_R < 0.5)) return {X, unknown(X)};
+  if (!(kUnitRounding * norm_of_R < 0.5)) return {scaled(X), unknown(X)};
   // |R|² + |R|³ + …, of which no entry is larger than the norm.
   const double further = kUnitRounding * norm_of_R * norm_of_R / (1.0 - kUnitRounding * norm_of_R);
-  return {X, size * (R + MatrixXd::Constant(n, n, further))};
+  return {scaled(X), scaled(size * (R + MatrixXd::Constant(n, n, further)))};
 }
 
 /// By scaling and squaring, with the error of each step: of a part whose exponential is small it
