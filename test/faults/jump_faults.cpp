@@ -41,6 +41,30 @@ void twice(FaultBench& bench) {
   bench.await_statuses();
 }
 
+void take_back(FaultBench& bench, Stamp stamp) {
+  JumpEvent message = jump_event(stamp);
+  message.withdraw = 1;
+  bench.publish("jumps", message);
+}
+
+/// The detector finds out half a second later, after five samples.
+void taken_back(FaultBench& bench) {
+  bench.let_pass(0.05);
+  const Stamp stamp = bench.now();
+  jump(bench, stamp);
+  bench.go_on(0.5);
+  take_back(bench, stamp);
+  bench.await_statuses();
+}
+
+void taken_back_before(FaultBench& bench) {
+  bench.let_pass(0.05);
+  take_back(bench, bench.now());
+  bench.await_statuses();
+  jump(bench, bench.now());
+  bench.await_statuses();
+}
+
 void flood(FaultBench& bench) {
   bench.let_pass(1.0);
   for (int i = 999; i > 0; --i) jump(bench, bench.now() - i * kMillisecond);
@@ -118,6 +142,17 @@ std::vector<Fault> jump_faults() {
        {{EventStatus::USED_LATE, 1}},
        kFinite},
       {"Twice", "oscillator", "a jump that is told twice", twice, {{EventStatus::DUPLICATE, 1}}},
+      {"TakenBack",
+       "oscillator",
+       "a jump that was none, which is taken back 0.5 s later, after five samples",
+       taken_back,
+       {{EventStatus::TAKEN_BACK, 1}},
+       kFinite},
+      {"TakenBackBefore",
+       "oscillator",
+       "a jump that was none, which comes after it was taken back",
+       taken_back_before,
+       {{EventStatus::NO_SUCH_JUMP, 1}, {EventStatus::WITHDRAWN, 1}}},
       {"Flood",
        "oscillator",
        "999 jumps that were none in 1 s, where five are allowed",
