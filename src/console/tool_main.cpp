@@ -16,6 +16,17 @@ bool is_all_printed() {
   return std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good();
 }
 
+/// Why not all could be printed. Where a part was refused before the last one, its cause is lost by
+/// now, but another line would be refused for the same.
+const char* what_kept_from_printing() {
+  if (errno == 0) {
+    std::clearerr(stdout);
+    std::fputc('\n', stdout);
+    std::fflush(stdout);
+  }
+  return errno != 0 ? std::strerror(errno) : "something is missing in it";
+}
+
 }  // namespace
 
 int tool_main(const char* name, int (*tool)(int argc, char** argv), int argc,
@@ -25,7 +36,7 @@ int tool_main(const char* name, int (*tool)(int argc, char** argv), int argc,
     const int status = tool(argc, argv);
     if (is_all_printed()) return status;
     std::fprintf(stderr, "%s: standard output: can't be written: %s\n", name,
-                 errno != 0 ? std::strerror(errno) : "something is missing in it");
+                 what_kept_from_printing());
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s: %s\n", name, error.what());
   } catch (...) {
