@@ -1,6 +1,7 @@
 #include "config/jump_config.h"
 
 #include <utility>
+#include <vector>
 
 #include "config/dwell_times.h"
 #include "config/expression_config.h"
@@ -13,14 +14,17 @@ constexpr double kLongestTime = 1e6;    // s
 constexpr double kShortestTime = 1e-9;  // s: one tick of the clock
 
 /// One margin for all formulas of a set, or one for each.
-StateSet read_margins(ConfigSection& section, const std::shared_ptr<const VectorMap>& set) {
-  StateSet result{set, {}};
+/// @param formulas  of each mode, as many in each
+StateSet read_margins(ConfigSection& section,
+                      std::vector<std::shared_ptr<const VectorMap>> formulas) {
+  const Eigen::Index size = formulas.front()->size();
+  StateSet result{std::move(formulas), {}};
   if (!section.is_list("margin")) {
     const double margin = section.number_in("margin", 0.0, kLargestValue, std::nullopt);
-    result.margins = Eigen::VectorXd::Constant(set->size(), margin);
+    result.margins = Eigen::VectorXd::Constant(size, margin);
     return result;
   }
-  result.margins = section.vector("margin", set->size());
+  result.margins = section.vector("margin", size);
   if (result.margins.minCoeff() < 0.0) {
     throw section.error("margin", "numbers that are not negative, in the units of the formulas",
                         "a negative one");
@@ -28,14 +32,17 @@ StateSet read_margins(ConfigSection& section, const std::shared_ptr<const Vector
   return result;
 }
 
-/// Of a set of the plant's.
-StateSet read_margins(ConfigSection& section, const std::shared_ptr<const VectorMap>& set,
+/// Of a set of the plant's modes.
+StateSet read_margins(ConfigSection& section, const Plant& plant,
+                      std::shared_ptr<const VectorMap> PlantMode::*set,
                       const std::string& set_key) {
-  if (!set) {
+  std::vector<std::shared_ptr<const VectorMap>> formulas;
+  for (const PlantMode& mode : plant.modes()) formulas.push_back(mode.*set);
+  if (!formulas.front()) {
     throw section.error("margin", "plant/" + set_key + " beside it, the formulas that it is about",
                         "none");
   }
-  return read_margins(section, set);
+  return read_margins(section, std::move(formulas));
 }
 
 RestState read_rest(ConfigSection& jumps, const PlantConfig& plant_config) {
@@ -49,7 +56,9 @@ RestState read_rest(ConfigSection& jumps, const PlantConfig& plant_config) {
   ConfigSection section = jumps.section("rest");
   const ExpressionReader reader(plant_config.names);
   RestState rest;
-  rest.set = read_margins(section, reader.read_list(section, "set", 0));
+  const std::vector<std::shared_ptr<const VectorMap>> formulas_of_set(
+      plant.modes().size(), reader.read_list(section, "set", 0));
+  rest.set = read_margins(section, formulas_of_set);
   ConfigSection states = section.section("state");
   std::vector<NamedExpression> formulas;
   for (const std::string& name : plant.state_names()) {
@@ -68,7 +77,7 @@ RestState read_rest(ConfigSection& jumps, const PlantConfig& plant_config) {
 
 JumpGate read_jump_gate(ConfigSection section, const Plant& plant) {
   JumpGate gate;
-  gate.jump_set = read_margins(section, plant.jump_set(), "jump_set");
+  gate.jump_set = read_margins(section, plant, &PlantMode::jump_set, "jump_set");
   ConfigSection recovery = section.section("recovery");
   gate.recover_after =
       from_seconds(recovery.number_in("after", kShortestTime, kLongestTime, std::nullopt));
@@ -79,7 +88,7 @@ JumpGate read_jump_gate(ConfigSection section, const Plant& plant) {
 
 MissingJumps read_missing_jumps(ConfigSection section, const Plant& plant, bool are_delayed) {
   MissingJumps missing;
-  missing.flow_set = read_margins(section, plant.flow_set(), "flow_set");
+  missing.flow_set = read_margins(section, plant, &PlantMode::flow_set, "flow_set");
   if (section.choice("action", {"report", "predict"}) == "predict") {
     missing.action = MissingJumps::Action::kPredict;
     if (plant.switches()) {

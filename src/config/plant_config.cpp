@@ -84,8 +84,8 @@ class PlantReader {
     plant_.state_names = names_.x;
     plant_.input_names = names_.u;
     plant_.integration = read_integration(section_);
-    plant_.jump_set = read_set("jump_set");
-    plant_.flow_set = read_set("flow_set");
+    complete_sets("jump_set", &PlantMode::jump_set);
+    complete_sets("flow_set", &PlantMode::flow_set);
     section_.finish();
     if (sensors_.keys().empty()) throw root.error("sensors", "at least one sensor", "none");
     for (const std::string& name : sorted_keys(sensors_)) read_sensor(name);
@@ -119,9 +119,30 @@ class PlantReader {
     plant_.modes.push_back(std::move(mode));
   }
 
-  std::shared_ptr<const VectorMap> read_set(const std::string& key) {
-    if (!section_.has(key)) return nullptr;
-    return ExpressionReader(names_).read_list(section_, key, 0);
+  std::shared_ptr<const VectorMap> read_set(ConfigSection& section, const std::string& key) {
+    if (!section.has(key)) return nullptr;
+    return ExpressionReader(names_).read_list(section, key, 0);
+  }
+
+  /// Modes without a set of their own have the plant's; either all have one, or none has.
+  void complete_sets(const std::string& key, std::shared_ptr<const VectorMap> PlantMode::*set) {
+    const std::shared_ptr<const VectorMap> common = read_set(section_, key);
+    const VectorMap* first = nullptr;
+    for (PlantMode& mode : plant_.modes) {
+      if (!(mode.*set)) mode.*set = common;
+      if (first == nullptr) first = (mode.*set).get();
+    }
+    if (first == nullptr) return;
+    for (const PlantMode& mode : plant_.modes) {
+      const VectorMap* own = (mode.*set).get();
+      if (own != nullptr && own->size() == first->size()) continue;
+      throw section_.error("modes",
+                           key +
+                               " in each mode, or in the plant for all others, with as many "
+                               "formulas in each",
+                           own == nullptr ? "none in mode " + std::to_string(mode.label)
+                                          : "another number in mode " + std::to_string(mode.label));
+    }
   }
 
   void read_modes() {
@@ -143,6 +164,8 @@ class PlantReader {
       ConfigSection section = modes.section(key);
       mode.flow = read_flow_map(section, names_);
       mode.jump = read_jump_map(section, names_);
+      mode.jump_set = read_set(section, "jump_set");
+      mode.flow_set = read_set(section, "flow_set");
       outputs_of_modes_.push_back(section.section_or_empty("outputs"));
       section.finish();
       plant_.modes.push_back(std::move(mode));

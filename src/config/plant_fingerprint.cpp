@@ -1,5 +1,6 @@
 #include "config/plant_fingerprint.h"
 
+#include <algorithm>
 #include <boost/uuid/name_generator_sha1.hpp>
 #include <boost/uuid/uuid_io.hpp>
 #include <cstdlib>
@@ -68,11 +69,28 @@ void write(const ConfigNode& node, const Skipped& skipped, std::string& text) {
   }
 }
 
+/// A plant without the sets in which its modes can be and jump.
+ConfigNode without_sets_of_modes(ConfigNode plant) {
+  for (auto& [key, modes] : plant.entries) {
+    if (key != "modes") continue;
+    for (auto& label_and_mode : modes.entries) {
+      auto& entries = label_and_mode.second.entries;
+      entries.erase(std::remove_if(entries.begin(), entries.end(),
+                                   [](const auto& entry) {
+                                     return entry.first == "jump_set" || entry.first == "flow_set";
+                                   }),
+                    entries.end());
+    }
+  }
+  return plant;
+}
+
 }  // namespace
 
 std::string plant_fingerprint(const ConfigNode& root) {
   std::string text;
-  if (const ConfigNode* plant = root.find("plant")) write(*plant, kNotThePlant, text);
+  if (const ConfigNode* plant = root.find("plant"))
+    write(without_sets_of_modes(*plant), kNotThePlant, text);
   std::map<std::string, const ConfigNode*> sorted;
   if (const ConfigNode* sensors = root.find("sensors")) {
     for (const auto& [name, sensor] : sensors->entries) sorted[name] = &sensor;

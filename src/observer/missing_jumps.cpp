@@ -34,9 +34,10 @@ MissingJumpsWatch::MissingJumpsWatch(const std::shared_ptr<const ObserverLaw>& i
       options_(std::move(options)),
       flow_set_(with_margins_times(0.0, options_.flow_set)),
       inner_set_(with_margins_times(-1.0, options_.flow_set)) {
-  require_for_watch(options_.flow_set.formulas->size() == options_.flow_set.margins.size() &&
-                        options_.flow_set.margins.minCoeff() >= 0.0,
-                    "one margin, not negative, for each formula of the flow set");
+  require_for_watch(
+      options_.flow_set.fits(observer().plant().modes().size()) &&
+          options_.flow_set.margins.minCoeff() >= 0.0,
+      "a flow set for each mode, and one margin, not negative, for each of its formulas");
   const Duration step = inner->flow_step();
   require_for_watch(options_.step > 0 && (step == 0 || options_.step % step == 0),
                     "the step must be positive, and so many steps of the flow");
@@ -118,8 +119,10 @@ void MissingJumpsWatch::flow_double(Duration duration, double* state, double* wo
 bool MissingJumpsWatch::leaves_further(const double* state, double* workspace) const {
   const double* before = before_.of(workspace);
   double* values = values_.of(workspace);
-  const double excess = flow_set_.excess(before, observer().held_part(before), values);
-  return excess <= 0.0 || !(flow_set_.excess(state, observer().held_part(state), values) < excess);
+  const double excess =
+      flow_set_.excess(observer().mode_of(before), before, observer().held_part(before), values);
+  return excess <= 0.0 || !(flow_set_.excess(observer().mode_of(state), state,
+                                             observer().held_part(state), values) < excess);
 }
 
 /// Sets `jumped` to the state of before the last step, which jumps as soon as it is outside the
@@ -173,16 +176,19 @@ void MissingJumpsWatch::forget_where_held(double* state) const {
 }
 
 bool MissingJumpsWatch::is_inside(const double* state, double* workspace) const {
-  return flow_set_.contains(state, observer().held_part(state), values_.of(workspace));
+  return flow_set_.contains(observer().mode_of(state), state, observer().held_part(state),
+                            values_.of(workspace));
 }
 
 bool MissingJumpsWatch::is_within_margin(const double* state, double* workspace) const {
-  return options_.flow_set.contains(state, observer().held_part(state), values_.of(workspace));
+  return options_.flow_set.contains(observer().mode_of(state), state, observer().held_part(state),
+                                    values_.of(workspace));
 }
 
 bool MissingJumpsWatch::is_near_edge(const double* state, double* workspace) const {
   return is_within_margin(state, workspace) &&
-         !inner_set_.contains(state, observer().held_part(state), values_.of(workspace));
+         !inner_set_.contains(observer().mode_of(state), state, observer().held_part(state),
+                              values_.of(workspace));
 }
 
 }  // namespace sampled_data_observers

@@ -18,7 +18,7 @@ void require_of_rest(bool holds, const char* what) {
 
 RestingEstimate::RestingEstimate(const std::shared_ptr<const ObserverLaw>& inner, RestState rest)
     : LawDecorator(inner), rest_(std::move(rest)) {
-  require_of_rest(rest_.set.formulas->size() == rest_.set.margins.size(),
+  require_of_rest(rest_.set.fits(observer().plant().modes().size()),
                   "one margin for each formula of the set");
   require_of_rest(rest_.state->size() == estimate_size(), "one value for each state");
   require_of_rest(observer().plant().outputs(SensorTiming::kContinuous) == 0,
@@ -60,7 +60,8 @@ Effect RestingEstimate::reset(const Event& event, double* state, double* workspa
 }
 
 bool RestingEstimate::is_in_set(const double* state, double* workspace) const {
-  return rest_.set.contains(state, observer().held_part(state), values_.of(workspace));
+  return rest_.set.contains(observer().mode_of(state), state, observer().held_part(state),
+                            values_.of(workspace));
 }
 
 void RestingEstimate::lie_down(double* state, double* workspace) const {

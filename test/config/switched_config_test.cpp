@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "support/config_faults.h"
@@ -45,6 +46,57 @@ TEST(SwitchedConfigTest, EachKindOfGainMayBeMissingButNotAll) {
   const std::string none = fault(text.substr(0, text.find("gains:")) + "gains: {}\n");
   EXPECT_NE(std::string::npos, none.find("at least one of L_c, L_d, metric and projection"))
       << none;
+}
+
+/// A thermostat that is switched off at 1 and on at 0.
+const char kThermostat[] = R"(
+observer: SwitchedObserver
+plant:
+  states: [x1]
+  modes:
+    1: {A: [[0]], b: [1], jump_set: [1 - x1], flow_set: [x1 - 1]}
+    2: {A: [[0]], b: [-1], jump_set: [x1], flow_set: [-x1]}
+sensors: {c: {C: [[1]], measured: continuous, source: {topic: c}}}
+gains: {L_c: {1: [[1]], 2: [[1]]}}
+jumps: {gate: {margin: 0.1, recovery: {after: 100}}, missing: {margin: 0.2, action: report}}
+history: {duration: 100, max_events: 2000}
+)";
+
+TEST(SwitchedConfigTest, EachModeHasItsJumpSetAndItsFlowSet) {
+  const ObserverConfig config = test::parse(kThermostat);
+  Estimator estimator(config.law, config.options);
+  const Stamp start = from_seconds(1000.0);
+  estimator.restart(start);
+  const auto outcome = [&](double seconds, double mode) {
+    Event event{start + from_seconds(seconds), EventKind::kJump, 0, nullptr, 0, 0};
+    event.mode = mode;
+    return estimator.submit(event, event.stamp).outcome;
+  };
+  EXPECT_EQ(EventOutcome::kUsed, outcome(0.95, 2.0));
+  EXPECT_EQ(EventOutcome::kNotPossible, outcome(1.0, 1.0));  // it is at 0.9, far from 0
+  EXPECT_EQ(EventOutcome::kUsed, outcome(1.85, 1.0));
+  EXPECT_EQ(EventOutcome::kNotPossible, outcome(2.0, 2.0));  // at 0.2
+  Estimate estimate = estimator.make_estimate();
+  const auto missing_at = [&](double seconds) {
+    EXPECT_EQ(Timeline::Query::kOk, estimator.estimate_at(start + from_seconds(seconds), estimate));
+    return config.law->missing_jumps(estimate.state.data());
+  };
+  EXPECT_EQ(0.0, missing_at(3.0));  // at 1.15
+  EXPECT_EQ(1.0, missing_at(3.1));
+}
+
+TEST(SwitchedConfigTest, AllModesHaveSetsOrNone) {
+  const std::string common = test::replaced(test::replaced(kThermostat, ", jump_set: [x1]", ""),
+                                            "  modes:", "  jump_set: [2]\n  modes:");
+  EXPECT_EQ("no fault", fault(common));
+  for (const auto& [from, to, found] :
+       {std::make_tuple(", jump_set: [x1]", "", "none in mode 2"),
+        std::make_tuple(", jump_set: [x1]", ", jump_set: [x1, 1]", "another number in mode 2")}) {
+    const std::string message = fault(test::replaced(kThermostat, from, to));
+    for (const char* part : {"plant/modes", "jump_set in each mode", found}) {
+      EXPECT_NE(std::string::npos, message.find(part)) << message;
+    }
+  }
 }
 
 TEST(SwitchedConfigTest, ADetectorTellsTheMode) {

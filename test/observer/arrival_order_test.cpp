@@ -163,7 +163,9 @@ class ArrivalOrderTest : public ::testing::TestWithParam<std::string> {
   StateSet any_set() {
     Eigen::MatrixXd first = Eigen::MatrixXd::Zero(1, config_.plant->states());
     first(0, 0) = in_one_of(2) ? 1.0 : -1.0;
-    return {std::make_shared<const AffineMap>(first), Eigen::VectorXd::Constant(1, 0.1 * any(5))};
+    const std::vector<std::shared_ptr<const VectorMap>> formulas(
+        config_.plant->modes().size(), std::make_shared<const AffineMap>(first));
+    return {formulas, Eigen::VectorXd::Constant(1, 0.1 * any(5))};
   }
 
   RestState any_rest() {

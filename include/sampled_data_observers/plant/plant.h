@@ -29,6 +29,11 @@ struct PlantMode {
   std::shared_ptr<const VectorMap> jump;
   /// y_i = h_i(x, u), one map per sensor
   std::vector<std::shared_ptr<const VectorMap>> outputs;
+  /// Formulas in (x, u), any number of them but as many in each mode, that are all at most 0 where
+  /// the plant can jump: D of bernard2022 (1); null in all modes where that is everywhere.
+  std::shared_ptr<const VectorMap> jump_set = nullptr;
+  /// The same where it flows: C.
+  std::shared_ptr<const VectorMap> flow_set = nullptr;
 };
 
 /// What a plant that flows, is measured and may jump is made of. A switched plant has several
@@ -42,11 +47,6 @@ struct PlantDescription {
   std::vector<PlantMode> modes;
   /// For flows that are not affine.
   Integration integration;
-  /// Formulas in (x, u), any number of them, that are all at most 0 where the plant can jump: D of
-  /// bernard2022 (1); null where that is everywhere.
-  std::shared_ptr<const VectorMap> jump_set;
-  /// The same where it flows: C.
-  std::shared_ptr<const VectorMap> flow_set;
 };
 
 /// A checked description. Immutable.
@@ -69,10 +69,6 @@ class Plant {
   const std::vector<PlantMode>& modes() const { return description_.modes; }
   /// How flows that are not affine are integrated.
   const Integration& integration() const { return description_.integration; }
-  /// Where it can jump; null where that is everywhere.
-  const std::shared_ptr<const VectorMap>& jump_set() const { return description_.jump_set; }
-  /// Where it flows; null where that is everywhere.
-  const std::shared_ptr<const VectorMap>& flow_set() const { return description_.flow_set; }
 
   /// n
   Eigen::Index states() const { return static_cast<Eigen::Index>(state_names().size()); }
