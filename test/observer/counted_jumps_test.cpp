@@ -10,6 +10,7 @@
 
 #include "sampled_data_observers/observer/plant_observer.h"
 #include "sampled_data_observers/runtime/observer_runtime.h"
+#include "support/allocation_counter.h"
 #include "support/config_faults.h"
 #include "support/random_events.h"
 #include "support/stamps.h"
@@ -113,6 +114,21 @@ TEST_F(CountedJumpsTest, ATooOldWithdrawalIsAnsweredAsSuch) {
   run.take(jump(4.0, 2));
   EXPECT_EQ(EventOutcome::kTooOld, run.take(withdrawal(wrong)).outcome);
   EXPECT_EQ(2u, run.at(4.0).counts.jumps);
+}
+
+TEST_F(CountedJumpsTest, NothingIsAllocatedForThem) {
+  Run run(
+      configure("{dwell_time: [0.5, 2], average_dwell_time: {tau: 1, N0: 2}, "
+                "rest: {set: [x], margin: 0.1, state: {x: 0}}}"));
+  std::vector<OwnedEvent> events;
+  for (std::uint32_t k = 1; k < 20; ++k) {
+    events.push_back(jump(0.7 * k, k));
+    events.push_back(withdrawal(jump(0.7 * (k + k % 2), k)));
+  }
+  const std::size_t before = test::allocations();
+  for (const OwnedEvent& event : events) run.take(event);
+  EXPECT_EQ(before, test::allocations());
+  EXPECT_LT(run.at(20.0).counts.jumps, 19u);
 }
 
 TEST_F(CountedJumpsTest, NumbersLeftOutAreJumpsLost) {
