@@ -30,8 +30,8 @@ class Linearization {
  public:
   Linearization(const Plant& plant, const std::vector<TrajectoryStep>& steps)
       : plant_(plant), state_sizes_(Eigen::VectorXd::Zero(plant.states())) {
-    for (std::size_t i = 0; i < plant.sensors().size(); ++i) {
-      output_sizes_.emplace_back(Eigen::VectorXd::Zero(plant.sensors()[i].outputs()));
+    for (const Sensor& sensor : plant.sensors()) {
+      output_sizes_.emplace_back(Eigen::VectorXd::Zero(sensor.outputs()));
     }
     for (const TrajectoryStep& step : steps) {
       state_sizes_ = state_sizes_.cwiseMax(step.begin.cwiseAbs()).cwiseMax(step.end.cwiseAbs());
