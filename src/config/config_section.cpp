@@ -261,8 +261,8 @@ Eigen::Vector2d ConfigSection::interval_in(const std::string& key, double low, d
   const std::string& second = node.items[1].scalar;
   const bool is_unbounded = std::count(std::begin(kInfinities), std::end(kInfinities), second) > 0;
   const double infinity = std::numeric_limits<double>::infinity();
-  const Eigen::Vector2d result(as_number(node.items[0]).value_or(-infinity),
-                               as_number(node.items[1]).value_or(is_unbounded ? infinity : low));
+  Eigen::Vector2d result(as_number(node.items[0]).value_or(-infinity),
+                         as_number(node.items[1]).value_or(is_unbounded ? infinity : low));
   if (result(0) < low || result(1) < result(0) || (!is_unbounded && !(result(1) <= high)) ||
       (!is_unbounded && !as_number(node.items[1]))) {
     throw error(key, expected, "[" + joined({node.items[0].scalar, second}) + "]");
