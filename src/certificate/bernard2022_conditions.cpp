@@ -114,13 +114,11 @@ class QuadraticCondition : public Theorem {
       return held_output_bound(subject, {{values.at("P"), values.at("L_c"), L_d}},
                                scalar_value(values, "flow_decay"), assumptions);
     }
-    const ModeMatrices& plant = subject.plant.mode();
     const Eigen::MatrixXd& L_d = values.at("L_d");
     const LyapunovRates rates = lyapunov_rates(subject, flow_of_error());
     const double a_c = evaluate(rates.a_c, values)(0, 0);
     const double a_d = evaluate(rates.a_d, values)(0, 0);
-    return jump_based_bound(subject, values.at("P"), *plant.A_d - L_d * plant.C_d, L_d,
-                            {a_d / 2.0, a_c / 2.0}, assumptions);
+    return jump_based_bound(subject, values.at("P"), L_d, {a_d / 2.0, a_c / 2.0}, assumptions);
   }
 
  private:

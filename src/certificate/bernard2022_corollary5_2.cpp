@@ -68,9 +68,8 @@ class Corollary52 : public Theorem {
       const ErrorAssumptions& assumptions) const override {
     // Stated maps of the error take outputs as known at all times, which come in messages.
     if (!subject.plant.stated.is_empty()) return nullptr;
-    const ModeMatrices& plant = subject.plant.mode();
     const Eigen::MatrixXd& L_d = values.at("L_d");
-    return jump_based_bound(subject, values.at("P"), *plant.A_d - L_d * plant.C_d, L_d,
+    return jump_based_bound(subject, values.at("P"), L_d,
                             {-scalar_value(values, "jump_decay"), 0.0}, assumptions);
   }
 };

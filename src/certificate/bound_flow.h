@@ -1,15 +1,23 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace sampled_data_observers {
 
 /// w(duration) of ẇ = growth w + push, w(0) = start; infinity stays.
 inline double flowed_linearly(double start, double growth, double push, double duration) {
   if (std::isinf(start)) return start;
-  const double integral =
-      growth == 0.0 ? duration : std::expm1(growth * duration) / growth;  // of e^{growth s}
-  return start * std::exp(growth * duration) + push * integral;
+  const double z = growth * duration;
+  double integral = duration;  // of e^{growth s}
+  if (std::abs(z) >= 1e-16) {
+    integral = std::expm1(z) / growth;
+  } else if (growth != 0.0) {
+    // The quotient may be lost in underflow; duration (1 + z/2 + …) never is.
+    integral *= 1.0 + 2.5e-16;
+  }
+  return start * std::exp(z) + push * integral;
 }
 
 /// Not less than w(duration) of ẇ = growth w + s, w(0) = 0, s the time: duration²/2 (1 + z/3 +
@@ -34,6 +42,12 @@ inline double integral_of_ramp(double growth, double duration) {
 
 /// w(duration) of ẇ = −rate (w − final), w(0) = start
 inline double decayed(double start, double final, double rate, double duration) {
+  constexpr double kSmall = 1e-8;
+  if (rate > 0.0 && duration > 0.0 && rate * duration < kSmall) {
+    // A final level that is large and hardly approached must not be subtracted from itself.
+    const double z = std::max(rate * duration, std::numeric_limits<double>::min());
+    return start + (final - start) * -std::expm1(-z);
+  }
   return final + (start - final) * std::exp(-rate * duration);
 }
 

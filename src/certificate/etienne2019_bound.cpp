@@ -7,6 +7,7 @@
 #include "certificate/bound_flow.h"
 #include "certificate/interval_bound.h"
 #include "certificate/outward.h"
+#include "certificate/weighted_norm.h"
 #include "linear_algebra/matrix_functions.h"
 
 namespace sampled_data_observers {
@@ -30,12 +31,9 @@ class IssBound : public SampledErrorBound {
     for (const Eigen::MatrixXd& flow : etienne2019_flows(subject.plant)) {
       growth_ = std::max(growth_, growth_above(P, flow));
     }
-    if (N.cols() > 0) {
-      push_ = std::sqrt(largest_eigenvalue_above(N.transpose() * P * N)) * assumptions.disturbance;
-    }
-    const Eigen::MatrixXd R = cholesky_root(P);
-    held_ = raised(norm2(R * L * subject.plant.C() * inverse_of(R)));
-    held_noise_ = raised(norm2(R * L)) * assumptions.noise;
+    push_ = norm_into(P, N) * assumptions.disturbance;
+    held_ = norm_between(P, P, MatrixExpression(L) * subject.plant.C());
+    held_noise_ = norm_into(P, L) * assumptions.noise;
   }
 
   bool injects_between_samples() const override { return true; }

@@ -6,31 +6,29 @@
 #include "certificate/bound_flow.h"
 #include "certificate/interval_bound.h"
 #include "certificate/outward.h"
+#include "certificate/weighted_norm.h"
 #include "linear_algebra/matrix_functions.h"
 
 namespace sampled_data_observers {
 namespace {
-
-/// sup |a v|_P for |v| <= 1
-double weighted_norm(const Eigen::MatrixXd& a, const Eigen::MatrixXd& P) {
-  return a.cols() == 0 ? 0.0 : std::sqrt(largest_eigenvalue_above(a.transpose() * P * a));
-}
 
 /// |x − x̂|_P is at most the sum of two parts: one that comes from the error just after the last
 /// jump, and one that the disturbance has caused since.
 class JumpBasedBound : public IntervalBound {
  public:
   JumpBasedBound(const CertificateSubject& subject, const Eigen::MatrixXd& P,
-                 const Eigen::MatrixXd& reset, const Eigen::MatrixXd& L_d,
-                 const JumpContraction& contraction, const ErrorAssumptions& assumptions)
+                 const Eigen::MatrixXd& L_d, const JumpContraction& contraction,
+                 const ErrorAssumptions& assumptions)
       : IntervalBound(subject, assumptions, kEntries), contraction_(contraction) {
     const Eigen::MatrixXd& A = subject.plant.A();
     growth_ = growth_above(P, A);
-    push_ = weighted_norm(subject.plant.N, P) * assumptions.disturbance;
-    reset_ = raised(std::sqrt(largest_generalized_eigenvalue(reset.transpose() * P * reset, P)));
+    push_ = norm_into(P, subject.plant.N) * assumptions.disturbance;
     const Eigen::MatrixXd A_d = jump_of(subject.plant.mode());
-    uncorrected_ = raised(std::sqrt(largest_generalized_eigenvalue(A_d.transpose() * P * A_d, P)));
-    noise_ = weighted_norm(L_d, P) * assumptions.noise;
+    const Eigen::MatrixXd& C_d = subject.plant.mode().C_d;
+    const Eigen::MatrixXd reset = A_d - L_d * C_d;
+    reset_ = norm_between(P, P, MatrixExpression(A_d) - MatrixExpression(L_d) * C_d);
+    uncorrected_ = norm_between(P, P, A_d);
+    noise_ = norm_into(P, L_d) * assumptions.noise;
     per_error_ = std::sqrt(largest_eigenvalue_above(P));
     least_ = std::sqrt(positive_least_eigenvalue(P, "P"));
     if (jump_stamp_error() == 0.0) return;
@@ -38,7 +36,7 @@ class JumpBasedBound : public IntervalBound {
     flown_ = raised(std::exp(flow_norm_ * jump_stamp_error()));
     reset_norm_ = raised(norm2(reset));
     jump_norm_ = raised(norm2(A_d));
-    const double injection = raised(norm2(L_d) * norm2(subject.plant.mode().C_d));
+    const double injection = raised(norm2(L_d) * norm2(C_d));
     const Eigen::MatrixXd& N = subject.plant.N;
     const double disturbance = N.cols() == 0 ? 0.0 : raised(norm2(N)) * assumptions.disturbance;
     disturbed_ = (1.0 + flown_ * jump_norm_ + injection) * flown_ * disturbance;
@@ -47,10 +45,9 @@ class JumpBasedBound : public IntervalBound {
   void jump(const JumpMotion& motion, double* state) const override {
     const auto [tau, is_first] = interval(state);
     const double after_jump = numbers(state)[kAfterJump];
-    const double carried =
-        !is_first && is_foreseen(tau)
-            ? after_jump * std::exp(contraction_.offset + contraction_.slope * tau)
-            : reset_ * flowed_linearly(after_jump, growth_, 0.0, tau);
+    const double carried = !is_first && is_foreseen(tau)
+                               ? after_jump * contraction_over(tau)
+                               : reset_ * flowed_linearly(after_jump, growth_, 0.0, tau);
     const double after = carried + reset_ * numbers(state)[kCausedSince] + noise_ +
                          shifted(reset_norm_, motion, state);
     go_on_from(unless_told_twice(after, motion, state), state);
@@ -80,6 +77,13 @@ class JumpBasedBound : public IntervalBound {
   }
 
  private:
+  double contraction_over(double tau) const {
+    const double grown = contraction_.slope * tau;
+    // The two may cancel.
+    const double rounding = 1e-14 * (std::abs(contraction_.offset) + std::abs(grown));
+    return std::exp(contraction_.offset + grown + rounding);
+  }
+
   enum Entry { kAfterJump, kCausedSince, kEntries };
 
   /// Of |x − x̂|_P.
@@ -133,11 +137,10 @@ class JumpBasedBound : public IntervalBound {
 
 std::unique_ptr<const ErrorBound> jump_based_bound(const CertificateSubject& subject,
                                                    const Eigen::MatrixXd& P,
-                                                   const Eigen::MatrixXd& reset,
                                                    const Eigen::MatrixXd& L_d,
                                                    const JumpContraction& contraction,
                                                    const ErrorAssumptions& assumptions) {
-  return std::make_unique<const JumpBasedBound>(subject, P, reset, L_d, contraction, assumptions);
+  return std::make_unique<const JumpBasedBound>(subject, P, L_d, contraction, assumptions);
 }
 
 }  // namespace sampled_data_observers

@@ -31,11 +31,9 @@ struct JumpContraction {
 /// disturbance |w| <= d that acts between jump and stamp adds up to (1 + γ ‖A_d‖ + ‖L_d‖ ‖C_d‖) γ δ
 /// ‖N‖ d. Between stamps the error of x̃ moves as without.
 /// @param P       n x n
-/// @param reset   n x n: A_d − L_d H_d, from before a jump to after it
 /// @param L_d     n x m
 std::unique_ptr<const ErrorBound> jump_based_bound(const CertificateSubject& subject,
                                                    const Eigen::MatrixXd& P,
-                                                   const Eigen::MatrixXd& reset,
                                                    const Eigen::MatrixXd& L_d,
                                                    const JumpContraction& contraction,
                                                    const ErrorAssumptions& assumptions);

@@ -5,24 +5,10 @@
 #include <string>
 
 #include "certificate/outward.h"
+#include "certificate/weighted_norm.h"
 #include "linear_algebra/matrix_functions.h"
 
 namespace sampled_data_observers {
-namespace {
-
-/// sup |a v|_P for |v| <= 1
-double norm_into(const Eigen::MatrixXd& P, const Eigen::MatrixXd& a) {
-  return a.cols() == 0 ? 0.0 : std::sqrt(largest_eigenvalue_above(a.transpose() * P * a));
-}
-
-/// sup |a v|_to for |v|_from <= 1
-double norm_between(const Eigen::MatrixXd& from, const Eigen::MatrixXd& to,
-                    const Eigen::MatrixXd& a) {
-  const double square = largest_generalized_eigenvalue(a.transpose() * to * a, from);
-  return raised(std::sqrt(std::max(0.0, square)));
-}
-
-}  // namespace
 
 ModalNorms::ModalNorms(const CertificateSubject& subject, const std::vector<ModalProof>& modes,
                        const ErrorAssumptions& assumptions) {
@@ -38,8 +24,8 @@ ModalNorms::ModalNorms(const CertificateSubject& subject, const std::vector<Moda
     norms.injection = norm_into(proof.P, proof.L_c);
     norms.output = plant.C_c.rows() == 0 ? 0.0 : raised(norm2(plant.C_c));
     const Eigen::MatrixXd A_d = jump_of(plant);
-    const Eigen::MatrixXd reset =
-        proof.L_d.cols() == 0 ? A_d : Eigen::MatrixXd(A_d - proof.L_d * plant.C_d);
+    MatrixExpression reset = A_d;
+    if (proof.L_d.cols() > 0) reset = reset - MatrixExpression(proof.L_d) * plant.C_d;
     for (const ModalProof& next : modes) {
       norms.reset.push_back(norm_between(proof.P, next.P, reset));
       norms.uncorrected.push_back(norm_between(proof.P, next.P, A_d));
