@@ -1,6 +1,7 @@
 #include "observer/original_high_gain_observer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "observer/gain_requirement.h"
@@ -49,6 +50,12 @@ void OriginalHighGainObserver::derivative(const Held& held, const double* s, dou
   differentiate(*T_[held.mode], x, held.u, saturation().scales(), J, differences_.of(workspace));
   inverse_.apply(J, correction, solving_.of(workspace));
   for (Eigen::Index i = 0; i < n(); ++i) ds[i] += correction[i];
+}
+
+void OriginalHighGainObserver::confine(double* s) const {
+  if (std::all_of(s, s + n(), [](double value) { return std::isfinite(value); })) {
+    saturation().apply(s);
+  }
 }
 
 }  // namespace sampled_data_observers

@@ -33,7 +33,8 @@ class OriginalHighGainObserver final : public HighGainObserver {
  protected:
   bool flow_is_affine() const override { return false; }
   void derivative(const Held& held, const double* s, double* ds, double* workspace) const override;
-  void confine(double* s) const override { saturation().apply(s); }
+  /// What has no finite value is left as it is, and the flow held.
+  void confine(double* s) const override;
 
  private:
   std::vector<std::shared_ptr<const VectorMap>> T_;

@@ -10,13 +10,18 @@ namespace sampled_data_observers {
 namespace {
 
 constexpr std::uint32_t kEventThreads = 1;  // one event after another
-/// So that one long service, or a master that does not answer, does not hold up the diagnostics.
-constexpr std::uint32_t kServiceThreads = 3;
+/// So that a master that does not answer holds up neither diagnostics nor services.
+constexpr std::uint32_t kControlThreads = 2;
+/// Of services that may take long: callers are told that they are busy meanwhile.
+constexpr std::uint32_t kQueryThreads = 2;
 
 }  // namespace
 
 ObserverNodelet::ObserverNodelet(std::string type)
-    : type_(std::move(type)), event_threads_(kEventThreads), service_threads_(kServiceThreads) {}
+    : type_(std::move(type)),
+      event_threads_(kEventThreads),
+      control_threads_(kControlThreads),
+      query_threads_(kQueryThreads) {}
 
 ObserverNodelet::~ObserverNodelet() { stop(); }
 
@@ -39,7 +44,8 @@ void ObserverNodelet::onInit() {
 
 void ObserverNodelet::stop() {
   if (services_) services_->stop();
-  service_threads_.stop();
+  query_threads_.stop();
+  control_threads_.stop();
   event_threads_.stop();
   clock_watch_.reset();
   master_watch_.reset();
@@ -55,7 +61,7 @@ void ObserverNodelet::start(const ConfigNode& tree, const ObserverConfig& config
                             const NodeLog& log) {
   const ros::NodeHandle handle = event_threads_.handle(getNodeHandle());
   // Others, so that events go on while a service works.
-  const ros::NodeHandle service_handle = service_threads_.handle(getNodeHandle());
+  const ros::NodeHandle control = control_threads_.handle(getNodeHandle());
   runtime_ = std::make_unique<SharedRuntime>(config, log, handle.resolveName("reset"));
   std::unique_ptr<EstimateOutputs> outputs;
   if (config.outputs) {
@@ -65,17 +71,18 @@ void ObserverNodelet::start(const ConfigNode& tree, const ObserverConfig& config
   subscriptions_ =
       std::make_unique<EventSubscriptions>(handle, config, *runtime_, *publication_, log);
   gains_ = std::make_unique<GainReloader>(tree, config, *runtime_);
-  services_ = std::make_unique<ObserverServices>(service_handle, *runtime_, *gains_, log);
-  clock_watch_ = std::make_unique<ClockWatch>(service_handle, log);
+  services_ = std::make_unique<ObserverServices>(control, query_threads_.handle(getNodeHandle()),
+                                                 *runtime_, *gains_, log);
+  clock_watch_ = std::make_unique<ClockWatch>(control, log);
   diagnostics_ = std::make_unique<DiagnosticsReporter>(
-      service_handle, service_threads_.handle(getPrivateNodeHandle()), log,
-      diagnosis_subject(config), runtime_->statistics());
+      control, control_threads_.handle(getPrivateNodeHandle()), log, diagnosis_subject(config),
+      runtime_->statistics());
   std::vector<ExpectedType> topics;
   for (const EventChannel& channel : event_channels(config)) {
     topics.push_back({handle.resolveName(channel.source.topic), channel.source.type});
   }
   master_watch_ = std::make_unique<MasterWatch>(
-      service_handle, services_->names(), std::move(topics),
+      control, services_->names(), std::move(topics),
       [this](std::size_t channel, const std::string& type) {
         diagnostics_->note_published_type(channel, type);
       },
@@ -83,7 +90,8 @@ void ObserverNodelet::start(const ConfigNode& tree, const ObserverConfig& config
   publication_->start(config, log);
   subscriptions_->start();
   event_threads_.start();
-  service_threads_.start();
+  control_threads_.start();
+  query_threads_.start();
   log.info("%s: %zu states, estimates at %.6g Hz on %s", config.type.c_str(),
            config.law->estimate_names().size(), 1.0 / to_seconds(config.period),
            publication_->topic().c_str());

@@ -11,24 +11,24 @@
 
 namespace sampled_data_observers {
 
-ObserverServices::ObserverServices(const ros::NodeHandle& handle, SharedRuntime& runtime,
-                                   GainReloader& gains, NodeLog log)
+ObserverServices::ObserverServices(const ros::NodeHandle& control, const ros::NodeHandle& queries,
+                                   SharedRuntime& runtime, GainReloader& gains, NodeLog log)
     : runtime_(runtime), gains_(gains), log_(std::move(log)) {
-  advertise(handle, "reset", &ObserverServices::reset);
-  advertise(handle, "get_estimate", &ObserverServices::get_estimate);
-  advertise(handle, "reload_gains", &ObserverServices::reload_gains);
-  advertise(handle, "set_enabled", &ObserverServices::set_enabled);
-  advertise(handle, "enable_sensor", &ObserverServices::enable_sensor);
+  advertise(control, control_pace_, "reset", &ObserverServices::reset);
+  advertise(queries, query_pace_, "get_estimate", &ObserverServices::get_estimate);
+  advertise(queries, query_pace_, "reload_gains", &ObserverServices::reload_gains);
+  advertise(control, control_pace_, "set_enabled", &ObserverServices::set_enabled);
+  advertise(control, control_pace_, "enable_sensor", &ObserverServices::enable_sensor);
 }
 
 template <typename Request, typename Response>
-void ObserverServices::advertise(ros::NodeHandle handle, const char* service,
+void ObserverServices::advertise(ros::NodeHandle handle, CallPace& pace, const char* service,
                                  bool (ObserverServices::*serve)(Request&, Response&)) {
-  const boost::function<bool(Request&, Response&)> paced = [this, serve](Request& request,
-                                                                         Response& response) {
-    std::this_thread::sleep_until(pace_.turn(CallPace::Clock::now()));
-    return (this->*serve)(request, response);
-  };
+  const boost::function<bool(Request&, Response&)> paced =
+      [this, &pace, serve](Request& request, Response& response) {
+        std::this_thread::sleep_until(pace.turn(CallPace::Clock::now()));
+        return (this->*serve)(request, response);
+      };
   servers_.push_back(handle.advertiseService(service, paced));
 }
 

@@ -265,6 +265,24 @@ TEST(OriginalHighGainTest, StaysWithinTheBounds) {
   EXPECT_EQ(0.25, body.state(1));
 }
 
+TEST(OriginalHighGainTest, AFlowWithoutAValueIsNoStateAtTheBounds) {
+  PlantDescription plant;
+  plant.state_names = {"x1", "x2"};
+  plant.sensors = {{"y", SensorTiming::kContinuous, {false}}};
+  PlantMode mode;
+  mode.flow = formulas({"x1", "x2"}, {"x2", "sqrt(x1 - 2)"});
+  mode.outputs = {formulas({"x1", "x2"}, {"x1"})};
+  plant.modes = {mode};
+  Saturation bounds(2);
+  for (int i = 0; i < 2; ++i) bounds.bound(i, -3.0, 3.0);
+  const ObserverContext context{std::make_shared<const Plant>(plant), Eigen::Vector2d(1.0, 0.0),
+                                Eigen::VectorXd(0)};
+  Body body(std::make_shared<const OriginalHighGainObserver>(
+      context, settings(bounds, 5.0, {kK}), Formulas{formulas({"x1", "x2"}, {"x1", "x2"})}, 0.01));
+  body.flow(0.01);
+  EXPECT_FALSE(body.state.head(2).allFinite());  // for which the timeline holds what was before
+}
+
 TEST(OriginalHighGainTest, DampingTakesItThroughSingularJacobians) {
   // y = x1, ẋ1 = x2²/2: ∂T/∂x = diag(1, x2) is singular at x2 = 0, where the estimate starts.
   PlantDescription plant;

@@ -40,7 +40,8 @@ class ObserverNodelet : public nodelet::Nodelet {
 
   const std::string type_;
   CallbackThreads event_threads_;
-  CallbackThreads service_threads_;
+  CallbackThreads control_threads_;
+  CallbackThreads query_threads_;
   // Each uses those before it.
   std::unique_ptr<SharedRuntime> runtime_;
   std::unique_ptr<EstimatePublication> publication_;

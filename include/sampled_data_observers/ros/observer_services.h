@@ -20,17 +20,20 @@
 
 namespace sampled_data_observers {
 
-/// The services of a live observer. They may be called on any thread, several at a time; together
-/// they answer at the pace of CallPace.
+/// The services of a live observer. They may be called on any thread, several at a time. Those
+/// that change how the observer works answer at the pace of a CallPace, and those that may take
+/// long of another one.
 class ObserverServices {
  public:
   /// Advertises them.
-  /// @param handle   its callback queue serves
+  /// @param control  its callback queue serves what changes how the observer works, which is done
+  /// at once
+  /// @param queries  its callback queue serves what may take long; callers of it hold up no others
   /// @param runtime  of the observer
   /// @param gains    changes those of `runtime`
   /// @param log      of the nodelet
-  ObserverServices(const ros::NodeHandle& handle, SharedRuntime& runtime, GainReloader& gains,
-                   NodeLog log);
+  ObserverServices(const ros::NodeHandle& control, const ros::NodeHandle& queries,
+                   SharedRuntime& runtime, GainReloader& gains, NodeLog log);
 
   /// Of all services, resolved.
   std::vector<std::string> names() const;
@@ -40,7 +43,7 @@ class ObserverServices {
 
  private:
   template <typename Request, typename Response>
-  void advertise(ros::NodeHandle handle, const char* service,
+  void advertise(ros::NodeHandle handle, CallPace& pace, const char* service,
                  bool (ObserverServices::*serve)(Request&, Response&));
   std::string compute_estimate(const ros::Time& at, StateEstimate& message);
   bool reset(Reset::Request& request, Reset::Response& response);
@@ -53,7 +56,8 @@ class ObserverServices {
   GainReloader& gains_;
   const NodeLog log_;
   std::atomic<bool> is_stopping_{false};
-  CallPace pace_;
+  CallPace control_pace_;
+  CallPace query_pace_;
   OneAtATime queries_;
   std::vector<ros::ServiceServer> servers_;
 };
