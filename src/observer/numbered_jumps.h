@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 
 #include "observer/law_decorator.h"
@@ -9,9 +10,9 @@ namespace sampled_data_observers {
 /// A law that takes a jump once, however often it is told of it: a jump with the number of the one
 /// before takes no effect, whatever its stamp. Jumps that nobody counts all do.
 ///
-/// Numbers that were left out are jumps that were lost (skipped_jumps()), until one with a lower
-/// number comes behind: it was only stamped too late. Where the estimate begins, any number may
-/// come; number 1 begins a new count.
+/// Numbers that were left out are jumps that were lost (skipped_jumps()), until one of them comes
+/// behind: it was only stamped too late. Where the estimate begins, any number may come. Another
+/// lower number begins a new count, as of a detector that was started anew: all below it were lost.
 class NumberedJumps : public LawDecorator {
  public:
   explicit NumberedJumps(std::shared_ptr<const ObserverLaw> law);
@@ -21,11 +22,13 @@ class NumberedJumps : public LawDecorator {
   Effect reset(const Event& event, double* state, double* workspace) const override;
 
  private:
-  void note_number(double number, double* state) const;
+  void note_number(std::uint64_t number, double* state) const;
+  void lose(std::uint64_t jumps, double* state) const;
 
-  NumberSlot last_ = state_layout().number();     ///< that took effect; 0 where there was none
-  NumberSlot told_ = state_layout().number();     ///< the largest, with effect or without, likewise
-  NumberSlot gap_ = state_layout().number();      ///< how many are missing just below `told_`
+  NumberSlot last_ = state_layout().number();  ///< that took effect; 0 where there was none
+  NumberSlot told_ = state_layout().number();  ///< the largest of this count, whatever its effect
+  /// Which are missing below `told_`: a bit for each, of 1 for the one just below.
+  NumberSlot missing_ = state_layout().number();
   NumberSlot skipped_ = state_layout().number();  ///< in all
 };
 

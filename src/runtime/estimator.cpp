@@ -238,21 +238,26 @@ PublishedBound Estimator::bound(const Estimate& estimate, Stamp now) const {
 
 /// Why a bound at an estimate's stamp can't be given yet, or not at all, though one is known:
 /// inputs or jumps of before it may still come, or a jump that was told with a later stamp was
-/// before it, perhaps.
+/// before it, perhaps. Nothing else of later events: what is published must not depend on how many
+/// of them have arrived.
 BoundLoss Estimator::withheld(Stamp stamp, Stamp now) const {
   const bool jumps = law_->observer().plant().jumps();
   const Duration latest = options_.latency + (jumps ? options_.jump_stamp_error : 0);
   if (has_other_events_ && now - stamp < latest) return BoundLoss::kStillOnTheirWay;
-  if (is_before_gap(stamp)) return BoundLoss::kUnknownJump;
   return is_before_jump(stamp) ? BoundLoss::kNearJump : BoundLoss::kNone;
 }
 
-/// Whether the number of the next jump shows that one was lost, which may have been before.
-bool Estimator::is_before_gap(Stamp stamp) const {
-  const Estimator& from = at(stamp);
-  const std::optional<Timeline::Around> around = from.timeline_.around_next_jump(stamp);
-  return around &&
-         from.law_->skipped_jumps(around->after) > from.law_->skipped_jumps(around->before);
+bool Estimator::is_before_gap(Stamp stamp) const { return shows_gap_behind(stamp).value_or(false); }
+
+/// Of the next jump, or withdrawal of one; nothing where there is none.
+std::optional<bool> Estimator::shows_gap_behind(Stamp stamp) const {
+  if (has_earlier() && stamp < *taken_over_at_) {
+    const std::optional<bool> found = earlier_->shows_gap_behind(stamp);
+    if (found) return found;
+  }
+  const std::optional<Timeline::Around> around = timeline_.around_next_jump(stamp);
+  if (!around) return std::nullopt;
+  return law_->skipped_jumps(around->after) > law_->skipped_jumps(around->before);
 }
 
 /// Whether a jump was told with a stamp so little later that it may have been before.
@@ -283,7 +288,7 @@ Timeline::Query Estimator::begin_query(Stamp stamp, Stamp now, EstimateQuery& qu
   if (awaits_sample_) return Timeline::Query::kNoEvent;
   const Estimator& from = at(stamp);
   query.law_ = from.law_;
-  query.withheld_ = withheld(stamp, now);
+  query.withheld_ = is_before_gap(stamp) ? BoundLoss::kUnknownJump : withheld(stamp, now);
   query.estimate_.stamp = stamp;
   return from.timeline_.begin_flow(stamp, query.flow_, query.estimate_.counts);
 }

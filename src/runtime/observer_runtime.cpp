@@ -44,6 +44,7 @@ bool ObserverRuntime::is_enabled(const Event& event) const {
 
 EventReport ObserverRuntime::receive(const Event& event, Stamp now) {
   now_ = now;
+  const bool had_gap = is_bound_before_gap(event);
   EventReport report;
   if (is_enabled(event)) {
     report = estimator_.submit(event, now);
@@ -52,7 +53,8 @@ EventReport ObserverRuntime::receive(const Event& event, Stamp now) {
     report.outcome = EventOutcome::kDisabled;
     estimator_.note_rejected(event, now);
   }
-  report.came_after_bound = comes_after_bound(event, report);
+  report.came_after_bound =
+      comes_after_bound(event, report) || (!had_gap && is_bound_before_gap(event));
   if (setup_.publish_on_event && report.used()) event_waits_ = true;
   return report;
 }
@@ -67,6 +69,13 @@ bool ObserverRuntime::comes_after_bound(const Event& event, const EventReport& r
   return is_of_plant(event) && bounded_until_ > 0 && !changes_nothing && event.stamp > 0 &&
          (event.kind == EventKind::kInput ? event.stamp < bounded_until_
                                           : event.stamp <= bounded_until_ + jump_stamp_error);
+}
+
+/// Whether the newest finite bound may be one of a run without a jump that was lost, as far as
+/// numbers of later jumps tell: a matter of events with a number only.
+bool ObserverRuntime::is_bound_before_gap(const Event& event) const {
+  return is_of_plant(event) && event.index != 0 && bounded_until_ > 0 &&
+         estimator_.is_before_gap(bounded_until_);
 }
 
 /// A sample that a gate keeps out says as much of the estimate as one that is used.

@@ -245,9 +245,11 @@ struct NumberedRun {
     estimator.submit(event, kRunStart + from_seconds(60.0));
   }
   BoundLoss loss_at(double seconds) {
-    Estimate estimate = estimator.make_estimate();
-    estimator.estimate_at(kRunStart + from_seconds(seconds), estimate);
-    const PublishedBound bound = estimator.bound(estimate, kRunStart + from_seconds(60.0));
+    EstimateQuery query;
+    estimator.begin_query(kRunStart + from_seconds(seconds), kRunStart + from_seconds(60.0), query);
+    while (!query.proceed(1000)) {
+    }
+    const PublishedBound bound = query.bound();
     EXPECT_EQ(bound.loss == BoundLoss::kNone, std::isfinite(bound.value));
     return bound.loss;
   }

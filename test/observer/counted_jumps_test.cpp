@@ -152,6 +152,46 @@ TEST_F(CountedJumpsTest, NumbersLeftOutAreJumpsLost) {
   EXPECT_EQ(1.0, run.lost_at(10.0));
 }
 
+TEST_F(CountedJumpsTest, ALowerNumberThatIsNotMissingBeginsANewCount) {
+  Run restarted(configure());
+  restarted.take(jump(1.0, 57));
+  restarted.take(jump(2.0, 2));  // of a detector that was started again, and lost its first
+  EXPECT_EQ(1.0, restarted.lost_at(2.0));
+  restarted.take(jump(3.0, 4));
+  EXPECT_EQ(2.0, restarted.lost_at(3.0));
+  Run told_twice(configure());
+  told_twice.take(jump(1.0, 3));
+  told_twice.take(jump(2.0, 5));
+  told_twice.take(jump(3.0, 3));
+  EXPECT_EQ(3.0, told_twice.lost_at(3.0));
+  Run blinded(configure());
+  blinded.take(jump(1.0, 4'000'000'000));
+  blinded.take(jump(2.0, 5));
+  blinded.take(jump(3.0, 7));
+  EXPECT_EQ(5.0, blinded.lost_at(3.0));
+}
+
+TEST_F(CountedJumpsTest, EachMissingNumberFillsItsOwnPlaceOnce) {
+  Run run(configure());
+  run.take(jump(1.0, 1));
+  run.take(jump(2.0, 3));
+  run.take(jump(3.0, 5));
+  EXPECT_EQ(2.0, run.lost_at(3.0));
+  run.take(jump(4.0, 4));
+  run.take(jump(5.0, 2));
+  EXPECT_EQ(0.0, run.lost_at(5.0));
+  run.take(jump(6.0, 4));
+  EXPECT_EQ(3.0, run.lost_at(6.0));
+  Run far(configure());
+  far.take(jump(1.0, 1));
+  far.take(jump(2.0, 100));
+  far.take(jump(3.0, 48));  // the lowest that is known to be missing
+  EXPECT_EQ(97.0, far.lost_at(3.0));
+  far.take(jump(4.0, 152));
+  far.take(jump(5.0, 101));
+  EXPECT_EQ(97.0 + 50.0, far.lost_at(5.0));
+}
+
 TEST_F(CountedJumpsTest, RefusedAndWithdrawnJumpsAreNotLost) {
   Run run(configure("{min_separation: 0.1}"));
   run.take(jump(1.0, 1));

@@ -251,5 +251,40 @@ TEST(UncertainJumpsRuntimeTest, AJumpStampedALittleAfterABoundMayHaveBeenBeforeI
   EXPECT_TRUE(jump(1'500'000'000, 1'501'000'000).came_after_bound);
 }
 
+TEST(LostJumpsRuntimeTest, WhatIsPublishedDoesNotDependOnWhenANumberTellsOfALostJump) {
+  const ObserverConfig config =
+      test::CertifiedGains("config/examples/bernard2022_impulsive/gains.yaml")
+          .with("rate: 100")
+          .assuming("{initial_error: 1, noise: 0}")
+          .config();
+  for (const bool is_late : {false, true}) {
+    ObserverRuntime runtime(config);
+    const auto jump = [&](Stamp stamp, std::uint32_t index) {
+      const double y = 0.0;
+      Event event{stamp, EventKind::kJump, 0, &y, 1};
+      event.index = index;
+      return runtime.receive(event, stamp);
+    };
+    double published = 0.0;
+    const auto publish = [&](Stamp now) {
+      while (const Estimate* estimate = runtime.next_due(now)) {
+        if (estimate->stamp <= 1'500'000'000) published = runtime.bound(*estimate).value;
+      }
+    };
+    jump(1'000'000'000, 3);
+    publish(is_late ? 1'400'000'000 : 1'501'000'000);
+    EXPECT_TRUE(jump(1'502'000'000, 5).came_after_bound);
+    publish(1'503'000'000);
+    EXPECT_TRUE(std::isfinite(published)) << is_late;
+    EXPECT_FALSE(jump(1'600'000'000, 6).came_after_bound);
+    // Who asks later is told more.
+    EstimateQuery query;
+    ASSERT_EQ(nullptr, runtime.begin_query(1'500'000'000, 1'600'000'000, query));
+    while (!query.proceed(1000)) {
+    }
+    EXPECT_EQ(BoundLoss::kUnknownJump, query.bound().loss);
+  }
+}
+
 }  // namespace
 }  // namespace sampled_data_observers

@@ -111,7 +111,8 @@ class Estimator {
   /// The bound on the error of an estimate as it can be given at `now`: none while inputs or jumps
   /// of before its stamp may still come, and none where a jump may have been before it although its
   /// stamp is a later one (jump_stamp_error). So it is a function of the events up to that much
-  /// after its stamp.
+  /// after its stamp: that a later number tells of a lost jump takes no bound of before away here
+  /// (see begin_query() and is_before_gap()).
   PublishedBound bound(const Estimate& estimate, Stamp now) const;
 
   /// The estimate at `stamp` from all events taken in; `estimate` is written for kOk and kHeld.
@@ -121,8 +122,12 @@ class Estimator {
   /// The same in memory of its own, valid until the next use of any kind.
   Timeline::Query estimate_at(Stamp stamp, const Estimate*& estimate);
 
-  /// Begins to compute the estimate of estimate_at(), to the same bits, with its bound at `now`.
-  /// kOk stands for kHeld as well.
+  /// Whether the next jump behind `stamp` shows by its number that one was lost, which may have
+  /// been before `stamp`.
+  bool is_before_gap(Stamp stamp) const;
+
+  /// Begins to compute the estimate of estimate_at(), to the same bits, with its bound at `now`:
+  /// none where is_before_gap(). kOk stands for kHeld as well.
   Timeline::Query begin_query(Stamp stamp, Stamp now, EstimateQuery& query) const;
 
   /// Goes on computing towards the estimate at `stamp` for so many steps of the integration, which
@@ -179,7 +184,7 @@ class Estimator {
   void insert_rejected(EventKind kind, Stamp stamp);
   BoundLoss withheld(Stamp stamp, Stamp now) const;
   bool is_before_jump(Stamp stamp) const;
-  bool is_before_gap(Stamp stamp) const;
+  std::optional<bool> shows_gap_behind(Stamp stamp) const;
   bool prepare_restart(Estimator& from, Stamp stamp);
   void begin(Stamp stamp);
   void begin_at(const Event& sample);

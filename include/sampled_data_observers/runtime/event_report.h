@@ -40,7 +40,8 @@ struct EventReport {
   /// other events, and where there was no estimate.
   double innovation = std::numeric_limits<double>::quiet_NaN();
   /// Whether an estimate of its stamp or a later one was published with a finite bound before this
-  /// input or jump came: that bound was one of a run without it.
+  /// input or jump came: that bound was one of a run without it. Or whether its number tells of a
+  /// jump that was lost, perhaps before an estimate that was published with a finite bound.
   bool came_after_bound = false;
   /// What the innovations of its sensor do.
   InnovationTrend trend = InnovationTrend::kSteady;

@@ -92,6 +92,7 @@ class ObserverRuntime {
   bool is_enabled(const Event& event) const;
   const char* objection_to_queries() const;
   bool comes_after_bound(const Event& event, const EventReport& report) const;
+  bool is_bound_before_gap(const Event& event) const;
   void watch_innovation(const Event& event, EventReport& report);
   void forget_innovations();
 
