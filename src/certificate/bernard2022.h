@@ -52,6 +52,10 @@ std::vector<Condition> quadratic_conditions(const CertificateSubject& subject, F
 /// What jump_decay guarantees: of the error, from jump to jump.
 GuaranteedFigure jump_decay_figure(const NamedMatrices& values);
 
+/// How the condition of a metric on its outputs at jumps is called, which no design solves for: it
+/// is about P⁻¹, and holds unless outputs are all but the same.
+constexpr const char* kIndependentOutputs = "independent outputs";
+
 // Values of flow_decay and flow_growth [1/s] among which to search.
 SearchRange flow_decay_range(const CertificateSubject& subject);
 SearchRange flow_growth_range(const CertificateSubject& subject);

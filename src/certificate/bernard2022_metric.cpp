@@ -1,4 +1,5 @@
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "certificate/bernard2022.h"
@@ -15,7 +16,8 @@ namespace {
 ///
 ///   Nᵀ (e^{−2 jump_decay} Ψ − A_dᵀ P_q' A_d) N > 0,
 ///
-/// and no gain does better, since e itself may be in it.
+/// and no gain does better, since e itself may be in it. That supposes that the gain is L(τ): where
+/// rounding hides that the outputs are independent, MetricGain takes L(0) instead.
 class MetricCondition : public Theorem {
  public:
   MetricCondition(std::string name, std::string observer_type, std::string guarantee)
@@ -72,6 +74,7 @@ class MetricCondition : public Theorem {
     all.push_back(positive("jump_decay"));
     for (const ModeMatrices& mode : subject.plant.modes) {
       all.push_back({"P > 0" + in(mode), P_of(mode), std::nullopt});
+      if (mode.C_d.rows() > 1) all.push_back(independent_outputs(subject, mode));
       const Eigen::MatrixXd directions = null_space(mode.C_d);
       if (directions.cols() == 0) continue;  // all of the state is measured
       // Projected, since directions that are rounded are not quite in the null space: any basis
@@ -104,6 +107,22 @@ class MetricCondition : public Theorem {
   bool is_switched() const { return observer_type_ == "SwitchedObserver"; }
   std::string in(const ModeMatrices& mode) const {
     return is_switched() ? " in mode " + std::to_string(mode.label) : "";
+  }
+  /// W − c diag(W) > 0 with W = H Ψ⁻¹ Hᵀ: of each row of H Ψ^{−1/2} more than √c of its length is
+  /// across the others.
+  Condition independent_outputs(const CertificateSubject& subject, const ModeMatrices& mode) const {
+    constexpr double kShare = 1e-10;
+    const Eigen::Index m = mode.C_d.rows();
+    const MatrixExpression moved =
+        MatrixExpression(mode.C_d) * exponential(time_tau() * MatrixExpression(mode.A));
+    const MatrixExpression W = moved * inverse(P_of(mode)) * transpose(moved);
+    MatrixExpression independent = W;
+    for (Eigen::Index i = 0; i < m; ++i) {
+      Eigen::MatrixXd only = Eigen::MatrixXd::Zero(m, m);
+      only(i, i) = 1.0;
+      independent = independent - kShare * (MatrixExpression(only) * W * only);
+    }
+    return {kIndependentOutputs + in(mode), independent, Condition::Range{subject.T1, subject.T2}};
   }
   std::string metric_of(const ModeMatrices& mode) const {
     return is_switched() ? of_mode("metric", mode) : "metric";

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "certificate/theorems.h"
 #include "design/certified.h"
 #include "design/synthesis.h"
 #include "linear_algebra/matrix_functions.h"
@@ -110,6 +111,45 @@ TEST(MetricDesignTest, GainsThatKnowTheTimeServeLongerOnesThanConstantGains) {
     RecordProperty(is_switched ? "switched" : "synchronized",
                    std::to_string(moving.certificate.subject.T2) + " s, constant " +
                        std::to_string(fixed.certificate.subject.T2) + " s");
+  }
+}
+
+/// Three turning states of which two are measured.
+CertificateSubject twice_measured(double T1, double T2) {
+  CertificateSubject subject = kicked(T1, T2);
+  Eigen::MatrixXd A(3, 3);
+  A << 0, 1, 0, -1, 0, 1, 0, -1, 0;
+  subject.plant = linear_plant(A);
+  ModeMatrices& mode = subject.plant.modes.front();
+  mode.A_d = Eigen::MatrixXd(1.05 * Eigen::MatrixXd::Identity(3, 3));
+  mode.C_d = Eigen::MatrixXd::Identity(2, 3);
+  return subject;
+}
+
+TEST(MetricDesignTest, GainsTakeSeveralOutputs) {
+  const Design design = designed_for("bernard2022_corollary5_2_metric", twice_measured(0.5, 0.8));
+  EXPECT_GE(least_fall(design), scalar_value(design.certificate.values, "jump_decay"));
+}
+
+/// What tells the second output from the first has decayed by e^-35: the gain of an observer would
+/// be L(0), with which the error grows.
+TEST(MetricDesignTest, OutputsThatTheFlowMakesAlikeAreRefused) {
+  for (const bool are_alike : {true, false}) {
+    SCOPED_TRACE(are_alike);
+    const double tau = are_alike ? 35.0 : 1.0;
+    CertificateSubject subject = kicked(tau, tau);
+    subject.plant = linear_plant(Eigen::MatrixXd(Eigen::Vector3d(0.0, -1.0, 0.0).asDiagonal()));
+    ModeMatrices& mode = subject.plant.modes.front();
+    mode.A_d = Eigen::MatrixXd(0.9 * Eigen::MatrixXd::Identity(3, 3));
+    mode.C_d.resize(2, 3);
+    mode.C_d << 1, 0, 0, 1, 1, 0;
+    Eigen::MatrixXd P(3, 3);
+    P << 1, 0, 0, 0, 1, 0.9, 0, 0.9, 1;
+    Certificate certificate{&bernard2022_corollary5_2_metric(), subject, {}};
+    certificate.values = {{"metric", P}, {"jump_decay", scalar_matrix(0.1)}};
+    for (const ConditionCheck& check : check(certificate)) {
+      EXPECT_EQ(check.holds(), !are_alike || check.name != "independent outputs") << check.name;
+    }
   }
 }
 

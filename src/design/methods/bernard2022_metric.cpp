@@ -1,5 +1,6 @@
 #include <utility>
 
+#include "certificate/bernard2022.h"
 #include "certificate/theorems.h"
 #include "design/certify.h"
 #include "design/methods/bernard2022_parameters.h"
@@ -50,10 +51,13 @@ class MetricDesign : public DesignMethod {
         values[shape.name] = solution.values.at(shape.name);
       }
       const std::vector<ConditionCheck> checks = check(conditions, values);
-      if (all_hold(checks)) return judged(theorem_, subject, values, objective, none);
+      bool can_improve = false;
       for (std::size_t i = 0; i < checks.size(); ++i) {
-        if (!checks[i].holds() && checks[i].tau) times[i].push_back(*checks[i].tau);
+        if (checks[i].holds() || !checks[i].tau || !is_solved_for(conditions[i])) continue;
+        times[i].push_back(*checks[i].tau);
+        can_improve = true;
       }
+      if (!can_improve) return judged(theorem_, subject, values, objective, none);
     }
     none.message = "no metrics were found for all times between T1 and T2 in " +
                    std::to_string(kMostRounds) + " rounds";
@@ -68,6 +72,10 @@ class MetricDesign : public DesignMethod {
   }
 
  private:
+  static bool is_solved_for(const Condition& condition) {
+    return condition.name.rfind(kIndependentOutputs, 0) != 0;
+  }
+
   LmiProgram program(const CertificateSubject& subject, const std::vector<Condition>& conditions,
                      const NamedMatrices& scalars,
                      const std::vector<std::vector<double>>& times) const {
@@ -78,6 +86,7 @@ class MetricDesign : public DesignMethod {
       program.bound_above("P <= I", P, identity(shape.rows));
     }
     for (std::size_t i = 0; i < conditions.size(); ++i) {
+      if (!is_solved_for(conditions[i])) continue;
       program.require(conditions[i], kFirstTimes);
       for (const double tau : times[i]) program.require_at(conditions[i], tau);
     }
