@@ -1,6 +1,8 @@
 #include "config/dwell_times.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 namespace sampled_data_observers {
@@ -37,6 +39,28 @@ std::optional<DwellTimes> read_dwell_times(ConfigSection& jumps) {
   }
   if (!has_interval && !times.average && !times.reverse_average) return std::nullopt;
   return times;
+}
+
+DwellTimes::Average average_of(const DwellTime& claimed) {
+  const double exact = claimed.tau * static_cast<double>(kNanosecondsPerSecond);
+  double tau = std::round(exact);
+  if (std::abs(exact - tau) > 2.0 * std::numeric_limits<double>::epsilon() * exact) {
+    tau = claimed.kind == DwellTime::Kind::kAverage ? std::ceil(exact) : std::floor(exact);
+  }
+  return {static_cast<Duration>(std::max(1.0, tau)), claimed.N0};
+}
+
+void watch(const DwellTime& claimed, std::optional<DwellTimes>& times) {
+  if (!times) times = DwellTimes();
+  const bool is_average = claimed.kind == DwellTime::Kind::kAverage;
+  auto& watched = is_average ? times->average : times->reverse_average;
+  const DwellTimes::Average own = average_of(claimed);
+  if (!watched) {
+    watched = own;
+    return;
+  }
+  watched->tau = is_average ? std::max(watched->tau, own.tau) : std::min(watched->tau, own.tau);
+  watched->N0 = std::min(watched->N0, own.N0);
 }
 
 }  // namespace sampled_data_observers

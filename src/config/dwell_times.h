@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "certificate/certificate.h"
 #include "observer/dwell_times_watch.h"
 #include "sampled_data_observers/config/config_section.h"
 
@@ -11,5 +12,12 @@ namespace sampled_data_observers {
 /// section `jumps`; nothing where none of them is there.
 /// @throws ConfigError for the first fault found.
 std::optional<DwellTimes> read_dwell_times(ConfigSection& jumps);
+
+/// That of a claim in whole nanoseconds, none of which it does not allow: tau rounded up, or down
+/// for a reverse one, but for the rounding of the double itself.
+DwellTimes::Average average_of(const DwellTime& claimed);
+
+/// Adds to what is watched, if anything, what a claim is about: both must hold then.
+void watch(const DwellTime& claimed, std::optional<DwellTimes>& times);
 
 }  // namespace sampled_data_observers

@@ -76,7 +76,7 @@ std::optional<ConfigError> objection_to_dwell_times(ConfigSection& root,
   const bool is_average = claimed.kind == DwellTime::Kind::kAverage;
   const auto& own = is_average ? configured->average : configured->reverse_average;
   if (!own) return std::nullopt;
-  const Duration tau = from_seconds(claimed.tau);
+  const Duration tau = average_of(claimed).tau;
   if (own->N0 <= claimed.N0 && (is_average ? own->tau >= tau : own->tau <= tau)) {
     return std::nullopt;
   }
@@ -285,6 +285,11 @@ Guarantee read_guarantee(ConfigSection& root, const ConfigNode& tree, const Obse
     guarantee.text =
         statement(certificate) + (unproved == nullptr ? "; proved in ball arithmetic"
                                                       : "; checked in floating point, not proved");
+    for (const auto* known : {&claim, &for_bound}) {
+      if (*known && (*known)->certificate.subject.dwell_time) {
+        guarantee.dwell_times.push_back(*(*known)->certificate.subject.dwell_time);
+      }
+    }
     if (unproved != nullptr) {
       guarantee.remark =
           unproved->origin + ": " + unproved->section +

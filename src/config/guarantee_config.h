@@ -2,7 +2,9 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
+#include "certificate/certificate.h"
 #include "certificate/error_bound.h"
 #include "sampled_data_observers/config/config_section.h"
 #include "sampled_data_observers/config/observer_config.h"
@@ -23,6 +25,8 @@ struct Guarantee {
   Duration latency = 0;
   /// |η| <= this at every measurement.
   double noise = 0.0;
+  /// Those that the text speaks of, which must be watched for it to be in force.
+  std::vector<DwellTime> dwell_times;
 };
 
 /// Reads the sections `certificate` and `error_assumptions` and the key `allow_uncertified`, and

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "config/contraction_check.h"
+#include "config/dwell_times.h"
 #include "config/event_times.h"
 #include "config/gate_config.h"
 #include "config/guarantee_config.h"
@@ -117,6 +118,7 @@ ObserverConfig read_observer_config(const ConfigNode& tree, const PlantPluginLoa
   config.options.latency = guarantee.latency;
   layers.bound = std::move(guarantee.bound);
   layers.noise = guarantee.noise;
+  for (const DwellTime& claimed : guarantee.dwell_times) watch(claimed, layers.dwell_times);
   layers.gates = read_gates(root, plant, *config.law);
   config.law = assemble(config.law, config.plant, std::move(layers));
   config.options.history = read_history(root);

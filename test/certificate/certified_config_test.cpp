@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "certificate/certified_gains.h"
+#include "config/dwell_times.h"
 #include "linear_algebra/matrix_functions.h"
 #include "support/law_runner.h"
 
@@ -215,6 +216,41 @@ TEST(CertifiedConfigTest, TakesAverageDwellTimesThatImplyThatOfTheProof) {
                   "larger than in {tau: 0.5, N0: 4}",
                   "for which the gains were made"});
   }
+}
+
+TEST(CertifiedConfigTest, WatchesTheAverageDwellTimeOfTheProof) {
+  for (const char* jumps : {"{}", "{average_dwell_time: {tau: 9, N0: 9}}"}) {
+    SCOPED_TRACE(jumps);
+    const ObserverConfig config =
+        CertifiedGains("test/certificate/bernard2022_bouncing_ball_reverse_average.yaml")
+            .with(std::string("jumps: ") + jumps)
+            .config();
+    Eigen::VectorXd state(config.law->state_size());
+    Eigen::VectorXd workspace(config.law->workspace_size());
+    config.law->initialize(state.data());
+    config.law->flow(from_seconds(1.9), state.data(), workspace.data());
+    EXPECT_EQ(config.law->dwell_violations(state.data()), 0.0);
+    // N0 tau = 2 s without a jump
+    config.law->flow(from_seconds(0.2), state.data(), workspace.data());
+    EXPECT_EQ(config.law->dwell_violations(state.data()), 1.0);
+  }
+}
+
+TEST(CertifiedConfigTest, RoundsDwellTimesToThoseThatTheProofAllows) {
+  const double third = 1.0 / 3.0;
+  EXPECT_EQ(average_of({DwellTime::Kind::kAverage, third, 2.0}).tau, 333333334);
+  EXPECT_EQ(average_of({DwellTime::Kind::kReverseAverage, 2.0 * third, 2.0}).tau, 666666666);
+  for (const auto kind : {DwellTime::Kind::kAverage, DwellTime::Kind::kReverseAverage}) {
+    for (int tenths = 1; tenths < 1000; ++tenths) {
+      EXPECT_EQ(average_of({kind, tenths / 10.0, 1.0}).tau, tenths * 100000000LL);
+    }
+  }
+  std::optional<DwellTimes> times;
+  watch({DwellTime::Kind::kAverage, 0.5, 4.0}, times);
+  watch({DwellTime::Kind::kAverage, 0.7, 5.0}, times);
+  EXPECT_EQ(times->average->tau, 700000000);
+  EXPECT_EQ(times->average->N0, 4.0);
+  EXPECT_FALSE(times->reverse_average);
 }
 
 TEST(CertifiedConfigTest, RefusesAnOutputInjectionThatTheProofDoesNotKnow) {
