@@ -22,7 +22,8 @@ class Section731 : public Theorem {
 
   std::string guarantee() const override {
     return "the error falls at the rate decay, in the norms of the P = Pi' Q Pi + H' S H of their "
-           "modes, for any times between switches, with the continuous output known at all times";
+           "modes, for any times between switches, with the continuous output known at all times, "
+           "and with the output that is projected on known at each switch";
   }
 
   TheoremTimes times() const override { return TheoremTimes::kFromT1; }

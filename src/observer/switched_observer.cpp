@@ -124,8 +124,11 @@ void SwitchedObserver::project(const Held& held, const JumpOutputs& outputs, dou
                                double* workspace) const {
   if (projections_.empty()) return;
   const Projection& projection = projections_[held.mode];
-  const bool at_jumps = projection.at_jumps.size() > 0 && all_known(outputs);
-  if (!at_jumps && (projection.continuous.size() == 0 || held.y_c == nullptr)) return;
+  const bool at_jumps = projection.at_jumps.size() > 0;
+  // Never on y_c in place of y_d, which is another projection.
+  if (at_jumps ? !all_known(outputs) : projection.continuous.size() == 0 || held.y_c == nullptr) {
+    return;
+  }
   double* innovations = innovations_.of(workspace);
   for (const std::size_t i :
        sensors_of(at_jumps ? SensorTiming::kAtJumps : SensorTiming::kContinuous)) {

@@ -212,6 +212,20 @@ TEST_P(SwitchedProjectionTest, MeetsTheOutputAndDoesNotIncreaseTheMetric) {
 
 INSTANTIATE_TEST_SUITE_P(OutputsAtJumpsOrContinuous, SwitchedProjectionTest, ::testing::Bool());
 
+TEST(SwitchedObserverTest, ASwitchWithoutTheOutputAtJumpsProjectsOnNoOther) {
+  for (const bool at_jumps : {true, false}) {
+    PlantDescription plant =
+        at_jumps ? oscillators({kContinuous, kAtJumps}) : oscillators({kContinuous});
+    SwitchedGains gains;
+    gains.P = {Eigen::MatrixXd(Eigen::Matrix2d::Identity()), std::nullopt};
+    ModalBody body(std::make_shared<const SwitchedObserver>(context(plant), gains));
+    body.take(EventKind::kOutput, 0, {3.0});
+    const Eigen::Vector2d before = body.x();
+    body.take(EventKind::kJump, 0, {}, 2.0);
+    EXPECT_EQ(before == body.x(), at_jumps);
+  }
+}
+
 std::shared_ptr<const SwitchedObserver> everything() {
   SwitchedGains gains;
   gains.L_c = {{gain(2.0, 0.5), {}}, {gain(3.0, -1.0), {}}};
