@@ -275,7 +275,7 @@ TEST(OriginalHighGainTest, AFlowWithoutAValueIsNoStateAtTheBounds) {
   plant.modes = {mode};
   Saturation bounds(2);
   for (int i = 0; i < 2; ++i) bounds.bound(i, -3.0, 3.0);
-  const ObserverContext context{std::make_shared<const Plant>(plant), Eigen::Vector2d(1.0, 0.0),
+  const ObserverContext context{std::make_shared<const Plant>(plant), Eigen::Vector2d(2.0, -1.0),
                                 Eigen::VectorXd(0)};
   Body body(std::make_shared<const OriginalHighGainObserver>(
       context, settings(bounds, 5.0, {kK}), Formulas{formulas({"x1", "x2"}, {"x1", "x2"})}, 0.01));
