@@ -83,6 +83,9 @@ class ErrorBound {
   /// By how much the stamps of jumps may be off [s].
   virtual double jump_stamp_error() const { return 0.0; }
 
+  /// Whether its theorem lets the plant make several jumps at one time.
+  virtual bool lets_jumps_coincide() const { return false; }
+
   /// Whether look_at() is to be called.
   virtual bool follows_law() const { return false; }
 

@@ -88,12 +88,24 @@ void GuaranteedBound::settle(const Part& part, double* state) const {
   }
 }
 
-void GuaranteedBound::give_up(double* state, BoundLoss reason) const {
+void GuaranteedBound::lose(BoundLoss reason, double* state) const {
   lose(then_, reason, state);
   lose(now_, reason, state);
 }
 
+void GuaranteedBound::give_up(double* state, BoundLoss reason) const {
+  lose(reason, state);
+  // All but an input may be, or hide, a jump that the estimate lacks.
+  if (plant_->switches() && reason != BoundLoss::kUnknownInput) mode_is_open_.set(true, state);
+}
+
 void GuaranteedBound::give_up(double* state) const { give_up(state, BoundLoss::kNotVouched); }
+
+bool GuaranteedBound::mode_is_open(const double* state) const { return mode_is_open_.of(state); }
+
+void GuaranteedBound::leave_mode_open(double* state) const {
+  give_up(state, BoundLoss::kUnknownJump);
+}
 
 /// The bound at the last sample, jump or start is also the one now.
 void GuaranteedBound::go_on_from_then(double* state) const {
@@ -105,6 +117,8 @@ void GuaranteedBound::initialize(double* state) const {
   law().initialize(state);
   since_.restart(state);
   awaiting_.set(false, state);
+  mode_is_open_.set(false, state);
+  is_numbered_.set(false, state);
   moved_.set(0.0, state);
   speed_before_.set(0.0, state);
   speed_after_.set(0.0, state);
@@ -152,7 +166,8 @@ void GuaranteedBound::flow_part(double* state) const {
 Effect GuaranteedBound::reset(const Event& event, double* state, double* workspace) const {
   const bool is_jump = event.kind == EventKind::kJump;
   const bool is_output = event.kind == EventKind::kJumpOutput;
-  const bool comes_to_jump = is_output && awaiting_.of(state) && since_.of(state) == 0.0;
+  const bool outputs_may_come = awaiting_.of(state) && since_.of(state) == 0.0;
+  const bool comes_to_jump = is_output && outputs_may_come;
   if (event.kind == EventKind::kRejected) {
     const bool is_input = event.rejected == EventKind::kInput;
     give_up(state, is_input ? BoundLoss::kUnknownInput : BoundLoss::kUnknownJump);
@@ -170,7 +185,10 @@ Effect GuaranteedBound::reset(const Event& event, double* state, double* workspa
   if (law().skipped_jumps(state) > skipped) give_up(state, BoundLoss::kUnknownJump);
   if (law().dwell_violations(state) != violations) give_up(state, BoundLoss::kDwellTimes);
   if (law().is_at_rest(state)) give_up(state, BoundLoss::kAtRest);
-  if (is_jump) note_stamp_of_jump(state, workspace);
+  // Outputs of the same stamp would find before_ overwritten.
+  if (!outputs_may_come && is_told_again(event, effect, state)) return effect;
+  if (is_jump && event.mode && took_effect(effect)) mode_is_open_.set(false, state);
+  if (is_jump) note_stamp_of_jump(event, state, workspace);
   if (!took_effect(effect)) {
     if (is_jump) refuse_jump(state);
     return effect;
@@ -247,6 +265,13 @@ void GuaranteedBound::take_jump(double* state) const {
   go_on_from_then(state);
 }
 
+/// Whether its number, and its mode, are those of the jump before: then the plant made no other.
+bool GuaranteedBound::is_told_again(const Event& jump, Effect effect, const double* state) const {
+  if (effect != Effect::kRepeated) return false;
+  const double mode = plant_->modes()[observer().mode_of(state)].label;
+  return !plant_->switches() || jump.mode.value_or(mode) == mode;
+}
+
 /// Nobody knows whether the plant has jumped.
 void GuaranteedBound::refuse_jump(double* state) const {
   begin_interval(state);
@@ -262,11 +287,17 @@ void GuaranteedBound::refuse_jump(double* state) const {
 }
 
 /// What the bound needs of a jump that may not have been at its stamp; x̂ before it stands in
-/// before_.
-void GuaranteedBound::note_stamp_of_jump(double* state, double* workspace) const {
-  if (jump_stamp_error_ == 0) return;
+/// before_. Of two of one stamp, numbers alone tell which was first.
+void GuaranteedBound::note_stamp_of_jump(const Event& jump, double* state,
+                                         double* workspace) const {
   const double since = since_jump_.of(state);
+  const bool are_numbered = is_numbered_.of(state) && jump.index != 0;
   since_jump_.restart(state);
+  is_numbered_.set(jump.index != 0, state);
+  if (lets_jumps_coincide() && since == 0.0 && !are_numbered) {
+    give_up(state, BoundLoss::kUncertainJump);
+  }
+  if (jump_stamp_error_ == 0) return;
   if (!shift_is_bounded_ || since <= 2.0 * static_cast<double>(jump_stamp_error_)) {
     give_up(state, BoundLoss::kUncertainJump);
     return;
@@ -349,7 +380,11 @@ void GuaranteedBound::keep_bound(const PublishedBound& known, double* state) con
     bound_->begin(known.value, then_.bound.of(state));
     go_on_from_then(state);
   } else {
-    give_up(state, known.loss == BoundLoss::kNone ? BoundLoss::kNotVouched : known.loss);
+    const BoundLoss loss = known.loss == BoundLoss::kNone ? BoundLoss::kNotVouched : known.loss;
+    lose(loss, state);
+    // It tells more than that the mode is open.
+    then_.loss.set(loss, state);
+    now_.loss.set(loss, state);
   }
 }
 

@@ -24,6 +24,8 @@ namespace sampled_data_observers {
 ///   at such a sample where the law goes on injecting it; elsewhere such a sample moves the
 ///   estimate by what is known, and the bound with it. Which number of turns fits is known where
 ///   |C_i| times the bound, plus the noise, is less than 2π minus the innovation.
+/// Of a switched plant, beginning anew does not help while it is open in which mode it is: see
+/// StateBound::mode_is_open().
 /// Samples that are refused were not taken. Of a jump that the law refuses, nobody knows whether
 /// the plant has jumped: the bound is one for both. Wherever an estimate begins, whether configured
 /// or given, the assumption on the initial error is taken to hold anew; where it goes on from that
@@ -54,6 +56,9 @@ class GuaranteedBound : public LawDecorator, public StateBound {
   PublishedBound known_bound(const double* state) const override;
   void keep_bound(const PublishedBound& bound, double* state) const override;
   void give_up(double* state) const override;
+  bool mode_is_open(const double* state) const override;
+  void leave_mode_open(double* state) const override;
+  bool lets_jumps_coincide() const override { return bound_->lets_jumps_coincide(); }
 
  private:
   /// What is known at one time: why the bound is lost, if it is, and the state of the ErrorBound.
@@ -68,7 +73,9 @@ class GuaranteedBound : public LawDecorator, public StateBound {
   void settle(const Part& part, double* state) const;
   static void lose(const Part& part, BoundLoss reason, double* state);
   static void copy(const Part& from, const Part& to, double* state);
+  void lose(BoundLoss reason, double* state) const;
   void give_up(double* state, BoundLoss reason) const;
+  bool is_told_again(const Event& jump, Effect effect, const double* state) const;
   void go_on_from_then(double* state) const;
   void flow_part(double* state) const;
   void begin_interval(double* state) const;
@@ -80,7 +87,7 @@ class GuaranteedBound : public LawDecorator, public StateBound {
   void await_outputs(double* state) const;
   void take_jump(double* state) const;
   void refuse_jump(double* state) const;
-  void note_stamp_of_jump(double* state, double* workspace) const;
+  void note_stamp_of_jump(const Event& jump, double* state, double* workspace) const;
   JumpMotion motion(double moved, const double* state) const;
   void go_on_from_moved(double* state) const;
 
@@ -95,8 +102,10 @@ class GuaranteedBound : public LawDecorator, public StateBound {
 
   /// The last sample, jump or start, or message of an output that the bound takes as held.
   TimerSlot since_ = state_layout().timer();
-  FlagSlot awaiting_ = state_layout().flag();   ///< the outputs of the last jump are still to come
-  NumberSlot moved_ = state_layout().number();  ///< by how much x̂ did at that jump
+  FlagSlot awaiting_ = state_layout().flag();  ///< the outputs of the last jump are still to come
+  FlagSlot mode_is_open_ = state_layout().flag();
+  FlagSlot is_numbered_ = state_layout().flag();  ///< the last jump that was told, taken or not
+  NumberSlot moved_ = state_layout().number();    ///< by how much x̂ did at that jump
   NumberSlot speed_before_ = state_layout().number();  ///< |f(x̂)| at the last jump
   NumberSlot speed_after_ = state_layout().number();   ///< |f(g(x̂))| there
   TimerSlot since_start_ = state_layout().timer();

@@ -19,6 +19,7 @@ class IntervalBound : public ErrorBound {
   void flow(double duration, double* state) const final;
   double bound(const double* state) const final;
   double jump_stamp_error() const final { return jump_stamp_error_; }
+  bool lets_jumps_coincide() const final { return jumps_coincide_; }
 
  protected:
   struct Interval {
@@ -31,6 +32,7 @@ class IntervalBound : public ErrorBound {
                 Eigen::Index numbers)
       : T1_(subject.T1),
         T2_(subject.T2),
+        jumps_coincide_(subject.T1 == 0.0 || subject.dwell_time),
         initial_error_(assumptions.initial_error),
         jump_stamp_error_(assumptions.jump_stamp_error),
         numbers_(numbers) {}
@@ -65,6 +67,7 @@ class IntervalBound : public ErrorBound {
 
   double T1_;
   double T2_;
+  bool jumps_coincide_;
   double initial_error_;
   double jump_stamp_error_;
   Eigen::Index numbers_;

@@ -94,10 +94,9 @@ class JumpBasedBound : public IntervalBound {
     return weighted_error(interval(state), numbers(state));
   }
   /// A jump sooner after another than T1 is more likely one that was told twice: then x stayed
-  /// where it was, and only x̂ jumped.
+  /// where it was, and only x̂ jumped. The first may have been told before the estimate began.
   double unless_told_twice(double after, const JumpMotion& motion, const double* state) const {
-    const auto [tau, is_first] = interval(state);
-    if (is_first || !is_too_soon(tau)) return after;
+    if (!is_too_soon(interval(state).tau)) return after;
     return std::max(after, before_jump(state) + per_error_ * motion.moved);
   }
   /// Of |r|_P, by which a jump that was not at its stamp changes the error.

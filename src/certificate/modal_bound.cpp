@@ -116,12 +116,12 @@ class HeldOutputBound : public IntervalBound {
   void go_on(double factor, double noise, const JumpMotion& motion, double* state) const {
     if (is_lost(state)) return;
     double* values = numbers(state);
-    const auto [tau, is_first] = interval(state);
     const double before = values[kError];
     double after = factor * before + noise;
     const auto mode = static_cast<double>(motion.mode);
-    // Sooner than T1 it may have been told twice: then x stayed where it was, and only x̂ jumped.
-    if (!is_first && is_too_soon(tau) && values[kMode] == mode) {
+    // Sooner than T1 it may have been told twice, before the estimate began, too: then x stayed
+    // where it was, and only x̂ jumped.
+    if (is_too_soon(interval(state).tau) && values[kMode] == mode) {
       after = std::max(after, before + norms_.at(mode).per_error * motion.moved);
     }
     values[kError] = after;
@@ -207,10 +207,9 @@ class SwitchBound : public IntervalBound {
 
   void go_on(double after, const JumpMotion& motion, double* state) const {
     double* values = numbers(state);
-    const auto [tau, is_first] = interval(state);
     const auto mode = static_cast<double>(motion.mode);
     // As in HeldOutputBound. What leads into another mode is not told twice.
-    if (!is_first && is_too_soon(tau) && values[kMode] == mode) {
+    if (is_too_soon(interval(state).tau) && values[kMode] == mode) {
       after = std::max(after, before_jump(state) + norms_.at(mode).per_error * motion.moved);
     }
     values[kAfterSwitch] = after;

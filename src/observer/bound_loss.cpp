@@ -25,7 +25,8 @@ const char* describe(BoundLoss loss) {
              "(jumps/stamp_error)";
     case BoundLoss::kUncertainJump:
       return "a jump may have been before or after its stamp (jumps/stamp_error), and with it "
-             "another jump, a change of the input or of the mode, or a turn of an angle";
+             "another jump, a change of the input or of the mode, or a turn of an angle; or jumps "
+             "of one stamp have no numbers, which tell their order";
     case BoundLoss::kDwellTimes:
       return "the times between jumps were not as jumps/dwell_time, average_dwell_time and "
              "reverse_average_dwell_time say";

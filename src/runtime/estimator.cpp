@@ -164,7 +164,11 @@ EventReport Estimator::submit(const Event& event, Stamp now) {
   report.effect = inserted.effect;
   const bool is_in_log = inserted.insertion == Timeline::Insertion::kAppended ||
                          inserted.insertion == Timeline::Insertion::kRewound;
-  if (report.outcome == EventOutcome::kTooOld) note_rejected(event, now);
+  // A jump without number that equals one in the log may be another.
+  const bool may_be_another = report.outcome == EventOutcome::kDuplicate &&
+                              event.kind == EventKind::kJump && event.index == 0 &&
+                              law_->lets_jumps_coincide();
+  if (report.outcome == EventOutcome::kTooOld || may_be_another) note_rejected(event, now);
   if (is_in_log && event.kind == EventKind::kInput) learn_input(event.stamp);
   if (report.used() && inserted.previous) {
     report.interval = event.stamp - *inserted.previous;
@@ -204,8 +208,8 @@ void Estimator::note_rejected(const Event& event, Stamp now) {
   if (stamp <= 0) return;
   if (kind == EventKind::kInput) {
     miss_input(stamp);
-  } else if (stamp <= began_at_.value_or(0)) {
-    return;  // Somebody vouches for what came after this jump.
+  } else if (stamp <= began_at_.value_or(0) && !law_->observer().plant().switches()) {
+    return;  // Somebody vouches for what came after this jump, but not for the mode.
   }
   // Whether the law of that time minds is its own matter.
   if (has_earlier() && stamp <= *taken_over_at_) {
@@ -323,6 +327,9 @@ bool Estimator::prepare_restart(Estimator& from, Stamp stamp) {
   const PlantObserver& previous = from.law_->observer();
   observer.keep_held(previous.held_part(before.state.data()), restart_state_.data());
   observer.keep_mode(previous.mode_of(before.state.data()), restart_state_.data());
+  if (observer.plant().switches() && from.law_->mode_is_open(before.state.data())) {
+    law_->leave_mode_open(restart_state_.data());
+  }
   return true;
 }
 

@@ -23,7 +23,11 @@ bool Estimator::is_earlier(Stamp stamp) const {
 /// Applies an event of before the take-over by the law of its time, and all since then anew.
 EventReport Estimator::submit_earlier(const Event& event, Stamp now) {
   EventReport report = earlier_->submit(event, now);
-  if (report.outcome == EventOutcome::kDuplicate) return report;
+  if (report.outcome == EventOutcome::kDuplicate) {
+    // It may count as rejected.
+    if (event.kind == EventKind::kJump) go_on_from_earlier();
+    return report;
+  }
   if (event.kind == EventKind::kInput) {
     if (report.used()) {
       learn_input(event.stamp);

@@ -34,6 +34,19 @@ class StateBound {
   /// Nobody vouches for the estimate any more: see HybridSystem::distrust().
   virtual void give_up(double* state) const = 0;
 
+  /// Whether a jump that was rejected, refused or lost leaves open in which mode a switched plant
+  /// is: until a later one takes effect, however often the estimate begins anew meanwhile.
+  virtual bool mode_is_open(const double* state) const {
+    static_cast<void>(state);
+    return false;
+  }
+
+  /// That of a state that begins: nothing is known of its error.
+  virtual void leave_mode_open(double* state) const { give_up(state); }
+
+  /// Whether it is about plants that may make several jumps at one time.
+  virtual bool lets_jumps_coincide() const { return false; }
+
  protected:
   ~StateBound() = default;
 };
@@ -115,6 +128,21 @@ class ObserverLaw : public HybridSystem {
   void keep_bound(const PublishedBound& bound, double* state) const {
     if (bound_ != nullptr) bound_->keep_bound(bound, state);
   }
+
+  /// Whether it is open in a state in which mode a switched plant is; always where nobody looks.
+  bool mode_is_open(const double* state) const {
+    return bound_ == nullptr || bound_->mode_is_open(state);
+  }
+
+  /// Takes over that it is open, for laws that give a bound.
+  void leave_mode_open(double* state) const {
+    if (bound_ != nullptr) bound_->leave_mode_open(state);
+  }
+
+  /// Whether a bound is about plants that may make several jumps at one time, so that one told
+  /// without a number may be another than one of the same stamp, even where nothing tells them
+  /// apart.
+  bool lets_jumps_coincide() const { return bound_ != nullptr && bound_->lets_jumps_coincide(); }
 
   /// How many jumps were noticed in a state that no event told of, since the start; 0 where nothing
   /// looks for them.
