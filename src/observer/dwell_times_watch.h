@@ -37,6 +37,7 @@ class DwellTimesWatch : public LawDecorator, private DwellWatch {
   void initialize(double* state) const override;
   void flow(Duration duration, double* state, double* workspace) const override;
   Effect reset(const Event& event, double* state, double* workspace) const override;
+  VectorSlot records_of_jumps() const override { return own_records(); }
 
  private:
   DwellCheck dwell_check(const double* state) const override { return check_.of(state); }

@@ -66,6 +66,7 @@ GatedMeasurements::GatedMeasurements(const std::shared_ptr<const ObserverLaw>& i
     gates_[i] = {*gates[i], GateState(state_layout(), gates[i]->recover_after)};
     if (sensors[i].timing == SensorTiming::kAtJumps) gates_jumps = true;
   }
+  standing_ = own_records();
   if (gates_jumps) keep_track_of_jumps();
   before_ = scratch(state_size());
 }
@@ -81,7 +82,7 @@ void GatedMeasurements::keep_track_of_jumps() {
   StateLayout& layout = state_layout();
   has_jumped_ = layout.flag();
   since_jump_ = layout.timer();
-  before_jump_ = layout.vector(observer().state_size());
+  before_jump_ = layout.vector(law().state_size());
   mode_ = layout.number();
   index_ = layout.number();
   y_d_ = layout.vector(outputs);
@@ -288,11 +289,12 @@ bool GatedMeasurements::is_outside(const Gate& gate, const Event& event, const d
   return false;
 }
 
-/// Begins anew, with what was held in a state before.
+/// Begins anew, with what was held in a state before, and what it knew of jumps.
 void GatedMeasurements::begin_anew(const double* before, double* state) const {
   initialize(state);
   observer().keep_held(observer().held_part(before), state);
   observer().keep_mode(observer().mode_of(before), state);
+  keep_records_of_jumps(law(), before, law(), state);
   // Nobody vouches for this start.
   law().distrust(state);
 }

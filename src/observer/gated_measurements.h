@@ -39,8 +39,8 @@ struct Gate {
 ///
 /// When a gate is open, and when it recovers: see GateState. With Recovery::kReset the estimate
 /// begins anew before the measurement is used, as configured (the input, the continuous outputs and
-/// the mode go on holding), and jumps where that was measured at a jump; then all gates are open,
-/// and a guaranteed error bound is lost.
+/// the mode go on holding, what is known of jumps stays), and jumps where that was measured at a
+/// jump; then all gates are open, and a guaranteed error bound is lost.
 ///
 /// An innovation that has no value passes: the law's own reset will have none either.
 class GatedMeasurements : public LawDecorator {
@@ -54,6 +54,7 @@ class GatedMeasurements : public LawDecorator {
   void initialize(double* state) const override;
   void flow(Duration duration, double* state, double* workspace) const override;
   Effect reset(const Event& event, double* state, double* workspace) const override;
+  VectorSlot records_of_estimate() const override { return standing_; }
 
  private:
   /// A gate and what the state holds of it.
@@ -89,6 +90,7 @@ class GatedMeasurements : public LawDecorator {
   void begin_anew(const double* before, double* state) const;
 
   std::vector<std::optional<GateInUse>> gates_;
+  VectorSlot standing_;  ///< all that the state holds of them
   VectorSlot innovation_ = scratch(law().max_event_size());
   VectorSlot before_;  ///< scratch: the whole state before an event
 
@@ -97,7 +99,7 @@ class GatedMeasurements : public LawDecorator {
   std::vector<JumpSensor> jump_sensors_;
   FlagSlot has_jumped_;
   TimerSlot since_jump_;
-  VectorSlot before_jump_;  ///< the observer's state just before it
+  VectorSlot before_jump_;  ///< the state of the law within just before it
   NumberSlot mode_;         ///< label of the one that followed
   NumberSlot index_;
   VectorSlot y_d_;        ///< what was measured at it, and is used

@@ -26,6 +26,7 @@ class LimitedJumps : public LawDecorator {
   void initialize(double* state) const override;
   void flow(Duration duration, double* state, double* workspace) const override;
   Effect reset(const Event& event, double* state, double* workspace) const override;
+  VectorSlot records_of_jumps() const override { return own_records(); }
 
  private:
   JumpLimits limits_;

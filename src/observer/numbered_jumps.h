@@ -20,6 +20,7 @@ class NumberedJumps : public LawDecorator {
   void initialize(double* state) const override;
   void flow(Duration duration, double* state, double* workspace) const override;
   Effect reset(const Event& event, double* state, double* workspace) const override;
+  VectorSlot records_of_jumps() const override { return own_records(); }
 
  private:
   void note_number(std::uint64_t number, double* state) const;

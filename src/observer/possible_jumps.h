@@ -28,6 +28,7 @@ class PossibleJumps : public LawDecorator {
   void initialize(double* state) const override;
   void flow(Duration duration, double* state, double* workspace) const override;
   Effect reset(const Event& event, double* state, double* workspace) const override;
+  VectorSlot records_of_estimate() const override { return own_records(); }
 
  private:
   JumpGate gate_;

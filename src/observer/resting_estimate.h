@@ -32,6 +32,7 @@ class RestingEstimate : public LawDecorator {
   void initialize(double* state) const override;
   void flow(Duration duration, double* state, double* workspace) const override;
   Effect reset(const Event& event, double* state, double* workspace) const override;
+  VectorSlot records_of_estimate() const override { return own_records(); }
 
  private:
   bool is_in_set(const double* state, double* workspace) const;

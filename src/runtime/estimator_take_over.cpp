@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "observer/law_decorator.h"
 #include "sampled_data_observers/observer/plant_observer.h"
 #include "sampled_data_observers/runtime/estimator.h"
 
@@ -96,6 +97,8 @@ bool Estimator::prepare_take_over() {
   const double* before = earlier_->before_restart_.state.data();
   const ObserverLaw& law = *earlier_->law_;
   law_->observer().start_from(before, restart_state_.data());
+  keep_records_of_jumps(law, before, *law_, restart_state_.data());
+  keep_records_of_estimate(law, before, *law_, restart_state_.data());
   law_->keep_bound(law.known_bound(before), restart_state_.data());
   return true;
 }

@@ -220,6 +220,80 @@ TEST_F(CountedJumpsTest, TimesBetweenJumpsAreCheckedAsToldInStatuses) {
   EXPECT_EQ(DwellCheck::kNone, Run(configure()).take(jump(0.0)).dwell_check);
 }
 
+TEST_F(CountedJumpsTest, WhatIsKnownOfJumpsOutlastsOtherGains) {
+  const Stamp now = kStart + 50 * kSecond;
+  const ObserverConfig config = configure("{min_separation: 0.1, dwell_time: [0.5, 2]}");
+  ObserverRuntime before(config);
+  before.receive(jump(1.0, 3).view(), now);
+  ObserverRuntime after(config);
+  after.take_over(before, kStart + from_seconds(1.04));
+  const auto take = [&](const OwnedEvent& event) { return after.receive(event.view(), now); };
+  EXPECT_EQ(EventOutcome::kRepeated, take(jump(1.05, 3)).outcome);
+  EXPECT_EQ(EventOutcome::kTooFrequent, take(jump(1.06, 4)).outcome);
+  EXPECT_EQ(DwellCheck::kShort, take(jump(1.4, 6)).dwell_check);
+  Estimate estimate = after.estimator().make_estimate();
+  after.estimator().estimate_at(kStart + from_seconds(1.5), estimate);
+  EXPECT_EQ(1.0, after.estimator().law().skipped_jumps(estimate.state.data()));
+  EXPECT_EQ(1.0, after.estimator().law().dwell_violations(estimate.state.data()));
+}
+
+TEST_F(CountedJumpsTest, AGapIsSeenFromBeforeOtherGains) {
+  const Stamp now = kStart + 50 * kSecond;
+  ObserverRuntime before(configure());
+  before.receive(jump(1.0, 3).view(), now);
+  ObserverRuntime after(configure());
+  after.take_over(before, kStart + 2 * kSecond);
+  const Stamp between = kStart + from_seconds(1.5);
+  EXPECT_FALSE(after.estimator().is_before_gap(between));
+  after.receive(jump(3.0, 5).view(), now);
+  EXPECT_TRUE(after.estimator().is_before_gap(between));
+  EXPECT_FALSE(after.estimator().is_before_gap(kStart + from_seconds(0.5)));
+  after.receive(jump(2.5, 4).view(), now);
+  EXPECT_FALSE(after.estimator().is_before_gap(between));
+}
+
+TEST_F(CountedJumpsTest, RestAndGatesOutlastOtherGains) {
+  const std::string gated = test::replaced(
+      kPlant, "measured: at_jumps",
+      "measured: at_jumps, gate: {innovation: 0.5, recovery: {after: 9, action: accept}}");
+  const ObserverConfig config =
+      parse(gated + "jumps: {rest: {set: [x], margin: 0.1, state: {x: 0}}}");
+  const Stamp now = kStart + 50 * kSecond;
+  ObserverRuntime before(config);
+  OwnedEvent inside = jump(1.3);  // and not at rest
+  inside.values = {1.0};
+  before.receive(inside.view(), now);
+  EXPECT_EQ(EventOutcome::kJumpAlone, before.receive(jump(5.3).view(), now).outcome);
+  ObserverRuntime after(config);
+  after.take_over(before, kStart + from_seconds(5.4));
+  Estimate estimate = after.estimator().make_estimate();
+  after.estimator().estimate_at(kStart + 6 * kSecond, estimate);
+  EXPECT_TRUE(after.estimator().law().is_at_rest(estimate.state.data()));
+  OwnedEvent outlier = jump(6.5);
+  outlier.values = {7.0};
+  EXPECT_EQ(EventOutcome::kJumpAlone, after.receive(outlier.view(), now).outcome);
+}
+
+TEST_F(CountedJumpsTest, WhatIsKnownOfJumpsOutlastsARecoveryByReset) {
+  for (const bool is_apart : {false, true}) {  // what is measured is an event of its own
+    Run run(parse(test::replaced(
+        kPlant, "measured: at_jumps",
+        "measured: at_jumps, gate: {innovation: 0.5, recovery: {after: 1, action: reset}}")));
+    const auto take = [&](OwnedEvent event, double y) {
+      event.values = {y};
+      OwnedEvent output{event.stamp, EventKind::kJumpOutput, 0, {y}};
+      if (is_apart) event.values.clear();
+      const EventReport report = run.take(event);
+      return is_apart ? run.take(output) : report;
+    };
+    take(jump(1.3, 1), 1.0);
+    take(jump(1.6, 3), 9.0);
+    EXPECT_EQ(Effect::kRestarted, take(jump(2.7, 4), 9.0).effect) << is_apart;
+    EXPECT_EQ(1.0, run.lost_at(2.7)) << is_apart;
+    EXPECT_EQ(EventOutcome::kRepeated, run.take(jump(2.8, 4)).outcome) << is_apart;
+  }
+}
+
 /// By the definitions: over all s <= t, of which those just before and at jumps are enough.
 TEST_F(CountedJumpsTest, AverageDwellTimesAreThoseOfTheirDefinitions) {
   constexpr double kTau = 0.5;

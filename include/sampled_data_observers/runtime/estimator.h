@@ -160,10 +160,11 @@ class Estimator {
   void resume(Stamp stamp);
 
   /// Goes on from the estimate of `other`, an estimator of the same plant with another law, at
-  /// `stamp` or, where that is later, at its newest event: what is held and the mode stay, and what
-  /// is known of its error; all else of the law's state begins. Up to there the estimate remains
-  /// that of the other law, and events of before may come as late as ever; but for those up to
-  /// the change before the kEarlierLaws last ones, and jumps whose release lies behind one.
+  /// `stamp` or, where that is later, at its newest event: what is held, the mode, rest, what gates
+  /// are, and what is known of jumps and of the error stay; all else begins. The estimate remains
+  /// that of the other law up to there, and events of before may come as late as ever; but for
+  /// those up to the change before the kEarlierLaws last ones, and jumps whose release lies behind
+  /// one.
   ///
   /// @param other  only to be destroyed afterwards, which frees much memory
   /// @param stamp  not before that of the take-over before
