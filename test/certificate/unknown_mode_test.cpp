@@ -148,7 +148,7 @@ TEST(ToldTwiceTest, TheFirstJumpOfABoundMayHaveBeenToldBefore) {
       CertifiedGains("config/examples/bernard2022_switched/gains.yaml")
           .assuming("{initial_error: 0.001, noise: 0}")
           .config(),
-      jump, Eigen::Vector2d(20.0, 10.0));
+      jump, Eigen::Vector3d(20.0, 10.0, 0.0));
 }
 
 /// As if the theorem let switches follow each other at once.
