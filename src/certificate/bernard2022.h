@@ -34,13 +34,28 @@ struct LyapunovRates {
 };
 LyapunovRates lyapunov_rates(const CertificateSubject& subject, FlowOfError kind);
 
-/// "flow_decay" or "flow_growth", and the rate of convergence: "jump_decay" or, with a dwell time,
-/// "decay".
-std::vector<NamedShape> lyapunov_parameters(FlowOfError kind, bool has_dwell_time);
+/// What the theorems with lyapunov_rates() have in common.
+class LyapunovTheorem : public Theorem {
+ public:
+  LyapunovTheorem(FlowOfError kind, TheoremTimes times) : kind_(kind), times_(times) {}
 
-/// e^{|a_d| N0 / 2}, for a subject with a dwell time.
-GuaranteedFigure transient_figure(const CertificateSubject& subject, FlowOfError kind,
-                                  const NamedMatrices& values);
+  TheoremTimes times() const override { return times_; }
+  /// "flow_decay" or "flow_growth", and the rate of convergence.
+  std::vector<NamedShape> parameters(const CertificateSubject& subject) const override;
+  /// "jump_decay" or, with a dwell time, "decay".
+  std::string decay_parameter() const override;
+  GuaranteedFigure decay_figure(const NamedMatrices& values) const override;
+  /// With a dwell time e^{|a_d| N0 / 2}.
+  std::vector<GuaranteedFigure> guaranteed_figures(const CertificateSubject& subject,
+                                                   const NamedMatrices& values) const override;
+
+ protected:
+  FlowOfError kind() const { return kind_; }
+
+ private:
+  FlowOfError kind_;
+  TheoremTimes times_;
+};
 
 /// bernard2022, Theorem 3.1 for V = eᵀ P e, ė = flow e, e⁺ = reset e, with lyapunov_rates().
 /// @param source  where its inequalities stand, without the closing "a)" and "b)"

@@ -32,23 +32,23 @@ enum class Innovation { kFlowAndJumps, kFlow, kJumps };
 
 /// bernard2022, Theorem 3.1 with V = (x − x̂)ᵀ P (x − x̂) for linear maps; see
 /// quadratic_conditions().
-class QuadraticCondition : public Theorem {
+class QuadraticCondition : public LyapunovTheorem {
  public:
   QuadraticCondition(int number, Innovation innovation, TheoremTimes times, std::string guarantee)
-      : number_(std::to_string(number)),
+      : LyapunovTheorem(
+            innovation == Innovation::kJumps ? FlowOfError::kMayGrow : FlowOfError::kDecays, times),
+        number_(std::to_string(number)),
         in_flow_(innovation != Innovation::kJumps),
         at_jumps_(innovation != Innovation::kFlow),
-        times_(times),
         guarantee_(std::move(guarantee)) {}
 
   std::string name() const override {
     std::string name = "bernard2022_equation" + number_;
-    if (times_ == TheoremTimes::kAverageDwellTime) name += "_average_dwell_time";
-    if (times_ == TheoremTimes::kReverseAverageDwellTime) name += "_reverse_average_dwell_time";
+    if (times() == TheoremTimes::kAverageDwellTime) name += "_average_dwell_time";
+    if (times() == TheoremTimes::kReverseAverageDwellTime) name += "_reverse_average_dwell_time";
     return name;
   }
   std::string guarantee() const override { return guarantee_; }
-  TheoremTimes times() const override { return times_; }
   std::vector<std::string> observer_types() const override { return {"SynchronizedObserver"}; }
 
   void require_applicable(const CertificateSubject& subject) const override {
@@ -73,20 +73,6 @@ class QuadraticCondition : public Theorem {
     return {symmetric_shape("P", subject.plant.states())};
   }
 
-  std::vector<NamedShape> parameters(const CertificateSubject&) const override {
-    return lyapunov_parameters(flow_of_error(), has_dwell_time());
-  }
-
-  std::string decay_parameter() const override { return has_dwell_time() ? "decay" : "jump_decay"; }
-  GuaranteedFigure decay_figure(const NamedMatrices& values) const override {
-    return has_dwell_time() ? Theorem::decay_figure(values) : jump_decay_figure(values);
-  }
-  std::vector<GuaranteedFigure> guaranteed_figures(const CertificateSubject& subject,
-                                                   const NamedMatrices& values) const override {
-    if (!has_dwell_time()) return {};
-    return {transient_figure(subject, flow_of_error(), values)};
-  }
-
   std::vector<NamedRange> search_ranges(const CertificateSubject& subject) const override {
     if (in_flow_) return {{"flow_decay", flow_decay_range(subject)}};
     return {{"flow_growth", flow_growth_range(subject)}};
@@ -101,7 +87,7 @@ class QuadraticCondition : public Theorem {
     MatrixExpression reset = *plant.A_d;
     if (in_flow_) flow = flow - symbol("L_c", n, plant.C_c.rows()) * plant.C_c;
     if (at_jumps_) reset = reset - symbol("L_d", n, plant.C_d.rows()) * plant.C_d;
-    return quadratic_conditions(subject, flow_of_error(), flow, reset, "bernard2022 (" + number_);
+    return quadratic_conditions(subject, kind(), flow, reset, "bernard2022 (" + number_);
   }
 
   std::unique_ptr<const ErrorBound> error_bound(
@@ -115,25 +101,16 @@ class QuadraticCondition : public Theorem {
                                scalar_value(values, "flow_decay"), assumptions);
     }
     const Eigen::MatrixXd& L_d = values.at("L_d");
-    const LyapunovRates rates = lyapunov_rates(subject, flow_of_error());
+    const LyapunovRates rates = lyapunov_rates(subject, kind());
     const double a_c = evaluate(rates.a_c, values)(0, 0);
     const double a_d = evaluate(rates.a_d, values)(0, 0);
     return jump_based_bound(subject, values.at("P"), L_d, {a_d / 2.0, a_c / 2.0}, assumptions);
   }
 
  private:
-  FlowOfError flow_of_error() const {
-    return in_flow_ ? FlowOfError::kDecays : FlowOfError::kMayGrow;
-  }
-  bool has_dwell_time() const {
-    return times_ == TheoremTimes::kAverageDwellTime ||
-           times_ == TheoremTimes::kReverseAverageDwellTime;
-  }
-
   std::string number_;
   bool in_flow_;
   bool at_jumps_;
-  TheoremTimes times_;
   std::string guarantee_;
 };
 

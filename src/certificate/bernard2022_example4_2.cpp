@@ -12,17 +12,17 @@ namespace {
 /// bernard2022, example 4.2: (22) with the high-gain L_c(ℓ) of (24), for one continuous output.
 /// Corollary 4.1 says that for any average dwell time some ℓ is large enough; this says that one
 /// is, for such a time or for times of T1 or more.
-class Example42 : public Theorem {
+class Example42 : public LyapunovTheorem {
  public:
-  explicit Example42(TheoremTimes times) : times_(times) {}
+  explicit Example42(TheoremTimes times) : LyapunovTheorem(FlowOfError::kDecays, times) {}
 
   std::string name() const override {
-    return has_dwell_time() ? "bernard2022_example4_2_average_dwell_time"
-                            : "bernard2022_example4_2";
+    return is_of_average(times()) ? "bernard2022_example4_2_average_dwell_time"
+                                  : "bernard2022_example4_2";
   }
 
   std::string guarantee() const override {
-    if (has_dwell_time()) {
+    if (is_of_average(times())) {
       return "the error falls at the rate decay in the norm of P but for a factor "
              "exp((flow_decay - 2 decay) tau N0 / 2), for all jumps with an average dwell time: "
              "N(t, s) <= (t - s) / tau + N0, with the continuous output known at all times";
@@ -31,8 +31,6 @@ class Example42 : public Theorem {
            "of P, for all times between jumps of T1 or more, with the continuous output known at "
            "all times";
   }
-
-  TheoremTimes times() const override { return times_; }
 
   std::vector<std::string> observer_types() const override { return {"HighGainObserver"}; }
 
@@ -53,20 +51,6 @@ class Example42 : public Theorem {
 
   std::vector<NamedShape> multipliers(const CertificateSubject& subject) const override {
     return {symmetric_shape("P", subject.plant.states())};
-  }
-
-  std::vector<NamedShape> parameters(const CertificateSubject&) const override {
-    return lyapunov_parameters(FlowOfError::kDecays, has_dwell_time());
-  }
-
-  std::string decay_parameter() const override { return has_dwell_time() ? "decay" : "jump_decay"; }
-  GuaranteedFigure decay_figure(const NamedMatrices& values) const override {
-    return has_dwell_time() ? Theorem::decay_figure(values) : jump_decay_figure(values);
-  }
-  std::vector<GuaranteedFigure> guaranteed_figures(const CertificateSubject& subject,
-                                                   const NamedMatrices& values) const override {
-    if (!has_dwell_time()) return {};
-    return {transient_figure(subject, FlowOfError::kDecays, values)};
   }
 
   std::vector<NamedRange> search_ranges(const CertificateSubject& subject) const override {
@@ -99,8 +83,6 @@ class Example42 : public Theorem {
   }
 
  private:
-  bool has_dwell_time() const { return times_ == TheoremTimes::kAverageDwellTime; }
-
   /// 𝒱⁻¹ (𝐃 + ℓ 𝓛(ℓ) 𝐊), (24)
   static MatrixExpression high_gain_of(const ModeMatrices& plant) {
     const Eigen::Index n = plant.A.rows();
@@ -117,8 +99,6 @@ class Example42 : public Theorem {
     }
     return MatrixExpression(form.basis) * gain;
   }
-
-  TheoremTimes times_;
 };
 
 }  // namespace

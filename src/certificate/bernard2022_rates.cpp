@@ -41,18 +41,27 @@ LyapunovRates lyapunov_rates(const CertificateSubject& subject, FlowOfError kind
   return {a_c, remains * MatrixExpression(subject.dwell_time->tau), domains};
 }
 
-std::vector<NamedShape> lyapunov_parameters(FlowOfError kind, bool has_dwell_time) {
-  return {scalar_shape(kind == FlowOfError::kDecays ? "flow_decay" : "flow_growth"),
-          scalar_shape(has_dwell_time ? "decay" : "jump_decay")};
+std::vector<NamedShape> LyapunovTheorem::parameters(const CertificateSubject&) const {
+  return {scalar_shape(kind_ == FlowOfError::kDecays ? "flow_decay" : "flow_growth"),
+          scalar_shape(decay_parameter())};
 }
 
-GuaranteedFigure transient_figure(const CertificateSubject& subject, FlowOfError kind,
-                                  const NamedMatrices& values) {
-  const double a_d = evaluate(lyapunov_rates(subject, kind).a_d, values, 0.0)(0, 0);
+std::string LyapunovTheorem::decay_parameter() const {
+  return is_of_average(times_) ? "decay" : "jump_decay";
+}
+
+GuaranteedFigure LyapunovTheorem::decay_figure(const NamedMatrices& values) const {
+  return is_of_average(times_) ? Theorem::decay_figure(values) : jump_decay_figure(values);
+}
+
+std::vector<GuaranteedFigure> LyapunovTheorem::guaranteed_figures(
+    const CertificateSubject& subject, const NamedMatrices& values) const {
+  if (!is_of_average(times_)) return {};
+  const double a_d = evaluate(lyapunov_rates(subject, kind_).a_d, values, 0.0)(0, 0);
   return {
-      "factor by which the error may be larger than exp(-decay t) times what it was, in the "
-      "norm of P",
-      std::exp(std::abs(a_d) * subject.dwell_time->N0 / 2.0)};
+      {"factor by which the error may be larger than exp(-decay t) times what it was, in the "
+       "norm of P",
+       std::exp(std::abs(a_d) * subject.dwell_time->N0 / 2.0)}};
 }
 
 GuaranteedFigure jump_decay_figure(const NamedMatrices& values) {

@@ -13,8 +13,10 @@ std::string between(const ModeMatrices& from, const ModeMatrices& to) {
 }
 
 /// V = (x − x̂)ᵀ P_q (x − x̂) with a matrix for each mode q.
-class SwitchedCondition : public Theorem {
+class SwitchedCondition : public LyapunovTheorem {
  public:
+  using LyapunovTheorem::LyapunovTheorem;
+
   std::vector<std::string> observer_types() const override { return {"SwitchedObserver"}; }
 
   std::vector<NamedShape> multipliers(const CertificateSubject& subject) const override {
@@ -26,11 +28,6 @@ class SwitchedCondition : public Theorem {
   }
 
   bool is_homogeneous(const CertificateSubject&) const override { return true; }
-
-  std::string decay_parameter() const override { return "jump_decay"; }
-  GuaranteedFigure decay_figure(const NamedMatrices& values) const override {
-    return jump_decay_figure(values);
-  }
 
  protected:
   /// What a certificate says of each mode.
@@ -63,11 +60,10 @@ class SwitchedCondition : public Theorem {
 class RatesOfModes : public SwitchedCondition {
  public:
   RatesOfModes(std::string name, FlowOfError kind, TheoremTimes times, std::string guarantee)
-      : name_(std::move(name)), kind_(kind), times_(times), guarantee_(std::move(guarantee)) {}
+      : SwitchedCondition(kind, times), name_(std::move(name)), guarantee_(std::move(guarantee)) {}
 
   std::string name() const override { return name_; }
   std::string guarantee() const override { return guarantee_; }
-  TheoremTimes times() const override { return times_; }
 
   void require_applicable(const CertificateSubject& subject) const override {
     require_modes(subject);
@@ -84,29 +80,13 @@ class RatesOfModes : public SwitchedCondition {
     return all;
   }
 
-  std::vector<NamedShape> parameters(const CertificateSubject&) const override {
-    return lyapunov_parameters(kind_, has_dwell_time());
-  }
-
-  std::string decay_parameter() const override { return has_dwell_time() ? "decay" : "jump_decay"; }
-  GuaranteedFigure decay_figure(const NamedMatrices& values) const override {
-    if (!has_dwell_time()) return SwitchedCondition::decay_figure(values);
-    // A rate in time, as of most theorems. NOLINTNEXTLINE(bugprone-parent-virtual-call)
-    return Theorem::decay_figure(values);
-  }
-  std::vector<GuaranteedFigure> guaranteed_figures(const CertificateSubject& subject,
-                                                   const NamedMatrices& values) const override {
-    if (!has_dwell_time()) return {};
-    return {transient_figure(subject, kind_, values)};
-  }
-
   std::vector<NamedRange> search_ranges(const CertificateSubject& subject) const override {
     if (in_flow()) return {{"flow_decay", flow_decay_range(subject)}};
     return {{"flow_growth", flow_growth_range(subject)}};
   }
 
   std::vector<Condition> conditions(const CertificateSubject& subject) const override {
-    const LyapunovRates rates = lyapunov_rates(subject, kind_);
+    const LyapunovRates rates = lyapunov_rates(subject, kind());
     std::vector<Condition> all = rates.domains;
     for (const ModeMatrices& mode : subject.plant.modes) {
       const MatrixExpression P = P_of(mode);
@@ -138,8 +118,7 @@ class RatesOfModes : public SwitchedCondition {
   }
 
  private:
-  bool in_flow() const { return kind_ == FlowOfError::kDecays; }
-  bool has_dwell_time() const { return times_ != TheoremTimes::kFromT1; }
+  bool in_flow() const { return kind() == FlowOfError::kDecays; }
   const Eigen::MatrixXd& outputs_of(const ModeMatrices& mode) const {
     return in_flow() ? mode.C_c : mode.C_d;
   }
@@ -148,8 +127,6 @@ class RatesOfModes : public SwitchedCondition {
   }
 
   std::string name_;
-  FlowOfError kind_;
-  TheoremTimes times_;
   std::string guarantee_;
 };
 
@@ -157,6 +134,8 @@ class RatesOfModes : public SwitchedCondition {
 /// switch to just after the next, into any other mode.
 class Section732 : public SwitchedCondition {
  public:
+  Section732() : SwitchedCondition(FlowOfError::kMayGrow, TheoremTimes::kUpToT2) {}
+
   std::string name() const override { return "bernard2022_section7_3_2"; }
 
   std::string guarantee() const override {

@@ -20,9 +20,8 @@ inline double flowed_linearly(double start, double growth, double push, double d
   return start * std::exp(z) + push * integral;
 }
 
-/// Not less than w(duration) of ẇ = growth w + s, w(0) = 0, s the time: duration²/2 (1 + z/3 +
-/// z²/12
-/// + …), z = growth duration.
+/// Not less than w(duration) of ẇ = growth w + s, w(0) = 0, s the time:
+/// duration²/2 (1 + z/3 + z²/12 + …), z = growth duration.
 inline double integral_of_ramp(double growth, double duration) {
   constexpr double kSmall = 0.5;
   constexpr int kTerms = 16;  // what they leave out is less than 1e-19 of the sum

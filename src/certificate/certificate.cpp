@@ -15,7 +15,7 @@ namespace {
 
 void require_times(TheoremTimes times, const CertificateSubject& subject) {
   const bool is_average = times == TheoremTimes::kAverageDwellTime;
-  if (is_average || times == TheoremTimes::kReverseAverageDwellTime) {
+  if (is_of_average(times)) {
     const auto kind = is_average ? DwellTime::Kind::kAverage : DwellTime::Kind::kReverseAverage;
     if (subject.dwell_time && subject.dwell_time->kind == kind) return;
     throw std::invalid_argument(is_average ? "it is about jumps with an average dwell time "

@@ -72,6 +72,12 @@ enum class TheoremTimes {
   kReverseAverageDwellTime
 };
 
+/// Whether those are times on average.
+constexpr bool is_of_average(TheoremTimes times) {
+  return times == TheoremTimes::kAverageDwellTime ||
+         times == TheoremTimes::kReverseAverageDwellTime;
+}
+
 /// A theorem of a paper: what it demands of gains and of the matrices that prove them, and what it
 /// then guarantees. Stateless.
 class Theorem {

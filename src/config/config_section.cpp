@@ -48,10 +48,14 @@ bool is_decimal(const std::string& text) {
   return at == text.size();
 }
 
-/// Nothing where the node is not a finite decimal number.
 /// As YAML writes infinity, and as the parameter server hands it on.
-const char* const kInfinities[] = {".inf", ".Inf", ".INF", "inf"};
+bool is_infinity(const ConfigNode& node) {
+  constexpr const char* kInfinities[] = {".inf", ".Inf", ".INF", "inf"};
+  return node.kind == ConfigNode::Kind::kScalar &&
+         std::count(std::begin(kInfinities), std::end(kInfinities), node.scalar) > 0;
+}
 
+/// Nothing where the node is not a finite decimal number.
 std::optional<double> as_number(const ConfigNode& node) {
   if (node.kind != ConfigNode::Kind::kScalar || !is_decimal(node.scalar)) return std::nullopt;
   std::istringstream in(node.scalar[0] == '+' ? node.scalar.substr(1) : node.scalar);
@@ -253,19 +257,23 @@ bool ConfigSection::is_matrix(const std::string& key) {
   });
 }
 
+double ConfigSection::number_or_infinity_in(const std::string& key, double low, double high) {
+  if (has(key) && is_infinity(*node_.find(key))) return std::numeric_limits<double>::infinity();
+  return number_in(key, low, high, std::nullopt);
+}
+
 Eigen::Vector2d ConfigSection::interval_in(const std::string& key, double low, double high) {
   const std::string expected = "a list of two numbers from " + number_text(low) + " to " +
                                number_text(high) + ", the second not below the first, or .inf";
   const ConfigNode& node = required(key, expected);
   if (node.items.size() != 2) throw error(key, expected, node.describe());
-  const std::string& second = node.items[1].scalar;
-  const bool is_unbounded = std::count(std::begin(kInfinities), std::end(kInfinities), second) > 0;
+  const bool is_unbounded = is_infinity(node.items[1]);
   const double infinity = std::numeric_limits<double>::infinity();
   Eigen::Vector2d result(as_number(node.items[0]).value_or(-infinity),
                          as_number(node.items[1]).value_or(is_unbounded ? infinity : low));
   if (result(0) < low || result(1) < result(0) || (!is_unbounded && !(result(1) <= high)) ||
       (!is_unbounded && !as_number(node.items[1]))) {
-    throw error(key, expected, "[" + joined({node.items[0].scalar, second}) + "]");
+    throw error(key, expected, "[" + joined({node.items[0].scalar, node.items[1].scalar}) + "]");
   }
   return result;
 }

@@ -21,9 +21,9 @@ constexpr int kPairedTimes = 5;
 constexpr std::size_t kMostModes = 4;
 /// Cycles until a gain that has a memory, as a Kalman filter's, has settled.
 constexpr int kSettling = 100;
-/// A double eigenvalue of modulus 1 is computed as one that is larger by up to 1e-8.
 /// Of times without end.
 constexpr Duration kLongestLookedAt = 1000000 * kNanosecondsPerSecond;
+/// A double eigenvalue of modulus 1 is computed as one that is larger by up to 1e-8.
 constexpr double kGrowth = 1.0 + 1e-6;
 
 /// A time, and the event after it: all samples, or a jump into a mode.

@@ -13,9 +13,9 @@ namespace sampled_data_observers {
 /// @throws ConfigError for the first fault found.
 std::optional<DwellTimes> read_dwell_times(ConfigSection& jumps);
 
-/// That of a claim in whole nanoseconds, none of which it does not allow: tau rounded up, or down
-/// for a reverse one, but for the rounding of the double itself.
-DwellTimes::Average average_of(const DwellTime& claimed);
+/// A dwell time in whole nanoseconds, which allows no jumps that it does not: tau rounded up, or
+/// down for a reverse one, but for the rounding of the double itself.
+DwellTimes::Average average_of(const DwellTime& dwell_time);
 
 /// Adds to what is watched, if anything, what a claim is about: both must hold then.
 void watch(const DwellTime& claimed, std::optional<DwellTimes>& times);

@@ -1,9 +1,6 @@
 #include "config/event_times.h"
 
-#include <algorithm>
-#include <iterator>
 #include <limits>
-#include <string>
 
 namespace sampled_data_observers {
 namespace {
@@ -13,8 +10,7 @@ constexpr double kShortestDwellTime = 1e-9;  // s: one tick of the clock
 constexpr double kLongestTimeBetween = 1e6;  // s
 constexpr std::size_t kMostN0 = 10000;
 
-/// As YAML writes it, and as the parameter server hands it on.
-const char* const kInfinities[] = {".inf", ".Inf", ".INF", "inf"};
+}  // namespace
 
 DwellTime read_dwell_time(ConfigSection section, DwellTime::Kind kind) {
   DwellTime dwell_time;
@@ -26,14 +22,8 @@ DwellTime read_dwell_time(ConfigSection section, DwellTime::Kind kind) {
   return dwell_time;
 }
 
-}  // namespace
-
 double read_longest_time(ConfigSection& section, double least) {
-  if (section.has("T2") && !section.is_map("T2") && !section.is_list("T2")) {
-    const std::string text = section.text("T2");
-    if (std::count(std::begin(kInfinities), std::end(kInfinities), text) > 0) return kNoLongest;
-  }
-  return section.number_in("T2", least, kLongestTimeBetween, std::nullopt);
+  return section.number_or_infinity_in("T2", least, kLongestTimeBetween);
 }
 
 std::optional<DwellTime> read_dwell_time(ConfigSection& section) {

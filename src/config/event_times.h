@@ -12,6 +12,10 @@ namespace sampled_data_observers {
 /// @throws ConfigError for anything else
 double read_longest_time(ConfigSection& section, double least);
 
+/// A section {tau, N0}.
+/// @throws ConfigError for values that are none
+DwellTime read_dwell_time(ConfigSection section, DwellTime::Kind kind);
+
 /// The section average_dwell_time or reverse_average_dwell_time; none where neither is there.
 /// @throws ConfigError for both, and for values that are none
 std::optional<DwellTime> read_dwell_time(ConfigSection& section);

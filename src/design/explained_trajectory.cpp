@@ -179,7 +179,7 @@ class TrajectoryExplanation {
       J *= coordinates.scales.asDiagonal();
       if (!J.allFinite()) continue;
       relative.push_back(singular_values(J)(std::min(T.size(), n) - 1) /
-                         size_of_outputs(J, coordinates.powers));
+                         size_of_outputs(J, coordinates.outputs));
       if (relative.back() < least) t_least = step.t;
       least = std::min(least, relative.back());
       if (T.size() != n) continue;
@@ -214,15 +214,11 @@ class TrajectoryExplanation {
   }
 
   /// |ĵ_1| of a DampedInverse
-  static double size_of_outputs(const Eigen::MatrixXd& J, const Eigen::VectorXd& powers) {
+  static double size_of_outputs(const Eigen::MatrixXd& J,
+                                const std::vector<Eigen::Index>& outputs) {
     double sum = 0.0;
-    double outputs = 0.0;
-    for (Eigen::Index i = 0; i < powers.size(); ++i) {
-      if (powers(i) != 1.0) continue;
-      sum += J.row(i).squaredNorm();
-      outputs += 1.0;
-    }
-    return std::sqrt(sum / outputs);
+    for (const Eigen::Index i : outputs) sum += J.row(i).squaredNorm();
+    return std::sqrt(sum / static_cast<double>(outputs.size()));
   }
 
   static double sign_of_determinant(const Eigen::MatrixXd& J) {

@@ -24,8 +24,9 @@ struct TrajectoryStep {
 struct TrajectoryCoordinates {
   /// Per mode: n to d
   std::vector<std::shared_ptr<const VectorMap>> T;
-  Eigen::VectorXd powers;  ///< d: what its rows count, as inverse_powers() has it
-  Eigen::VectorXd scales;  ///< n: sizes of usual changes of the states
+  Eigen::VectorXd powers;             ///< d: what its rows count, as inverse_powers() has it
+  Eigen::VectorXd scales;             ///< n: sizes of usual changes of the states
+  std::vector<Eigen::Index> outputs;  ///< its rows that are outputs
 };
 
 /// What the linearization along one trajectory of a plant shows, in words: how it grows, what its

@@ -32,9 +32,9 @@ struct KeptNorms {
 };
 
 /// The units in which each state moves the outputs by about 1 within time_scale(), and each row of
-/// C has norm
-/// 1. The plant in these units, and so a design, is the same whatever units it was written in.
-/// Where a theorem itself depends on units, only those on which it does not are changed.
+/// C has norm 1. The plant in these units, and so a design, is the same whatever units it was
+/// written in. Where a theorem itself depends on units, only those on which it does not are
+/// changed.
 PlantScaling scaling_of(const Theorem& theorem, const CertificateSubject& subject,
                         const KeptNorms& kept);
 

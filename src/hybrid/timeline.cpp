@@ -331,9 +331,14 @@ Effect Timeline::reset(std::size_t position) {
 bool Timeline::is_withdrawn(std::size_t position) const {
   const Event& jump = slot(position).event;
   if (jump.kind != EventKind::kJump) return false;
-  const std::size_t first = base_ == Base::kForgotten ? 0 : 1;
-  for (std::size_t before = position; before > first && stamp(before - 1) == jump.stamp; --before) {
-    if (withdraws(slot(before - 1).event, jump)) return true;
+  if (base_ == Base::kForgotten && withdraws(slot(0).event, jump)) return true;
+  const auto is_of_earlier = [&](std::size_t before) { return stamp(before) < jump.stamp; };
+  // Withdrawals stand behind inputs and before all jumps.
+  for (std::size_t before = last_where(position - 1, is_of_earlier) + 1; before < position;
+       ++before) {
+    const Event& event = slot(before).event;
+    if (event.kind == EventKind::kJump) break;
+    if (withdraws(event, jump)) return true;
   }
   return false;
 }

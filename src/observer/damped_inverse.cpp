@@ -10,8 +10,12 @@
 
 namespace sampled_data_observers {
 
-DampedInverse::DampedInverse(Eigen::VectorXd powers, Eigen::VectorXd scales, double damping)
-    : powers_(std::move(powers)), scales_(std::move(scales)), damping_(damping) {
+DampedInverse::DampedInverse(Eigen::VectorXd powers, std::vector<Eigen::Index> outputs,
+                             Eigen::VectorXd scales, double damping)
+    : powers_(std::move(powers)),
+      outputs_(std::move(outputs)),
+      scales_(std::move(scales)),
+      damping_(damping) {
   require_of_gains(damping >= 0.0 && std::isfinite(damping), "damping: a number of 0 or more");
   require_of_gains(powers_.size() == scales_.size(), "K: as many entries as the plant has states");
 }
@@ -23,20 +27,16 @@ void DampedInverse::apply(double* J, double* r, double* workspace) const {
     return;
   }
   double of_outputs = 0.0;
-  double outputs = 0.0;
-  for (Eigen::Index i = 0; i < n; ++i) outputs += powers_(i) == 1.0 ? 1.0 : 0.0;
   for (Eigen::Index j = 0; j < n; ++j) {
     double* column = J + j * n;
-    for (Eigen::Index i = 0; i < n; ++i) {
-      column[i] *= powers_(i) * scales_(j);
-      if (powers_(i) == 1.0) of_outputs += column[i] * column[i];
-    }
+    for (Eigen::Index i = 0; i < n; ++i) column[i] *= powers_(i) * scales_(j);
+    for (const Eigen::Index i : outputs_) of_outputs += column[i] * column[i];
   }
   for (Eigen::Index i = 0; i < n; ++i) r[i] *= powers_(i);
   double* normal = workspace;
   for (Eigen::Index j = 0; j < n; ++j) {
     for (Eigen::Index i = 0; i < n; ++i) normal[j * n + i] = dot(J + i * n, J + j * n, n);
-    normal[j * n + j] += damping_ * damping_ * (of_outputs / outputs);
+    normal[j * n + j] += damping_ * damping_ * (of_outputs / static_cast<double>(outputs_.size()));
   }
   double* solution = workspace + n * n;
   for (Eigen::Index j = 0; j < n; ++j) solution[j] = dot(J + j * n, r, n);

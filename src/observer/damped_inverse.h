@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 namespace sampled_data_observers {
 
@@ -14,11 +15,13 @@ namespace sampled_data_observers {
 /// there are several. Where all of it has no value, it is zero.
 class DampedInverse {
  public:
-  /// @param powers   n entries: the diagonal of 𝓛(ℓ)⁻¹, 1 at the outputs
+  /// @param powers   n entries: the diagonal of 𝓛(ℓ)⁻¹
+  /// @param outputs  the rows of the outputs, one or more
   /// @param scales   n entries > 0
   /// @param damping  δ >= 0; with 0 it is J⁻¹ r, and NaN where J is singular
   /// @throws std::invalid_argument for a δ that is negative or not finite.
-  DampedInverse(Eigen::VectorXd powers, Eigen::VectorXd scales, double damping);
+  DampedInverse(Eigen::VectorXd powers, std::vector<Eigen::Index> outputs, Eigen::VectorXd scales,
+                double damping);
 
   Eigen::Index workspace_size() const { return scales_.size() * (scales_.size() + 1); }
 
@@ -30,6 +33,7 @@ class DampedInverse {
 
  private:
   Eigen::VectorXd powers_;
+  std::vector<Eigen::Index> outputs_;
   Eigen::VectorXd scales_;
   double damping_;
 };

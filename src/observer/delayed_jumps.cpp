@@ -18,6 +18,8 @@ void DelayedJumps::initialize(double* state) const {
   law().initialize(state);
   pending_.set(false, state);
   since_jump_.restart(state);
+  index_.set(0.0, state);
+  mode_.set(0.0, state);
   mu_.set(state, state);
 }
 
@@ -29,8 +31,7 @@ void DelayedJumps::flow(Duration duration, double* state, double* workspace) con
 Effect DelayedJumps::reset(const Event& event, double* state, double* workspace) const {
   const bool pending = pending_.of(state);
   if (event.kind == EventKind::kRelease) {
-    const auto delay = static_cast<double>(event.delay);
-    if (!pending || since_jump_.of(state) != delay) return Effect::kRefused;
+    if (!pending || !is_of_pending(event, state)) return Effect::kRefused;
     release(state);
     return Effect::kApplied;
   }
@@ -38,12 +39,21 @@ Effect DelayedJumps::reset(const Event& event, double* state, double* workspace)
     if (pending) release(state);
     mu_.set(state, state);
     since_jump_.restart(state);
+    index_.set(static_cast<double>(event.index), state);
+    mode_.set(event.mode.value_or(0.0), state);
     pending_.set(true, state);
     return law().reset(event, mu_.of(state), workspace);
   }
   // Of the jump's own stamp: its outputs, or a sample of the state after it.
   if (pending && since_jump_.of(state) == 0.0) law().reset(event, mu_.of(state), workspace);
   return law().reset(event, state, workspace);
+}
+
+/// Several jumps may be told with one stamp: one of them in place of another that was withdrawn.
+bool DelayedJumps::is_of_pending(const Event& release, const double* state) const {
+  return since_jump_.of(state) == static_cast<double>(release.delay) &&
+         index_.of(state) == static_cast<double>(release.index) &&
+         mode_.of(state) == release.mode.value_or(0.0);
 }
 
 /// z⁺ = μ, but for what is held.

@@ -24,10 +24,13 @@ class DelayedJumps : public LawDecorator {
   Effect reset(const Event& event, double* state, double* workspace) const override;
 
  private:
+  bool is_of_pending(const Event& release, const double* state) const;
   void release(double* state) const;
 
   FlagSlot pending_ = state_layout().flag();
   TimerSlot since_jump_ = state_layout().timer();
+  NumberSlot index_ = state_layout().number();
+  NumberSlot mode_ = state_layout().number();  ///< label of the one that follows; 0 without modes
   VectorSlot mu_ = state_layout().vector(law().state_size());
 };
 

@@ -16,7 +16,8 @@ OriginalHighGainObserver::OriginalHighGainObserver(const ObserverContext& contex
     : HighGainObserver(context, settings, {"T"}),
       T_(std::move(T)),
       damping_(damping),
-      inverse_(inverse_powers(settings, plant()), settings.saturation.scales(), damping) {
+      inverse_(inverse_powers(settings, plant()), chains_of(settings, plant()).first,
+               settings.saturation.scales(), damping) {
   for (const Eigen::MatrixXd& gain : scaled_gains(settings, plant())) {
     gain_.emplace_back();
     for (std::size_t i = 0; i < sensors(); ++i) {

@@ -41,18 +41,22 @@ void RestingEstimate::flow(Duration duration, double* state, double* workspace) 
 
 Effect RestingEstimate::reset(const Event& event, double* state, double* workspace) const {
   const bool was_at_rest = is_at_rest_.of(state);
-  if (was_at_rest) before_.set(state, workspace);
+  const bool is_output = event.kind == EventKind::kJumpOutput;
+  if (was_at_rest || is_output) before_.set(state, workspace);
   const Effect effect = law().reset(event, state, workspace);
   if (!took_effect(effect)) return effect;
   // With delayed jumps, x̂ jumps when they are released.
   const bool jumps = event.kind == (delays_jumps() ? EventKind::kRelease : EventKind::kJump);
-  if (!was_at_rest && !jumps) return effect;
+  // What was measured at the jump of this stamp makes it anew; without such a jump it moves
+  // nothing.
+  const bool completes_jump = is_output && !delays_jumps() &&
+                              !std::equal(state, state + estimate_size(), before_.of(workspace));
+  if (!was_at_rest && !jumps && !completes_jump) return effect;
   is_at_rest_.set(is_in_set(state, workspace), state);
   if (!is_at_rest_.of(state)) return effect;
-  const bool is_measured = event.kind == EventKind::kSample;
-  if (jumps || event.kind == EventKind::kJumpOutput) {
+  if (jumps || is_output) {
     lie_down(state, workspace);
-  } else if (is_measured) {
+  } else if (event.kind == EventKind::kSample) {
     // It says that the plant is at rest, which is known.
     std::copy_n(before_.of(workspace), before_.size(), state);
   }

@@ -61,6 +61,8 @@ Event release_of(const Event& jump, Stamp now) {
   event.stamp = std::max(jump.stamp, jump.release > 0 ? jump.release : now);
   event.kind = EventKind::kRelease;
   event.delay = event.stamp - jump.stamp;
+  event.index = jump.index;
+  event.mode = jump.mode;
   return event;
 }
 

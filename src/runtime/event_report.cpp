@@ -12,8 +12,7 @@ const char* describe(const EventReport& report) {
       return "jumped, but what was measured at the jump gives no finite correction and was skipped";
     case Effect::kOutputsGated:
       return "jumped, but what was measured at the jump, or a part of it, lies outside the gate "
-             "and "
-             "was skipped";
+             "and was skipped";
     default:
       return describe(report.outcome);
   }

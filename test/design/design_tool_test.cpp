@@ -564,6 +564,16 @@ TEST_F(DesignTool, TellsWhetherJumpsShowTheState) {
   EXPECT_EQ(2, one.status);
   EXPECT_TRUE(one.says("NOT OBSERVABLE")) << one.output;
   EXPECT_EQ(1, run("jump_observability --T1 2 --T2 1 " + ball).status);
+  const ToolRun without_end = run(
+      "jump_observability " +
+      write(
+          "plant.yaml",
+          "plant: {states: [a, b], A: [[0, 1], [0, -0.1]], jump_map: {A_d: [[-1, 0], [0, -0.8]]}}\n"
+          "sensors: {contact: {C: [[1, 0]], measured: at_jumps}}\n"
+          "design: {sampling: {T1: 0.5, T2: .inf}}\n"));
+  EXPECT_EQ(1, without_end.status);
+  EXPECT_TRUE(without_end.says("T2 = inf: intervals are tried up to a longest one"))
+      << without_end.output;
 }
 
 TEST_F(DesignTool, ExplainsPlantsOfFormulasAlongATrajectory) {

@@ -93,8 +93,8 @@ gains: {form: original, ell: 1, damping: 1, K: [3, 3, 1], T: [x1^2, x2, d]}
                                                                       "test.yaml"),
                                                        no_plant_plugins);
   const auto& law = dynamic_cast<const OriginalHighGainObserver&>(original.law->observer());
-  const TrajectoryCoordinates coordinates{law.T(), Eigen::Vector3d(1.0, 0.5, 0.25),
-                                          Eigen::Vector3d::Ones()};
+  const TrajectoryCoordinates coordinates{
+      law.T(), Eigen::Vector3d(1.0, 0.5, 0.25), Eigen::Vector3d::Ones(), {0}};
   const std::string text = explain_trajectory(*plant, steps, &coordinates);
   EXPECT_NE(std::string::npos, text.find("SINGULAR on the trajectory")) << text;
   EXPECT_NE(std::string::npos, text.find("first at t = 0.8")) << text;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "certificate/theorems.h"
+#include "design/bernard2022_plants.h"
 #include "design/certified.h"
 #include "design/synthesis.h"
 #include "linear_algebra/matrix_functions.h"
@@ -17,32 +18,8 @@
 namespace sampled_data_observers {
 namespace {
 
-Design designed_for(const char* method, const CertificateSubject& subject,
-                    Objective objective = Objective::kFeasible, Parameters given = {}) {
-  DesignProblem problem;
-  problem.subject = subject;
-  problem.objective = objective;
-  problem.given = std::move(given);
-  SynthesisOptions options;
-  options.jobs = 2;
-  Design design = synthesize(*find_design_method(method), problem, options);
-  EXPECT_TRUE(all_hold(check(design.certificate)))
-      << describe_violations(check(design.certificate));
-  return design;
-}
-
-/// Mode 1 turns about the third axis, mode 2 about the first.
 CertificateSubject turning(double T1, double T2) {
-  CertificateSubject subject;
-  subject.plant = linear_plant(Eigen::MatrixXd::Zero(3, 3));
-  subject.plant.modes.push_back(subject.plant.mode());
-  for (int i = 0; i < 2; ++i) {
-    ModeMatrices& mode = subject.plant.modes[static_cast<std::size_t>(i)];
-    mode.label = i + 1;
-    mode.A(i, i + 1) = 1.0;
-    mode.A(i + 1, i) = -1.0;
-    mode.C_d = Eigen::MatrixXd::Identity(1, 3);
-  }
+  CertificateSubject subject = switched();
   subject.T1 = T1;
   subject.T2 = T2;
   return subject;
@@ -102,8 +79,8 @@ TEST(MetricDesignTest, GainsThatKnowTheTimeServeLongerOnesThanConstantGains) {
     const char* constant = is_switched ? "bernard2022_section7_3_2" : "bernard2022_equation36";
     const char* metric =
         is_switched ? "bernard2022_section7_3_2_metric" : "bernard2022_corollary5_2_metric";
-    const Design fixed = designed_for(constant, subject, Objective::kMaxT2);
-    const Design moving = designed_for(metric, subject, Objective::kMaxT2);
+    const Design fixed = designed(constant, subject, Objective::kMaxT2);
+    const Design moving = designed(metric, subject, Objective::kMaxT2);
     EXPECT_GT(moving.certificate.subject.T2, 1.1 * fixed.certificate.subject.T2);
     // After half a turn the output shows the same again.
     EXPECT_LT(moving.certificate.subject.T2, std::acos(-1.0));
@@ -127,7 +104,7 @@ CertificateSubject twice_measured(double T1, double T2) {
 }
 
 TEST(MetricDesignTest, GainsTakeSeveralOutputs) {
-  const Design design = designed_for("bernard2022_corollary5_2_metric", twice_measured(0.5, 0.8));
+  const Design design = designed("bernard2022_corollary5_2_metric", twice_measured(0.5, 0.8));
   EXPECT_GE(least_fall(design), scalar_value(design.certificate.values, "jump_decay"));
 }
 
@@ -176,7 +153,7 @@ CertificateSubject projected() {
 TEST(ProjectionDesignTest, NoSwitchingMakesTheErrorGrow) {
   const CertificateSubject subject = projected();
   const Design design =
-      designed_for("bernard2022_section7_3_1", subject, Objective::kFeasible, {{"decay", 0.05}});
+      designed("bernard2022_section7_3_1", subject, Objective::kFeasible, {{"decay", 0.05}});
   const NamedMatrices& values = design.certificate.values;
   const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(3, 3);
   std::vector<Eigen::MatrixXd> flows;
@@ -212,15 +189,15 @@ TEST(ProjectionDesignTest, NoSwitchingMakesTheErrorGrow) {
 TEST(ProjectionDesignTest, RefusesOutputsThatDifferAndModesThatJump) {
   CertificateSubject subject = projected();
   subject.plant.modes.back().C_c(0, 0) = 0.7;
-  EXPECT_THROW(designed_for("bernard2022_section7_3_1", subject), DesignError);
+  EXPECT_THROW(designed("bernard2022_section7_3_1", subject), DesignError);
   subject = projected();
   subject.plant.modes.back().A_d = Eigen::MatrixXd(2.0 * Eigen::MatrixXd::Identity(3, 3));
-  EXPECT_THROW(designed_for("bernard2022_section7_3_1", subject), DesignError);
+  EXPECT_THROW(designed("bernard2022_section7_3_1", subject), DesignError);
 }
 
 /// Gains and metrics of other modes do not prove it: each flow counts with its own.
 TEST(ProjectionDesignTest, ExchangedGainsAreNotProved) {
-  const Design design = designed_for("bernard2022_section7_3_1", projected());
+  const Design design = designed("bernard2022_section7_3_1", projected());
   Certificate exchanged = design.certificate;
   std::swap(exchanged.values.at("L_c/1"), exchanged.values.at("L_c/2"));
   EXPECT_FALSE(all_hold(check(exchanged)));

@@ -323,7 +323,7 @@ TEST(DampedInverseTest, MinimizesWhatItSays) {
   const double ell = 2.0;
   const double delta = 0.1;
   const Eigen::Vector3d powers(1.0, 1.0 / ell, 1.0 / (ell * ell));
-  const DampedInverse inverse(powers, scales, delta);
+  const DampedInverse inverse(powers, {0}, scales, delta);
   Eigen::Matrix3d destroyed = J;
   Eigen::Vector3d c = r;
   Eigen::VectorXd workspace(inverse.workspace_size());
@@ -335,6 +335,18 @@ TEST(DampedInverseTest, MinimizesWhatItSays) {
                                    delta * delta * scaled.row(0).squaredNorm() * step;
   EXPECT_LT(gradient.norm(), 1e-12);
   EXPECT_GT(step.norm(), 0.1);
+
+  // Where all rows count the same, |ĵ_1| is still that of the output.
+  const DampedInverse unscaled(Eigen::Vector3d::Ones(), {0}, scales, delta);
+  destroyed = J;
+  c = r;
+  unscaled.apply(destroyed.data(), c.data(), workspace.data());
+  const Eigen::Matrix3d in_units = J * scales.asDiagonal();
+  const Eigen::Vector3d change = c.cwiseQuotient(scales);
+  EXPECT_LT((in_units.transpose() * (in_units * change - r) +
+             delta * delta * in_units.row(0).squaredNorm() * change)
+                .norm(),
+            1e-12);
 
   destroyed.fill(std::numeric_limits<double>::quiet_NaN());
   inverse.apply(destroyed.data(), c.data(), workspace.data());

@@ -349,6 +349,28 @@ TEST_F(MistakenJumpsTest, AJumpThatIsToldLeadsToRestAsWell) {
   EXPECT_EQ(0.0, run.at(kStart + kSecond)(1));
 }
 
+TEST_F(MistakenJumpsTest, WhatIsMeasuredAtAJumpLeadsToRestWhereverItComesFrom) {
+  const ObserverConfig config = configure(
+      "jumps: {rest: {set: [height, -height, velocity, -velocity], margin: 0.3, "
+      "state: {velocity: 0}}}");
+  const Eigen::Vector2d start(0.45, 0.8);
+  const Stamp stamp = kStart + kSecond / 10;
+  const OwnedEvent alone{stamp, EventKind::kJump, 0, {}};
+  const OwnedEvent output{stamp, EventKind::kJumpOutput, 0, {0.25}};
+  OwnedEvent both = alone;
+  both.values = output.values;
+  Run without(config, {alone}, start);
+  EXPECT_FALSE(without.is_at_rest(stamp));
+  Run together(config, {both}, start);
+  EXPECT_TRUE(together.is_at_rest(stamp));
+  for (const std::vector<OwnedEvent>& events :
+       {std::vector<OwnedEvent>{alone, output}, {output, alone}}) {
+    Run apart(config, events, start);
+    EXPECT_TRUE(apart.is_at_rest(stamp));
+    EXPECT_EQ(together.at(kStart + kSecond), apart.at(kStart + kSecond));
+  }
+}
+
 TEST_F(MistakenJumpsTest, FaultsOfRestAreRefused) {
   const auto fault = [](const std::string& rest, const std::string& change = "{}") {
     return test::fault_of([&] {

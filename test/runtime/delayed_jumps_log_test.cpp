@@ -124,6 +124,32 @@ TEST_F(DelayedJumpsLogTest, AReleaseToComeOutlastsAPause) {
   EXPECT_NEAR(0.0, (expected.state - found.state).norm(), 1e-9);
 }
 
+TEST_F(DelayedJumpsLogTest, AWithdrawnJumpReleasesNoOther) {
+  OwnedEvent wrong{kStart + kSecond, EventKind::kJump, 0, {}};
+  wrong.index = 5;
+  OwnedEvent withdrawal = wrong;
+  withdrawal.kind = EventKind::kWithdrawal;
+  OwnedEvent right = wrong;
+  right.index = 6;
+  Estimator corrected = make(100);
+  Estimator expected = make(100);
+  for (Estimator* each : {&corrected, &expected}) {
+    take(*each, {kStart, EventKind::kSample, 0, {1.0}}, 0);
+    if (each == &corrected) {
+      take(*each, wrong, kSecond / 4);
+      take(*each, withdrawal, 0);
+    }
+    take(*each, right, kSecond / 2);
+  }
+  Estimate found = corrected.make_estimate();
+  Estimate right_one = expected.make_estimate();
+  for (const Duration after : {5 * kSecond / 4, 11 * kSecond / 8, 7 * kSecond / 4}) {
+    ASSERT_EQ(Timeline::Query::kOk, corrected.estimate_at(kStart + after, found));
+    ASSERT_EQ(Timeline::Query::kOk, expected.estimate_at(kStart + after, right_one));
+    EXPECT_NEAR(0.0, (right_one.state - found.state).head(3).norm(), 1e-9) << after;
+  }
+}
+
 TEST_F(DelayedJumpsLogTest, NothingIsAllocated) {
   if (!test::allocations_are_counted()) GTEST_SKIP() << "a sanitizer owns the allocator";
   for (const std::size_t max_events : {1u, 2u}) {

@@ -60,9 +60,10 @@ class ConfigSection {
                                                     std::size_t cols);
   /// A list of `size` finite numbers.
   Eigen::VectorXd vector(const std::string& key, Eigen::Index size);
+  /// A finite number from `low` to `high`, or infinity: `.inf`.
+  double number_or_infinity_in(const std::string& key, double low, double high);
   /// A list of two numbers, low <= first <= second <= high, the second of which may also be
-  /// infinite:
-  /// `.inf`.
+  /// infinite: `.inf`.
   Eigen::Vector2d interval_in(const std::string& key, double low, double high);
   /// A list of lists of finite numbers, each of any length; or one such list alone.
   std::vector<Eigen::VectorXd> vectors(const std::string& key);

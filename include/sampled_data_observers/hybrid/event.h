@@ -43,7 +43,7 @@ struct Event {
   std::optional<double> mode = std::nullopt;
   /// Of jumps and their withdrawals: their number, as who detects them counts; 0 where nobody does.
   std::uint32_t index = 0;
-  /// Of releases: the time since the jump.
+  /// Of releases, which have the mode and the number of their jump: the time since it.
   Duration delay = 0;
   /// Of what was rejected: its kind.
   EventKind rejected = EventKind::kInput;

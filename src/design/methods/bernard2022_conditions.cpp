@@ -79,10 +79,7 @@ class QuadraticDesign : public LmiDesignMethod {
   }
 
  private:
-  bool has_dwell_time() const {
-    return theorem_.times() == TheoremTimes::kAverageDwellTime ||
-           theorem_.times() == TheoremTimes::kReverseAverageDwellTime;
-  }
+  bool has_dwell_time() const { return is_of_average(theorem_.times()); }
 
   std::string name_;
   std::string summary_;

@@ -26,9 +26,8 @@ class RatesOfModesDesign : public LmiDesignMethod {
   const Theorem& theorem() const override { return theorem_; }
 
   std::vector<DesignParameter> parameters(const CertificateSubject& subject) const override {
-    const DesignParameter decay = theorem_.times() == TheoremTimes::kFromT1
-                                      ? jump_decay_parameter()
-                                      : decay_parameter_of(subject);
+    const DesignParameter decay =
+        is_of_average(theorem_.times()) ? decay_parameter_of(subject) : jump_decay_parameter();
     if (!in_flow()) return {flow_growth_parameter(subject), decay};
     return {flow_decay_parameter(subject, theorem_), decay, gain_bound_parameter()};
   }

@@ -25,8 +25,8 @@ void check_ell_command(const CheckEllArguments& arguments) {
   if (law == nullptr) {
     throw DesignError(
         "expected a HighGainObserver of the form transformed, which has Theta and Phi to try, "
-        "found "
-        "another one. The linear form converges with any ell; the original one can be tried as a "
+        "found another one. The linear form converges with any ell; the original one can be tried "
+        "as a "
         "transformed one");
   }
   if (law->plant().outputs(SensorTiming::kContinuous) != 1) {

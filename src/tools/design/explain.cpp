@@ -66,8 +66,10 @@ void draw(const CertificateSubject& subject, const ExplainArguments& arguments) 
 
 /// T of a high-gain observer in one of its two nonlinear forms.
 TrajectoryCoordinates coordinates_of(const HighGainObserver& law) {
-  TrajectoryCoordinates result{
-      {}, inverse_powers(law.settings(), law.plant()), law.saturation().scales()};
+  TrajectoryCoordinates result{{},
+                               inverse_powers(law.settings(), law.plant()),
+                               law.saturation().scales(),
+                               chains_of(law.settings(), law.plant()).first};
   if (const auto* transformed = dynamic_cast<const TransformedHighGainObserver*>(&law)) {
     for (const auto& maps : transformed->maps()) result.T.push_back(maps.T);
   } else if (const auto* original = dynamic_cast<const OriginalHighGainObserver*>(&law)) {

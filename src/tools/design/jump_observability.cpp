@@ -33,6 +33,9 @@ void jump_observability_command(const JumpObservabilityArguments& arguments) {
   if (arguments.T2) subject.T2 = *arguments.T2;
   if (arguments.T1) subject.T1 = *arguments.T1;
   if (!(subject.T2 > 0.0)) throw DesignError("T2 is not given: --T2 or design/sampling");
+  if (std::isinf(subject.T2)) {
+    throw DesignError("T2 = inf: intervals are tried up to a longest one; give --T2");
+  }
   if (subject.T1 > subject.T2) throw DesignError("T1 > T2");
   const std::size_t jumps =
       arguments.jumps.value_or(static_cast<std::size_t>(subject.plant.states()));
