@@ -92,7 +92,8 @@ DesignConfig read_design_config(const std::vector<std::string>& files,
   };
   config.noise = assumption("noise");
   config.disturbance = assumption("disturbance");
-  for (const char* of_observer : {"initial_error", "latency"}) assumption(of_observer);
+  for (const char* of_observer : {"initial_error", "latency", "output_rate"})
+    assumption(of_observer);
   assumptions.finish();
   return config;
 }

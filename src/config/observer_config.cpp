@@ -36,6 +36,13 @@ SamplingBounds read_sampling(ConfigSection& root, const Plant& plant) {
   return {from_seconds(T1), longest_from_seconds(T2)};
 }
 
+/// Times between events that correct: of a plant without samples those between its jumps.
+SamplingBounds times_of_correction(ConfigSection& root, const SamplingBounds& sampling,
+                                   const std::optional<DwellTimes>& of_jumps) {
+  if (root.has("sampling") || !of_jumps) return sampling;
+  return {of_jumps->shortest, of_jumps->longest.value_or(kNoLongestTime)};
+}
+
 Timeline::Limits read_history(ConfigSection& root) {
   Timeline::Limits limits;
   limits.history = from_seconds(2.0);
@@ -112,7 +119,8 @@ ObserverConfig read_observer_config(const ConfigNode& tree, const PlantPluginLoa
   config.warning = std::move(guarantee.warning);
   if (!guarantee.remark.empty()) config.warnings.push_back(std::move(guarantee.remark));
   if (config.guarantee.empty()) {
-    const std::string found = find_divergence(*config.law, plant, config.options.sampling);
+    const std::string found = find_divergence(
+        *config.law, plant, times_of_correction(root, config.options.sampling, layers.dwell_times));
     if (!found.empty()) config.warnings.push_back("gains: " + found);
   }
   config.options.latency = guarantee.latency;

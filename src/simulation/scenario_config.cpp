@@ -234,7 +234,10 @@ class ScenarioReader {
     }
     ConfigSection topic = root_.section_or_empty("jumps");
     scenario_.jumps_topic = simulated_topic(read_jump_source(root_, topic, plant()), "JumpEvent");
-    for (const char* key : {"late", "min_separation", "max_per_second", "stamp_error"}) {
+    // Of an observer.
+    for (const char* key :
+         {"late", "min_separation", "max_per_second", "stamp_error", "gate", "missing", "rest",
+          "dwell_time", "average_dwell_time", "reverse_average_dwell_time"}) {
       topic.has(key);
     }
     topic.finish();

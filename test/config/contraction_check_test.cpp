@@ -60,6 +60,19 @@ gains: {L: [[2.25]]}
   EXPECT_NE(std::string::npos, message.find("by the factor 1.25")) << message;
 }
 
+TEST(ContractionCheckTest, JumpsAreLookedAtForTheTimesBetweenThem) {
+  // The error is multiplied by 0.5 e^{0.1 tau} from jump to jump: it grows from 6.9 s on.
+  const std::string text = R"yaml(
+observer: SynchronizedObserver
+plant: {states: [x], A: [[0.1]], jump_map: {A_d: [[1]]}}
+sensors: {position: {C: [[1]], measured: at_jumps}}
+gains: {L_d: [[0.5]]}
+jumps: {dwell_time: [0.5, 2]}
+)yaml";
+  EXPECT_EQ("", warning(text));
+  EXPECT_NE("", warning(replaced(text, "[0.5, 2]", "[0.5, 8]")));
+}
+
 TEST(ContractionCheckTest, TimesThatAlternateAreLookedAtToo) {
   // By the eigenvalues of (I - L C) e^{A tau} in another program: at all constant times of the grid
   // the error falls to 0.7746 or less from sample to sample, and at 0.1 s and 0.9 s by turns it

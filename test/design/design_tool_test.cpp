@@ -294,6 +294,11 @@ TEST_F(DesignTool, TakesTimesWithoutEndAndDwellTimesWhereTheTheoremDoes) {
   EXPECT_TRUE(without_end.says("  T2: .inf\n")) << without_end.output;
   EXPECT_TRUE(without_end.says("sampling: {T1: 0.5, T2: .inf}")) << without_end.output;
   EXPECT_EQ(run("verify " + path("gains.yaml")).status, 0);
+  const ToolRun declared =
+      run(to + " --T1 0.5 --T2 inf --method bernard2022_equation22 " +
+          write("declared.yaml",
+                "error_assumptions: {initial_error: 1, noise: 0.1, output_rate: 2}\n"));
+  EXPECT_EQ(declared.status, 0) << declared.output;
   const ToolRun refused = run(to + " --T1 0 --T2 inf --method bernard2022_equation26");
   EXPECT_NE(refused.status, 0);
   EXPECT_TRUE(refused.says("up to a longest one: T2 = inf")) << refused.output;

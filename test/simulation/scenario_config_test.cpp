@@ -24,7 +24,7 @@ sensors:
   radar: {C: [[1, 0]], measured: continuous, source: {topic: radar}}
   wheel: {C: [[0, 1]], source: {topic: wheel}}
 input: {topic: force}
-jumps: {topic: bumps, late: rewind}
+jumps: {topic: bumps, late: rewind, gate: {read: by the observer}, missing: {}, rest: {}, dwell_time: [0, 1], average_dwell_time: {}, reverse_average_dwell_time: {}}
 gains: {read: by the observer}
 scenario:
   duration: 20

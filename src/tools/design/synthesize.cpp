@@ -105,8 +105,15 @@ void print_outcomes(const std::vector<MethodOutcome>& outcomes, Objective object
 Design best_design(const DesignProblem& problem, const SynthesisOptions& options) {
   const std::vector<const DesignMethod*> methods = methods_that_apply(problem);
   if (methods.empty()) {
+    std::string cause;
+    if (problem.subject.dwell_time) {
+      cause = ", with a dwell time in place of T1 and T2";
+    } else if (std::isinf(problem.subject.T2)) {
+      cause = ", with T2 = inf";
+    }
     throw RequestError(std::string("no method serves the objective ") +
-                       to_string(problem.objective) + " for this plant: see --method");
+                       to_string(problem.objective) + " for this plant" + cause +
+                       ": --method NAME says why that one does not");
   }
   const std::vector<MethodOutcome> outcomes = synthesize_by_all(methods, problem, options);
   const MethodOutcome* best = best_of(outcomes, problem.objective);
