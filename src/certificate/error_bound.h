@@ -36,9 +36,9 @@ struct LawAtWork {
   std::optional<double> innovation = std::nullopt;
 };
 
-/// How a certificate bounds the norm of the estimation error |x − x̂| along flow and events: a small
-/// hybrid system of its own, driven by the same events as the observer, so that the bound is a
-/// function of them, too.
+/// How a certificate bounds the estimation error x − x̂ along flow and events, its norm, each of its
+/// entries and the ellipsoid that it lies in: a small hybrid system of its own, driven by the same
+/// events as the observer, so that the bounds are functions of them, too.
 ///
 /// Its maps allocate nothing and throw nothing; what they need beside the state they find at
 /// `workspace`. Where the events leave the set for which the theorem holds, for example by a time
@@ -58,7 +58,7 @@ class ErrorBound {
   /// Number of entries of its state.
   virtual Eigen::Index state_size() const = 0;
 
-  /// Number of entries that sample() needs in `workspace`.
+  /// Number of entries that sample(), state_bounds() and ellipsoid() need in `workspace`.
   virtual Eigen::Index workspace_size() const { return 0; }
 
   /// The state where the estimate begins (at any time before the first sample).
@@ -116,6 +116,26 @@ class ErrorBound {
 
   /// The bound on |x − x̂|, units of the state.
   virtual double bound(const double* state) const = 0;
+
+  /// Bounds on |x_j − x̂_j| of each state, in its units; infinite where bound() is. By default
+  /// bound() for each: GuaranteedBound takes the smaller one.
+  /// @param bounds  n, is written
+  virtual void state_bounds(const double* state, double* workspace,
+                            Eigen::Ref<Eigen::VectorXd> bounds) const {
+    static_cast<void>(workspace);
+    bounds.setConstant(bound(state));
+  }
+
+  /// The ellipsoid that holds the error: (x − x̂)(x − x̂)ᵀ <= Q, that is (x − x̂)ᵀ Q⁻¹ (x − x̂) <= 1
+  /// where Q > 0. By default the ball of radius bound().
+  /// @param Q  n x n, symmetric, is written; not finite where the bound is infinite
+  virtual void ellipsoid(const double* state, double* workspace,
+                         Eigen::Ref<Eigen::MatrixXd> Q) const {
+    static_cast<void>(workspace);
+    const double radius = bound(state);
+    Q.setZero();
+    Q.diagonal().setConstant(radius * radius);
+  }
 };
 
 }  // namespace sampled_data_observers
