@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <regex>
 #include <stdexcept>
+#include <utility>
 
 #include "certificate/theorems.h"
 #include "linear_algebra/matrix_functions.h"
@@ -32,7 +33,30 @@ void require_times(TheoremTimes times, const CertificateSubject& subject) {
   }
 }
 
+void require_one_sensor(const CertificateSubject& subject) {
+  const std::size_t count = subject.plant.sampled.size();
+  if (count <= 1) return;
+  throw std::invalid_argument(
+      "it is about one sensor whose outputs are measured together, but " + std::to_string(count) +
+      " sensors are sampled");
+}
+
 }  // namespace
+
+std::vector<SamplingTimes> times_of_timers(const CertificateSubject& subject) {
+  if (!subject.sensor_times.empty()) return subject.sensor_times;
+  return {{subject.T1, subject.T2}};
+}
+
+void set_sensor_times(CertificateSubject& subject, std::vector<SamplingTimes> times) {
+  subject.T1 = times.front().T1;
+  subject.T2 = times.front().T2;
+  for (const SamplingTimes& of_sensor : times) {
+    subject.T1 = std::min(subject.T1, of_sensor.T1);
+    subject.T2 = std::max(subject.T2, of_sensor.T2);
+  }
+  subject.sensor_times = std::move(times);
+}
 
 double time_scale(const CertificateSubject& subject) {
   if (std::isfinite(subject.T2)) return subject.T2;
@@ -65,6 +89,7 @@ GuaranteedFigure Theorem::decay_figure(const NamedMatrices& values) const {
 
 void require_subject(const Theorem& theorem, const CertificateSubject& subject) {
   require_times(theorem.times(), subject);
+  if (!theorem.takes_several_sensors()) require_one_sensor(subject);
   theorem.require_applicable(subject);
 }
 

@@ -22,6 +22,12 @@ struct DwellTime {
   double N0 = 1.0;   ///< a whole number >= 1
 };
 
+/// The shortest and the longest time between two samples of a sensor [s].
+struct SamplingTimes {
+  double T1 = 0.0;
+  double T2 = 0.0;
+};
+
 /// What a claim is about: the plant, and what is known of the times between samples or jumps.
 struct CertificateSubject {
   PlantMatrices plant;
@@ -29,7 +35,19 @@ struct CertificateSubject {
   double T2 = 0.0;  ///< the longest [s]; ∞ where there is none
   /// In place of T1 and T2, which then are 0 and ∞.
   std::optional<DwellTime> dwell_time;
+  /// Of each sampled sensor, in their order, where there are several: each is sampled whatever the
+  /// others do. T1 and T2 are the shortest and the longest of them then.
+  std::vector<SamplingTimes> sensor_times = {};
+  /// Of a theorem whose Lyapunov function depends on timers: values of each of them, from 0 to its
+  /// longest time, its shortest among them, in increasing order [s].
+  std::vector<std::vector<double>> timer_nodes = {};
 };
+
+/// sensor_times; where there are none, those of the only sensor, or of jumps.
+std::vector<SamplingTimes> times_of_timers(const CertificateSubject& subject);
+
+/// Takes times of several sensors, and the shortest and the longest of them for T1 and T2.
+void set_sensor_times(CertificateSubject& subject, std::vector<SamplingTimes> times);
 
 /// A time that is typical of the events of a subject [s]: T2; where it has none, its dwell time,
 /// T1, or the time in which the plant moves by itself.
@@ -97,6 +115,9 @@ class Theorem {
   virtual std::vector<std::string> observer_types() const = 0;
 
   virtual TheoremTimes times() const { return TheoremTimes::kUpToT2; }
+
+  /// Whether it is about plants of several sensors that are sampled independently of each other.
+  virtual bool takes_several_sensors() const { return false; }
 
   /// @throws std::invalid_argument saying why, for a plant or times [T1, T2] that it is not about.
   virtual void require_applicable(const CertificateSubject& subject) const = 0;

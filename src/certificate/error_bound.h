@@ -67,14 +67,22 @@ class ErrorBound {
   /// The same where |x − x̂| <= error is known of it. @pre error >= 0, finite
   virtual void begin(double error, double* state) const = 0;
 
+  /// The same right after a sample, where only that much is known of it.
+  /// @param sensor  as for sample()
+  virtual void begin_at_sample(std::size_t sensor, double error, double* state) const {
+    static_cast<void>(sensor);
+    begin(error, state);
+  }
+
   /// Carries the state over `duration` >= 0 [s], the time since the last sample, jump or message
   /// that holds_outputs() is about: the double nearest to a whole number of nanoseconds, so that it
   /// compares with T1 and T2 as they are written. It is not split: GuaranteedBound starts again
   /// from that event.
   virtual void flow(double duration, double* state) const = 0;
 
-  /// At a sample of the sensor.
-  virtual void sample(double* state, double* workspace) const = 0;
+  /// At a sample.
+  /// @param sensor  its position among the sensors of the plant
+  virtual void sample(std::size_t sensor, double* state, double* workspace) const = 0;
 
   /// Whether the law injects something of a sample until the next one, so that a sample does more
   /// than move x̂.

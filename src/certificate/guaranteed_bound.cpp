@@ -195,7 +195,7 @@ Effect GuaranteedBound::reset(const Event& event, double* state, double* workspa
   }
   if (is_sample) {
     begin_interval(state);
-    sample(state, workspace, is_wrapped);
+    sample(static_cast<std::size_t>(event.sensor), state, workspace, is_wrapped);
   } else if (is_jump) {
     begin_interval(state);
     const bool is_whole = effect != Effect::kWithoutOutputs;
@@ -227,14 +227,16 @@ void GuaranteedBound::look_at_law(double* state, double* workspace) const {
   go_on_from_then(state);
 }
 
-void GuaranteedBound::sample(double* state, double* workspace, bool is_wrapped) const {
+void GuaranteedBound::sample(std::size_t sensor, double* state, double* workspace,
+                             bool is_wrapped) const {
+  double* bound = then_.bound.of(state);
   if (!is_wrapped) {
-    bound_->sample(then_.bound.of(state), bound_workspace_.of(workspace));
+    bound_->sample(sensor, bound, bound_workspace_.of(workspace));
   } else if (bound_->injects_between_samples()) {
     lose(then_, BoundLoss::kAngle, state);
   } else {
-    go_on_from_moved(state);
-    return;
+    const double error = bound_of(then_, state) + moved_since_before(state);
+    if (std::isfinite(error)) bound_->begin_at_sample(sensor, error, bound);
   }
   go_on_from_then(state);
 }

@@ -83,7 +83,7 @@ class GuaranteedBound : public LawDecorator, public StateBound {
   double moved_since_before(const double* state) const;
   bool may_be_wrapped(double error, std::size_t sensor, const double* innovation) const;
   bool may_be_wrapped(const Event& event, double* state, double* workspace) const;
-  void sample(double* state, double* workspace, bool is_wrapped) const;
+  void sample(std::size_t sensor, double* state, double* workspace, bool is_wrapped) const;
   void await_outputs(double* state) const;
   void take_jump(double* state) const;
   void refuse_jump(double* state) const;

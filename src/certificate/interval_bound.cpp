@@ -49,7 +49,8 @@ bool IntervalBound::is_lost(const double* state) { return numbers(state)[0] == k
 
 void IntervalBound::lose(double* state) { numbers(state)[0] = kInfinity; }
 
-void SampledErrorBound::sample(double* state, double* workspace) const {
+void SampledErrorBound::sample(std::size_t sensor, double* state, double* workspace) const {
+  static_cast<void>(sensor);  // there is one
   if (is_lost(state)) return;
   sample_numbers(interval(state), numbers(state), workspace);
   begin_interval(state);

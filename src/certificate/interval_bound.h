@@ -77,7 +77,7 @@ class IntervalBound : public ErrorBound {
 /// samples. Samples may come at any time; plant jumps end the guarantee.
 class SampledErrorBound : public IntervalBound {
  public:
-  void sample(double* state, double* workspace) const final;
+  void sample(std::size_t sensor, double* state, double* workspace) const final;
   void jump(const JumpMotion& motion, double* state) const final;
 
  protected:

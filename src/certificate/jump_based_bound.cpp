@@ -62,7 +62,7 @@ class JumpBasedBound : public IntervalBound {
         uncorrected_ * before + per_error_ * motion.moved + shifted(jump_norm_, motion, state);
     go_on_from(std::max(before, jumped), state);
   }
-  void sample(double*, double*) const override {}
+  void sample(std::size_t, double*, double*) const override {}
 
  protected:
   void begin_numbers(double error, double* numbers) const override {

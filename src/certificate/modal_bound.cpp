@@ -52,7 +52,7 @@ class HeldOutputBound : public IntervalBound {
   }
 
   void output(double* state) const override { hold(noise_, numbers(state)); }
-  void sample(double*, double*) const override {}
+  void sample(std::size_t, double*, double*) const override {}
 
   void jump(const JumpMotion& motion, double* state) const override {
     const ModalNorms::OfMode& norms = norms_.at(numbers(state)[kMode]);
@@ -153,7 +153,7 @@ class SwitchBound : public IntervalBound {
     values[kAfterSwitch] *= norms_.at(values[kMode]).per_error;
   }
 
-  void sample(double*, double*) const override {}
+  void sample(std::size_t, double*, double*) const override {}
 
   void jump(const JumpMotion& motion, double* state) const override {
     if (is_lost(state)) return;

@@ -30,9 +30,20 @@ Eigen::MatrixXd stacked_outputs(const Plant& plant, const PlantMode& mode, Senso
   return stacked;
 }
 
+std::vector<SampledOutputs> sampled_outputs(const Plant& plant) {
+  std::vector<SampledOutputs> all;
+  Eigen::Index row = 0;
+  for (std::size_t i = 0; i < plant.sensors().size(); ++i) {
+    const Sensor& sensor = plant.sensors()[i];
+    if (sensor.timing != SensorTiming::kSampled) continue;
+    all.push_back({sensor.name, i, row, sensor.outputs()});
+    row += sensor.outputs();
+  }
+  return all;
+}
+
 void require_one_sensor_of_each_timing(const Plant& plant) {
-  for (const SensorTiming timing :
-       {SensorTiming::kSampled, SensorTiming::kContinuous, SensorTiming::kAtJumps}) {
+  for (const SensorTiming timing : {SensorTiming::kContinuous, SensorTiming::kAtJumps}) {
     const auto count =
         std::count_if(plant.sensors().begin(), plant.sensors().end(),
                       [timing](const Sensor& sensor) { return sensor.timing == timing; });
@@ -71,6 +82,7 @@ PlantMatrices matrices_of(const Plant& plant, const StatedErrorMaps& stated) {
   PlantMatrices result;
   result.stated = stated;
   result.state_names = plant.state_names();
+  result.sampled = sampled_outputs(plant);
   const Eigen::Index n = plant.states();
   result.G.resize(n, 0);
   result.S.resize(0, n);

@@ -39,11 +39,20 @@ struct StatedErrorMaps {
   bool is_empty() const { return !A && !A_d; }
 };
 
+/// Which rows of C are those of one sampled sensor.
+struct SampledOutputs {
+  std::string sensor;        ///< its name
+  std::size_t position = 0;  ///< among the sensors of the plant
+  Eigen::Index first = 0;    ///< of its rows
+  Eigen::Index rows = 0;
+};
+
 /// The plant as the papers' conditions see it:
 ///   ẋ = A x + B u + G ψ(S x) + N w between jumps, y = C x at samples, y_p = C_p (x − x̂).
 struct PlantMatrices {
   std::vector<std::string> state_names;  ///< n
   std::vector<ModeMatrices> modes;       ///< at least one
+  std::vector<SampledOutputs> sampled;   ///< of each sensor that is sampled, in order
   Eigen::MatrixXd G;                     ///< n x s; no columns for a linear flow
   Eigen::MatrixXd S;                     ///< q x n
   std::optional<double> lipschitz_constant;
@@ -63,7 +72,7 @@ struct PlantMatrices {
 /// The matrices of a plant without disturbance and performance output.
 /// @param stated  instead of the plant's own maps, for a plant that does not switch
 /// @throws std::invalid_argument for a plant that the conditions of the papers are not about: a
-/// flow, jump or output map by formulas, or several sensors of one timing.
+/// flow, jump or output map by formulas, or several sensors that measure continuously, or at jumps.
 PlantMatrices matrices_of(const Plant& plant, const StatedErrorMaps& stated = {});
 
 }  // namespace sampled_data_observers

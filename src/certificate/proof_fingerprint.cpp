@@ -46,6 +46,15 @@ std::string proof_fingerprint(const Certificate& certificate) {
     text.add("dwell time", dwell_time->tau);
     text.add("N0", dwell_time->N0);
   }
+  for (std::size_t i = 0; i < certificate.subject.sensor_times.size(); ++i) {
+    const SamplingTimes& times = certificate.subject.sensor_times[i];
+    text.add("sensor " + plant.sampled[i].sensor + " T1", times.T1);
+    text.add("T2", times.T2);
+  }
+  for (const std::vector<double>& nodes : certificate.subject.timer_nodes) {
+    text.add("timer", Eigen::Map<const Eigen::RowVectorXd>(
+                          nodes.data(), static_cast<Eigen::Index>(nodes.size())));
+  }
   for (const ModeMatrices& mode : plant.modes) {
     text.add("mode", mode.label);
     text.add("A", mode.A);

@@ -43,6 +43,7 @@ CertificateSubject read_subject(ConfigSection& section, const Plant& plant) {
   if (section.has("N")) subject.plant.N = section.matrix("N", n, -1);
   if (section.has("C_p")) subject.plant.C_p = section.matrix("C_p", -1, n);
   read_event_times(section, subject);
+  read_timer_nodes(section, subject);
   return subject;
 }
 

@@ -279,14 +279,15 @@ Eigen::Vector2d ConfigSection::interval_in(const std::string& key, double low, d
 }
 
 Eigen::VectorXd ConfigSection::vector(const std::string& key, Eigen::Index size) {
-  const std::string expected = "a list of " + std::to_string(size) + " finite numbers";
+  const std::string expected =
+      "a list of " + (size < 0 ? "" : std::to_string(size) + " ") + "finite numbers";
   const ConfigNode& node = required(key, expected);
-  if (node.kind != ConfigNode::Kind::kSequence ||
-      static_cast<Eigen::Index>(node.items.size()) != size) {
+  const auto found = static_cast<Eigen::Index>(node.items.size());
+  if (node.kind != ConfigNode::Kind::kSequence || (size >= 0 && found != size)) {
     throw error(key, expected, node.describe());
   }
-  Eigen::VectorXd result(size);
-  for (Eigen::Index i = 0; i < size; ++i) {
+  Eigen::VectorXd result(found);
+  for (Eigen::Index i = 0; i < found; ++i) {
     const ConfigNode& item = node.items[static_cast<std::size_t>(i)];
     const std::optional<double> value = as_number(item);
     if (!value) throw error(key, expected, item.describe());

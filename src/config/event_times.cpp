@@ -1,6 +1,10 @@
 #include "config/event_times.h"
 
+#include <algorithm>
+#include <functional>
 #include <limits>
+#include <string>
+#include <vector>
 
 namespace sampled_data_observers {
 namespace {
@@ -43,6 +47,51 @@ std::optional<DwellTime> read_dwell_time(ConfigSection& section) {
   return std::nullopt;
 }
 
+namespace {
+
+SamplingTimes read_interval(ConfigSection& section) {
+  SamplingTimes times;
+  times.T1 = section.number("T1");
+  if (times.T1 < 0.0) throw section.error("T1", "a number not less than 0", "a negative one");
+  times.T2 = read_longest_time(section, 0.0);
+  if (times.T1 > times.T2) throw section.error("T2", "0 <= T1 <= T2", "T1 > T2");
+  return times;
+}
+
+/// Of the timers of a subject, as the keys of `timer_nodes` have them.
+std::vector<std::string> names_of_timers(const CertificateSubject& subject) {
+  std::vector<std::string> names;
+  for (const SampledOutputs& outputs : subject.plant.sampled) names.push_back(outputs.sensor);
+  if (names.empty()) names.emplace_back("jumps");
+  return names;
+}
+
+std::vector<double> read_nodes(ConfigSection& section, const std::string& name,
+                               const SamplingTimes& times) {
+  const Eigen::VectorXd list = section.vector(name, -1);
+  std::vector<double> nodes(list.data(), list.data() + list.size());
+  const bool increases =
+      std::adjacent_find(nodes.begin(), nodes.end(), std::greater_equal<>()) == nodes.end();
+  if (nodes.size() < 2 || !increases || nodes.front() != 0.0 || nodes.back() != times.T2 ||
+      std::find(nodes.begin(), nodes.end(), times.T1) == nodes.end()) {
+    throw section.error(name, "increasing times from 0 to T2 with T1 among them", "others");
+  }
+  return nodes;
+}
+
+}  // namespace
+
+void read_timer_nodes(ConfigSection& section, CertificateSubject& subject) {
+  if (!section.has("timer_nodes")) return;
+  ConfigSection lists = section.section("timer_nodes");
+  const std::vector<std::string> names = names_of_timers(subject);
+  const std::vector<SamplingTimes> times = times_of_timers(subject);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    subject.timer_nodes.push_back(read_nodes(lists, names[i], times[i]));
+  }
+  lists.finish();
+}
+
 void read_event_times(ConfigSection& section, CertificateSubject& subject) {
   subject.dwell_time = read_dwell_time(section);
   if (subject.dwell_time) {
@@ -50,10 +99,21 @@ void read_event_times(ConfigSection& section, CertificateSubject& subject) {
     subject.T2 = kNoLongest;
     return;
   }
-  subject.T1 = section.number("T1");
-  if (subject.T1 < 0.0) throw section.error("T1", "a number not less than 0", "a negative one");
-  subject.T2 = read_longest_time(section, 0.0);
-  if (subject.T1 > subject.T2) throw section.error("T2", "0 <= T1 <= T2", "T1 > T2");
+  if (subject.plant.sampled.size() < 2) {
+    const SamplingTimes times = read_interval(section);
+    subject.T1 = times.T1;
+    subject.T2 = times.T2;
+    return;
+  }
+  ConfigSection sensors = section.section("sensors");
+  std::vector<SamplingTimes> all;
+  for (const SampledOutputs& outputs : subject.plant.sampled) {
+    ConfigSection of_sensor = sensors.section(outputs.sensor);
+    all.push_back(read_interval(of_sensor));
+    of_sensor.finish();
+  }
+  sensors.finish();
+  set_sensor_times(subject, all);
 }
 
 }  // namespace sampled_data_observers

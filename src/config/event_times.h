@@ -20,8 +20,16 @@ DwellTime read_dwell_time(ConfigSection section, DwellTime::Kind kind);
 /// @throws ConfigError for both, and for values that are none
 std::optional<DwellTime> read_dwell_time(ConfigSection& section);
 
-/// T1 and T2, or a dwell time, of a section that says which times between events there are.
+/// T1 and T2, or a dwell time, or a section `sensors` with T1 and T2 of each of several, of a
+/// section that says which times between events there are.
+/// @pre subject.plant is known
 /// @throws ConfigError where T1 > T2, and for both
 void read_event_times(ConfigSection& section, CertificateSubject& subject);
+
+/// The section `timer_nodes`, where there is one: a list for each sampled sensor, or one for
+/// `jumps`, of increasing times from 0 to the longest of that timer, its shortest among them [s].
+/// @pre the times of the subject are known
+/// @throws ConfigError for lists that are none such
+void read_timer_nodes(ConfigSection& section, CertificateSubject& subject);
 
 }  // namespace sampled_data_observers

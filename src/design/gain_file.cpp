@@ -50,7 +50,42 @@ std::string decimal_or_inf(double value) {
   return std::isinf(value) ? ".inf" : shortest_decimal(value);
 }
 
+std::string interval_of(const SamplingTimes& times) {
+  return "{T1: " + shortest_decimal(times.T1) + ", T2: " + decimal_or_inf(times.T2) + "}";
+}
+
+/// "{gps: {T1: …, T2: …}, …}"
+std::string intervals_of_sensors(const CertificateSubject& subject) {
+  std::string text = "{";
+  for (std::size_t i = 0; i < subject.sensor_times.size(); ++i) {
+    text += (i == 0 ? "" : ", ") + yaml_scalar(subject.plant.sampled[i].sensor) + ": " +
+            interval_of(subject.sensor_times[i]);
+  }
+  return text + "}";
+}
+
+/// The grid of a Lyapunov function that depends on timers.
+std::string timer_nodes_of(const CertificateSubject& subject) {
+  if (subject.timer_nodes.empty()) return "";
+  std::string text = "  timer_nodes:  # s\n";
+  for (std::size_t i = 0; i < subject.timer_nodes.size(); ++i) {
+    const auto& sampled = subject.plant.sampled;
+    text += "    " + (sampled.empty() ? std::string("jumps") : yaml_scalar(sampled[i].sensor)) +
+            ": [";
+    const char* separator = "";
+    for (const double node : subject.timer_nodes[i]) {
+      text += separator + shortest_decimal(node);
+      separator = ", ";
+    }
+    text += "]\n";
+  }
+  return text;
+}
+
 std::string times_of_claim(const CertificateSubject& subject) {
+  if (!subject.sensor_times.empty()) {
+    return "  sensors: " + intervals_of_sensors(subject) + "\n";
+  }
   if (!subject.dwell_time) {
     return "  T1: " + shortest_decimal(subject.T1) + "\n  T2: " + decimal_or_inf(subject.T2) + "\n";
   }
@@ -65,6 +100,9 @@ std::string times_of_claim(const CertificateSubject& subject) {
 /// Nothing where single times are not bounded.
 std::string sampling_of(const CertificateSubject& subject) {
   if (subject.dwell_time) return "";
+  if (!subject.sensor_times.empty()) {
+    return "sampling: " + intervals_of_sensors(subject) + "  # s\n\n";
+  }
   return "sampling: {T1: " + shortest_decimal(subject.T1) + ", T2: " + decimal_or_inf(subject.T2) +
          "}  # s\n\n";
 }
@@ -77,7 +115,7 @@ void write_claim(const Design& design, const GainFileOrigin& origin, std::ostrea
       << "  guarantee: \"" << theorem.guarantee() << "\"\n"
       << "  plant: {file: " << yaml_scalar(origin.plant_file) << ", hash: " << origin.plant_hash
       << "}\n"
-      << times_of_claim(subject);
+      << times_of_claim(subject) << timer_nodes_of(subject);
   if (subject.plant.N.cols() > 0) out << "  N: " << nested_lists(subject.plant.N) << '\n';
   if (design.disturbance) {
     out << "  disturbance: " << shortest_decimal(*design.disturbance)

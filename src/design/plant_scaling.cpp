@@ -135,6 +135,13 @@ CertificateSubject scaled(const CertificateSubject& subject, const PlantScaling&
   CertificateSubject result = subject;
   result.T1 /= scaling.time;
   result.T2 /= scaling.time;
+  for (SamplingTimes& times : result.sensor_times) {
+    times.T1 /= scaling.time;
+    times.T2 /= scaling.time;
+  }
+  for (std::vector<double>& nodes : result.timer_nodes) {
+    for (double& node : nodes) node /= scaling.time;
+  }
   if (result.dwell_time) result.dwell_time->tau /= scaling.time;
   const Eigen::VectorXd& x = scaling.state;
   PlantMatrices& plant = result.plant;

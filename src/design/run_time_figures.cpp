@@ -35,7 +35,7 @@ class Run {
     if (jumps_) {
       bound_.jump({}, now_.data());  // none is told twice, or at a wrong time
     } else {
-      bound_.sample(now_.data(), workspace_.data());
+      bound_.sample(0, now_.data(), workspace_.data());
     }
     then_ = now_;
     time_ += interval;

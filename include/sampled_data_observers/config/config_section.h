@@ -58,7 +58,7 @@ class ConfigSection {
   /// A matrix of texts, as nested lists, row by row.
   std::vector<std::vector<std::string>> text_matrix(const std::string& key, std::size_t rows,
                                                     std::size_t cols);
-  /// A list of `size` finite numbers.
+  /// A list of `size` finite numbers; of any number of them for -1.
   Eigen::VectorXd vector(const std::string& key, Eigen::Index size);
   /// A finite number from `low` to `high`, or infinity: `.inf`.
   double number_or_infinity_in(const std::string& key, double low, double high);
