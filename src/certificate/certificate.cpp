@@ -36,9 +36,8 @@ void require_times(TheoremTimes times, const CertificateSubject& subject) {
 void require_one_sensor(const CertificateSubject& subject) {
   const std::size_t count = subject.plant.sampled.size();
   if (count <= 1) return;
-  throw std::invalid_argument(
-      "it is about one sensor whose outputs are measured together, but " + std::to_string(count) +
-      " sensors are sampled");
+  throw std::invalid_argument("it is about one sensor whose outputs are measured together, but " +
+                              std::to_string(count) + " sensors are sampled");
 }
 
 }  // namespace

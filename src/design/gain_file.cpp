@@ -70,8 +70,8 @@ std::string timer_nodes_of(const CertificateSubject& subject) {
   std::string text = "  timer_nodes:  # s\n";
   for (std::size_t i = 0; i < subject.timer_nodes.size(); ++i) {
     const auto& sampled = subject.plant.sampled;
-    text += "    " + (sampled.empty() ? std::string("jumps") : yaml_scalar(sampled[i].sensor)) +
-            ": [";
+    text +=
+        "    " + (sampled.empty() ? std::string("jumps") : yaml_scalar(sampled[i].sensor)) + ": [";
     const char* separator = "";
     for (const double node : subject.timer_nodes[i]) {
       text += separator + shortest_decimal(node);

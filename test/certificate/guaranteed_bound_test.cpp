@@ -43,7 +43,7 @@ class ExampleBound : public ErrorBound {
     state[1] = duration;
     if (duration > longest_) state[0] = kInfinity;
   }
-  void sample(double* state, double*) const override { state[0] /= 2.0; }
+  void sample(std::size_t, double* state, double*) const override { state[0] /= 2.0; }
   bool injects_between_samples() const override { return injects_; }
   void jump(const JumpMotion&, double* state) const override { state[0] *= 2.0; }
   void uncorrected_jump(const JumpMotion&, double* state) const override { state[0] *= 3.0; }

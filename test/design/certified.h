@@ -54,7 +54,7 @@ class DrivenBound {
     bound_->flow(since, now_.data());
   }
   void sample() {
-    bound_->sample(now_.data(), workspace_.data());
+    bound_->sample(0, now_.data(), workspace_.data());
     then_ = now_;
   }
   /// @param moved  as ErrorBound takes it

@@ -85,7 +85,7 @@ TEST(Ferrante2016Example1, BoundsTheErrorTightlyAndNoLooserThanThePaper) {
                            std::exp(-paper.gamma / 2.0 * (t + j)) * 1.001);
     }
     state = flown;
-    bound->sample(state.data(), nullptr);
+    bound->sample(0, state.data(), nullptr);
     after_sample *= std::exp(interval) * (1.0 - scalar_value(scalar_values(), "L"));
   }
 }
@@ -118,7 +118,7 @@ TEST(Ferrante2016Example2, BoundsTheErrorWithoutAllocatingAndAtAnyTimes) {
     ASSERT_GE(then_bound([&] { bound->flow(tau, state.data()); }), error.norm()) << j;
     const double noise = 0.1 * (2.0 * uniform(random) - 1.0);
     error -= printed_gain() * ((subject.plant.C() * error)(0) + noise);
-    ASSERT_GE(then_bound([&] { bound->sample(state.data(), nullptr); }), error.norm()) << j;
+    ASSERT_GE(then_bound([&] { bound->sample(0, state.data(), nullptr); }), error.norm()) << j;
   }
   EXPECT_EQ(allocated, 0u);
   EXPECT_LT(bound->bound(state.data()), 10.0);
@@ -129,13 +129,13 @@ TEST(Ferrante2016Example2, BoundsTheErrorWithoutAllocatingAndAtAnyTimes) {
     error = exponential_of(subject.plant.A() * tau) * error;
     ASSERT_GE(then_bound([&] { bound->flow(tau, state.data()); }), error.norm()) << tau;
     error -= printed_gain() * (subject.plant.C() * error)(0);
-    ASSERT_GE(then_bound([&] { bound->sample(state.data(), nullptr); }), error.norm()) << tau;
+    ASSERT_GE(then_bound([&] { bound->sample(0, state.data(), nullptr); }), error.norm()) << tau;
     ASSERT_TRUE(std::isfinite(bound->bound(state.data()))) << tau;
   }
   EXPECT_GT(bound->bound(state.data()), 2.0 * steady);
   for (int j = 0; j < 200; ++j) {
     bound->flow(1.0, state.data());
-    bound->sample(state.data(), nullptr);
+    bound->sample(0, state.data(), nullptr);
   }
   EXPECT_LT(bound->bound(state.data()), 10.0);
 }

@@ -117,7 +117,7 @@ TEST(Ferrante2019Analysis, FinalErrorsAreTheLimitsOfTheErrorBound) {
     bound->initialize(state.data());
     for (int i = 0; i < 5000; ++i) {
       bound->flow(between_samples, state.data());
-      bound->sample(state.data(), nullptr);
+      bound->sample(0, state.data(), nullptr);
     }
     return bound->bound(state.data());
   };

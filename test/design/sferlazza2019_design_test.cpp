@@ -140,7 +140,7 @@ TEST(Sferlazza2019Equation17, KeepsLambdaOfTheErrorAtEachSample) {
   bound->initialize(state.data());
   for (const double tau : {1.0, 3.0, 2.0}) {
     bound->flow(tau, state.data());
-    bound->sample(state.data(), workspace.data());
+    bound->sample(0, state.data(), workspace.data());
   }
   const double error = 2.0 * 0.3 * 0.3 * 0.3;
   EXPECT_GE(bound->bound(state.data()), error);
@@ -200,7 +200,7 @@ class BoundedError {
     const double before = error_.norm() / value();
     gain_.evaluate(exponential_of(-A_ * tau).eval().data(), K_.data(), gain_workspace_.data());
     error_ -= K_ * (C_ * error_ + scalar_matrix(eta));
-    bound_->sample(state_.data(), workspace_.data());
+    bound_->sample(0, state_.data(), workspace_.data());
     return std::max(before, error_.norm() / value());
   }
   double value() const { return bound_->bound(state_.data()); }
@@ -322,7 +322,7 @@ TEST(Sferlazza2019Bound, AllocatesNothingAtSamples) {
   const std::size_t before = allocations();
   bound->initialize(state.data());
   bound->flow(2.0, state.data());
-  bound->sample(state.data(), workspace.data());
+  bound->sample(0, state.data(), workspace.data());
   EXPECT_EQ(before, allocations());
 }
 
