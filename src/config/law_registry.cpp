@@ -9,6 +9,7 @@
 #include "observer/linear_high_gain_observer.h"
 #include "observer/original_high_gain_observer.h"
 #include "observer/sample_and_hold_observer.h"
+#include "observer/scheduled_gain_observer.h"
 #include "observer/time_varying_gain_observer.h"
 
 namespace sampled_data_observers {
@@ -22,6 +23,10 @@ std::shared_ptr<const ObserverLaw> build(ConfigSection& gains, const LawContext&
 
 std::shared_ptr<const ObserverLaw> build_time_varying_gain(ConfigSection& gains,
                                                            const LawContext& context) {
+  if (gains.has("timers") || gains.has("K")) {
+    return std::make_shared<const ScheduledGainObserver>(context.observer,
+                                                         read_scheduled_gains(gains, context));
+  }
   const auto [P, lambda] = read_time_varying_gains(gains, context);
   return std::make_shared<const TimeVaryingGainObserver>(context.observer, P, lambda);
 }

@@ -38,6 +38,7 @@ TEST_P(BadGainsTest, AreRefusedWithAMessageThatHelps) {
 
 const char kKalman[] = "hybrid_kalman_filter";
 const char kTimeVarying[] = "time_varying_gain";
+const char kScheduled[] = "time_varying_gain_scheduled";
 const char kInjection[] = "intersample_injection";
 const char kPredictor[] = "intersample_injection_lipschitz";
 
@@ -65,6 +66,23 @@ INSTANTIATE_TEST_SUITE_P(
         BadGains{kTimeVarying, {"P: [[2,", "P: [[-2,", {"gains", "P"}}},
         BadGains{kTimeVarying, {"{C: [[1, 0, 0.5]]", "{C: [[0, 0, 0]]", {"gains", "'s'"}}},
         BadGains{kTimeVarying, {"{C: [[1, 0, 0.5]]", "{h: [\"p^2\"]", {"gains", "'s'", "linear"}}},
+        BadGains{kTimeVarying, {"lambda: 0.4", "K: {}", {"gains/timers", "missing"}}},
+        BadGains{
+            kScheduled,
+            {"[0, 0.25, 1]", "[0.1, 0.25, 1]", {"gains/timers/a", "0 first", "[0.1, 0.25, 1]"}}},
+        BadGains{kScheduled, {"[0, 0.5]", "[0, 0]", {"gains/timers/b", "greater", "[0, 0]"}}},
+        BadGains{kScheduled, {"[0, 0.5]", "[0]", {"gains/timers/b", "two times", "[0]"}}},
+        BadGains{kScheduled, {"[0, 0.5]", "[[0, 0.5]]", {"gains/timers/b", "a list of lists"}}},
+        BadGains{kScheduled, {", b: [0, 0.5]}", "}", {"gains/timers/b", "missing"}}},
+        BadGains{kScheduled, {"b: [0, 0.5]}", "b: [0, 0.5], c: [0, 1]}", {"gains/timers/c"}}},
+        BadGains{kScheduled, {"[0, 0.25, 1]", "[0, 0.25, 1, 2]", {"gains/P/6", "missing"}}},
+        BadGains{kScheduled, {"[0, 0.25, 1]", "[0, 1]", {"gains/P/4", "unknown"}}},
+        BadGains{kScheduled, {"5: [[0.5, 0.1]", "5: [[-0.5, 0.1]", {"gains", "P/5", "definite"}}},
+        BadGains{kScheduled, {"3: [[1.2, 0.1]", "3: [[1.2, 0.2]", {"gains", "P/3", "symmetric"}}},
+        BadGains{kScheduled, {"4: [[0.7, 0], [0, 0.4]]", "4: [[0.7]]", {"gains/P/4", "2 x 2"}}},
+        BadGains{kScheduled, {"3: [[0.4], [0.5]]", "3: [[0.4, 0.5]]", {"gains/K/a/3", "2 x 1"}}},
+        BadGains{kScheduled, {"  b:\n      0:", "  c:\n      0:", {"gains/K/b", "missing"}}},
+        BadGains{kScheduled, {"P:\n", "lambda: 0.4\n  P:\n", {"gains/lambda", "unknown"}}},
         BadGains{"sample_and_hold",
                  {"[[-1.5], [-0.4]]", "[[-1.5]]", {"gains/L", "2 x 1", "1 x 1"}}},
         BadGains{"synchronized",

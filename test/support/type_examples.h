@@ -31,7 +31,8 @@ inline std::vector<std::string> type_examples() {
           "synchronized",
           "synchronized_nonlinear_delayed",
           "time_varying_gain",
-          "time_varying_gain_inverse"};
+          "time_varying_gain_inverse",
+          "time_varying_gain_scheduled"};
 }
 
 inline ObserverConfig read_example(const std::string& name) {

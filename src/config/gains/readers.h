@@ -7,6 +7,7 @@
 
 #include "observer/hybrid_kalman_filter.h"
 #include "observer/intersample_injection_observer.h"
+#include "observer/scheduled_gain.h"
 #include "observer/switched_observer.h"
 #include "observer/transformed_high_gain_observer.h"
 #include "sampled_data_observers/config/law_registry.h"
@@ -17,7 +18,7 @@ namespace sampled_data_observers {
 // What the section `gains` says, for each observer type in a file of its own. All keys of the
 // section are read; whether the gains fit the plant beyond their sizes is for the law to say.
 
-/// Of a TimeVaryingGainObserver.
+/// Of a TimeVaryingGainObserver with gains from one P, or from none.
 struct TimeVaryingGains {
   std::optional<Eigen::MatrixXd> P;  ///< n x n
   double lambda = 0.0;
@@ -38,6 +39,8 @@ std::vector<Eigen::MatrixXd> read_sampled_gains(ConfigSection& gains, const LawC
 HighGains read_high_gains(ConfigSection& gains, const LawContext& context);
 std::vector<IntersampleGains> read_intersample_gains(ConfigSection& gains,
                                                      const LawContext& context);
+/// Of a TimeVaryingGainObserver with gains on a grid.
+ScheduledGains read_scheduled_gains(ConfigSection& gains, const LawContext& context);
 KalmanCovariances read_covariances(ConfigSection& gains, const LawContext& context);
 SwitchedGains read_switched_gains(ConfigSection& gains, const LawContext& context);
 SynchronizedGains read_synchronized_gains(ConfigSection& gains, const LawContext& context);
