@@ -70,6 +70,10 @@ double time_scale(const CertificateSubject& subject) {
 
 NamedShape scalar_shape(const std::string& name) { return {name, 1, 1, NamedShape::Form::kScalar}; }
 
+NamedShape list_shape(const std::string& name, Eigen::Index size) {
+  return {name, 1, size, NamedShape::Form::kList};
+}
+
 NamedShape matrix_shape(const std::string& name, Eigen::Index rows, Eigen::Index cols) {
   return {name, rows, cols, NamedShape::Form::kMatrix};
 }

@@ -53,15 +53,18 @@ void set_sensor_times(CertificateSubject& subject, std::vector<SamplingTimes> ti
 /// T1, or the time in which the plant moves by itself.
 double time_scale(const CertificateSubject& subject);
 
-/// A matrix or a number that a theorem speaks of. In files, a name "L_d/1" stands below two keys.
+/// A matrix, a list or a number that a theorem speaks of. In files, a name "K/gps/1" stands below
+/// three keys.
 struct NamedShape {
-  enum class Form { kScalar, kMatrix, kSymmetric };
+  enum class Form { kScalar, kList, kMatrix, kSymmetric };
   std::string name;
   Eigen::Index rows = 1;
   Eigen::Index cols = 1;
   Form form = Form::kScalar;
 };
 NamedShape scalar_shape(const std::string& name);
+/// A matrix of one row, in files one list.
+NamedShape list_shape(const std::string& name, Eigen::Index size);
 NamedShape matrix_shape(const std::string& name, Eigen::Index rows, Eigen::Index cols);
 NamedShape symmetric_shape(const std::string& name, Eigen::Index n);
 

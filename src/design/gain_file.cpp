@@ -2,49 +2,16 @@
 
 #include <cmath>
 #include <ostream>
-#include <set>
 #include <sstream>
 #include <stdexcept>
 
 #include "certificate/proof_fingerprint.h"
 #include "design/csv.h"
+#include "design/written_values.h"
 #include "design/yaml_text.h"
 
 namespace sampled_data_observers {
 namespace {
-
-std::string nested_lists(const Eigen::MatrixXd& matrix) {
-  std::string text = "[";
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
-    text += i == 0 ? "[" : ", [";
-    for (Eigen::Index j = 0; j < matrix.cols(); ++j) {
-      text += (j == 0 ? "" : ", ") + shortest_decimal(matrix(i, j));
-    }
-    text += "]";
-  }
-  return text + "]";
-}
-
-void write_values(const std::vector<NamedShape>& shapes, const NamedMatrices& values,
-                  std::ostream& out) {
-  std::set<std::string> begun;
-  for (const NamedShape& shape : shapes) {
-    const std::size_t slash = shape.name.find('/');
-    std::string key = shape.name;
-    std::string indent = "  ";
-    if (slash != std::string::npos) {
-      const std::string section = shape.name.substr(0, slash);
-      if (begun.insert(section).second) out << "  " << section << ":\n";
-      key = shape.name.substr(slash + 1);
-      indent = "    ";
-    }
-    const Eigen::MatrixXd& value = values.at(shape.name);
-    out << indent << key << ": "
-        << (shape.form == NamedShape::Form::kScalar ? shortest_decimal(value(0, 0))
-                                                    : nested_lists(value))
-        << '\n';
-  }
-}
 
 std::string decimal_or_inf(double value) {
   return std::isinf(value) ? ".inf" : shortest_decimal(value);
@@ -125,8 +92,8 @@ void write_claim(const Design& design, const GainFileOrigin& origin, std::ostrea
   const StatedErrorMaps& stated = subject.plant.stated;
   if (stated.A) out << "  A: " << nested_lists(*stated.A) << '\n';
   if (stated.A_d) out << "  A_d: " << nested_lists(*stated.A_d) << '\n';
-  write_values(theorem.parameters(subject), certificate.values, out);
-  write_values(theorem.multipliers(subject), certificate.values, out);
+  write_named_values(theorem.parameters(subject), certificate.values, out);
+  write_named_values(theorem.multipliers(subject), certificate.values, out);
   out << "  margin: " << shortest_decimal(design.margin)
       << "  # least eigenvalue of the conditions, scaled, beyond its rounding\n"
       << proof_record(certificate, design.proved_conditions) << "  method: " << design.method
@@ -188,7 +155,7 @@ void write_gain_file(const Design& design, const GainFileOrigin& origin, std::os
   for (const auto& [key, choice] : theorem.gain_choices()) {
     out << "  " << key << ": " << choice << '\n';
   }
-  write_values(theorem.gains(subject), certificate.values, out);
+  write_named_values(theorem.gains(subject), certificate.values, out);
   out << '\n' << kCertificate << ":\n";
   write_claim(design, origin, out);
   if (!design.for_run_time) return;
