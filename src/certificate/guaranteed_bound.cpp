@@ -169,6 +169,7 @@ Effect GuaranteedBound::reset(const Event& event, double* state, double* workspa
   const bool outputs_may_come = awaiting_.of(state) && since_.of(state) == 0.0;
   const bool comes_to_jump = is_output && outputs_may_come;
   if (event.kind == EventKind::kRejected) {
+    if (law().accepts(event)) law().reset(event, state, workspace);
     const bool is_input = event.rejected == EventKind::kInput;
     give_up(state, is_input ? BoundLoss::kUnknownInput : BoundLoss::kUnknownJump);
     return Effect::kApplied;

@@ -19,6 +19,26 @@ Timeline::Limits checked(Timeline::Limits limits) {
 
 constexpr Stamp kNever = std::numeric_limits<Stamp>::min();
 
+/// That a jump was rejected.
+Event rejection_of(const Event& jump) {
+  Event event;
+  event.stamp = jump.stamp;
+  event.kind = EventKind::kRejected;
+  event.rejected = EventKind::kJump;
+  event.index = jump.index;
+  return event;
+}
+
+bool is_rejection_of_jump(const Event& event) {
+  return event.kind == EventKind::kRejected && event.rejected == EventKind::kJump;
+}
+
+/// Whether a number that was left out may show there.
+bool tells_number_of_jump(const Event& event) {
+  return event.kind == EventKind::kJump || event.kind == EventKind::kWithdrawal ||
+         (is_rejection_of_jump(event) && event.index != 0);
+}
+
 /// The last position up to `end` where `holds`, which is so at all before it; 0 where it is so at
 /// none. Most are at the end or nearly so: the search begins there, in steps that double.
 template <class Predicate>
@@ -194,8 +214,7 @@ bool Timeline::has_jump(Stamp after, Stamp until) const {
   for (std::size_t position = size_; position > 0 && stamp(position) > after; --position) {
     const Event& event = slot(position).event;
     if (slot(position).effect == Effect::kWithdrawn) continue;
-    const bool is_jump = event.kind == EventKind::kJump ||
-                         (event.kind == EventKind::kRejected && event.rejected == EventKind::kJump);
+    const bool is_jump = event.kind == EventKind::kJump || is_rejection_of_jump(event);
     if (is_jump && event.stamp <= until) return true;
   }
   return false;
@@ -212,8 +231,7 @@ std::optional<Timeline::Around> Timeline::around_next_jump(Stamp at) const {
   std::optional<std::size_t> next;
   std::size_t position = size_;
   for (; position > 0 && stamp(position) > at; --position) {
-    const EventKind kind = slot(position).event.kind;
-    if (kind == EventKind::kJump || kind == EventKind::kWithdrawal) next = position;
+    if (tells_number_of_jump(slot(position).event)) next = position;
   }
   if (!next) return std::nullopt;
   return Around{state_after(position).data(), state_after(*next).data()};
@@ -321,8 +339,12 @@ Effect Timeline::reset(std::size_t position) {
   } else {
     hold();
   }
-  // The plant has jumped all the same.
-  if (event.kind == EventKind::kJump) system_->distrust(state.data());
+  if (event.kind == EventKind::kJump) {
+    // The plant has jumped all the same, and its jump was told.
+    system_->distrust(state.data());
+    const Event rejection = rejection_of(event);
+    if (system_->accepts(rejection)) system_->reset(rejection, state.data(), workspace_.data());
+  }
   return Effect::kNotFinite;
 }
 

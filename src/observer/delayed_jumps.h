@@ -13,7 +13,9 @@ namespace sampled_data_observers {
 ///
 /// What is held (inputs, continuous outputs) stays as it is at the release. What samples changed
 /// between a jump and its release is lost, as it is in (41). Jumps must lie further apart than
-/// their delays: a jump that comes while another is pending applies that one first.
+/// their delays: a jump that comes while another is pending applies that one first. An estimate
+/// that begins anew while a jump is pending is one of the plant as it is then, which has jumped: it
+/// is in the mode that follows, and nothing is left to be released.
 class DelayedJumps : public LawDecorator {
  public:
   explicit DelayedJumps(const std::shared_ptr<const ObserverLaw>& law);
@@ -22,6 +24,9 @@ class DelayedJumps : public LawDecorator {
   void initialize(double* state) const override;
   void flow(Duration duration, double* state, double* workspace) const override;
   Effect reset(const Event& event, double* state, double* workspace) const override;
+  const double* awaited(const double* state) const override {
+    return pending_.of(state) ? mu_.of(state) : nullptr;
+  }
 
  private:
   bool is_of_pending(const Event& release, const double* state) const;

@@ -293,7 +293,7 @@ bool GatedMeasurements::is_outside(const Gate& gate, const Event& event, const d
 void GatedMeasurements::begin_anew(const double* before, double* state) const {
   initialize(state);
   observer().keep_held(observer().held_part(before), state);
-  observer().keep_mode(observer().mode_of(before), state);
+  observer().keep_mode(law().told_mode(before), state);
   keep_records_of_jumps(law(), before, law(), state);
   // Nobody vouches for this start.
   law().distrust(state);

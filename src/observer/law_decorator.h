@@ -12,6 +12,7 @@ namespace sampled_data_observers {
 class LawDecorator : public ObserverLaw {
  public:
   bool accepts(const Event& event) const override { return law_->accepts(event); }
+  const double* awaited(const double* state) const override { return law_->awaited(state); }
 
   /// The law within.
   const ObserverLaw& law() const { return *law_; }

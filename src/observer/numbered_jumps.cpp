@@ -10,11 +10,21 @@ namespace {
 constexpr std::uint64_t kKnownNumbers = 52;
 constexpr std::uint64_t kAllMissing = (std::uint64_t{1} << kKnownNumbers) - 1;
 
+/// One with a number.
+bool is_rejected_jump(const Event& event) {
+  return event.kind == EventKind::kRejected && event.rejected == EventKind::kJump &&
+         event.index != 0;
+}
+
 }  // namespace
 
 NumberedJumps::NumberedJumps(std::shared_ptr<const ObserverLaw> law)
     : LawDecorator(std::move(law)) {
   set_skipped_jumps(skipped_);
+}
+
+bool NumberedJumps::accepts(const Event& event) const {
+  return is_rejected_jump(event) || law().accepts(event);
 }
 
 void NumberedJumps::initialize(double* state) const {
@@ -30,18 +40,22 @@ void NumberedJumps::flow(Duration duration, double* state, double* workspace) co
 }
 
 Effect NumberedJumps::reset(const Event& event, double* state, double* workspace) const {
+  if (is_rejected_jump(event)) {
+    note_number(event.index, Lower::kSaysNothing, state);
+    return Effect::kApplied;
+  }
   const bool is_jump = event.kind == EventKind::kJump;
   const bool is_numbered = event.index != 0 && (is_jump || event.kind == EventKind::kWithdrawal);
   if (!is_numbered) return law().reset(event, state, workspace);
   if (is_jump && last_.of(state) == static_cast<double>(event.index)) return Effect::kRepeated;
   // A jump that was withdrawn, or is refused, was not lost.
-  note_number(event.index, state);
+  note_number(event.index, Lower::kBeginsNewCount, state);
   const Effect effect = law().reset(event, state, workspace);
   if (is_jump && took_effect(effect)) last_.set(static_cast<double>(event.index), state);
   return effect;
 }
 
-void NumberedJumps::note_number(std::uint64_t number, double* state) const {
+void NumberedJumps::note_number(std::uint64_t number, Lower lower, double* state) const {
   const auto told = static_cast<std::uint64_t>(told_.of(state));
   if (number == told) return;
   auto missing = static_cast<std::uint64_t>(missing_.of(state));
@@ -63,7 +77,7 @@ void NumberedJumps::note_number(std::uint64_t number, double* state) const {
     if ((missing & bit) != 0) {
       missing ^= bit;
       skipped_.set(skipped_.of(state) - 1.0, state);
-    } else {
+    } else if (lower == Lower::kBeginsNewCount) {
       missing = 0;
       told_.set(static_cast<double>(number), state);
       lose(number - 1, state);

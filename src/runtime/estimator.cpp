@@ -66,11 +66,13 @@ Event release_of(const Event& jump, Stamp now) {
   return event;
 }
 
-Event rejection(EventKind of, Stamp stamp) {
+/// @param index  of a jump that was rejected; 0 for other events
+Event rejection(EventKind of, std::uint32_t index, Stamp stamp) {
   Event event;
   event.stamp = stamp;
   event.kind = EventKind::kRejected;
   event.rejected = of;
+  event.index = index;
   return event;
 }
 
@@ -147,10 +149,7 @@ EventReport Estimator::submit(const Event& event, Stamp now) {
     note_rejected(event, now);
     return report;
   }
-  const bool is_released = event.kind == EventKind::kJump && law_->delays_jumps();
-  const bool is_released_later =
-      is_released && release_of(event, now).stamp > taken_over_at_.value_or(event.stamp);
-  if (is_earlier(event.stamp) && !is_released_later) return submit_earlier(event, now);
+  if (is_earlier(event.stamp)) return submit_earlier(event, now);
   if (awaits_sample_ && event.kind == EventKind::kSample && event.stamp > *timeline_.earliest()) {
     begin_at(event);
   }
@@ -159,6 +158,7 @@ EventReport Estimator::submit(const Event& event, Stamp now) {
   }
   // Even where the jump has no effect now: whether it has is known for sure only when all events
   // are.
+  const bool is_released = event.kind == EventKind::kJump && law_->delays_jumps();
   const Timeline::InsertReport inserted =
       is_released ? timeline_.insert(event, release_of(event, now)) : timeline_.insert(event);
   report.outcome = outcome_of(inserted);
@@ -216,10 +216,10 @@ void Estimator::note_rejected(const Event& event, Stamp now) {
   // Whether the law of that time minds is its own matter.
   if (has_earlier() && stamp <= *taken_over_at_) {
     earlier_->note_rejected(event, now);
-    mark_what_is_unseen(kind, stamp);
+    mark_what_is_unseen(kind, event.index, stamp);
     go_on_from_earlier();
   } else {
-    insert_rejected(kind, stamp);
+    insert_rejected(kind, event.index, stamp);
   }
 }
 
@@ -232,10 +232,13 @@ void Estimator::miss_input(Stamp stamp) {
 }
 
 /// Where the law minds.
-void Estimator::insert_rejected(EventKind kind, Stamp stamp) {
-  if (!law_->accepts(rejection(kind, stamp))) return;
+void Estimator::insert_rejected(EventKind kind, std::uint32_t index, Stamp stamp) {
+  if (!law_->accepts(rejection(kind, index, stamp))) return;
+  // A number begins no estimate.
+  const bool has_begun = timeline_.earliest().has_value();
+  if (!has_begun && !law_->accepts(rejection(kind, 0, stamp))) return;
   stamp = std::max(stamp, timeline_.earliest_insertion().value_or(stamp));
-  timeline_.insert(rejection(kind, stamp));
+  timeline_.insert(rejection(kind, index, stamp));
 }
 
 PublishedBound Estimator::bound(const Estimate& estimate, Stamp now) const {
@@ -328,7 +331,7 @@ bool Estimator::prepare_restart(Estimator& from, Stamp stamp) {
   const PlantObserver& observer = law_->observer();
   const PlantObserver& previous = from.law_->observer();
   observer.keep_held(previous.held_part(before.state.data()), restart_state_.data());
-  observer.keep_mode(previous.mode_of(before.state.data()), restart_state_.data());
+  observer.keep_mode(from.law_->told_mode(before.state.data()), restart_state_.data());
   if (observer.plant().switches() && from.law_->mode_is_open(before.state.data())) {
     law_->leave_mode_open(restart_state_.data());
   }
@@ -350,7 +353,7 @@ void Estimator::begin(Stamp stamp) {
   began_at_ = stamp;
   taken_over_at_.reset();
   timeline_.restart(stamp, restart_state_);
-  if (input_unknown_since_) insert_rejected(EventKind::kInput, stamp + 1);
+  if (input_unknown_since_) insert_rejected(EventKind::kInput, 0, stamp + 1);
   awaits_sample_ = false;
 }
 
@@ -368,7 +371,7 @@ void Estimator::begin_at(const Event& sample) {
   began_at_ = start;
   taken_over_at_.reset();
   timeline_.rebase(start, restart_state_);
-  if (input_unknown_since_) insert_rejected(EventKind::kInput, sample.stamp);
+  if (input_unknown_since_) insert_rejected(EventKind::kInput, 0, sample.stamp);
   awaits_sample_ = false;
 }
 

@@ -22,7 +22,11 @@ bool Estimator::is_earlier(Stamp stamp) const {
 }
 
 /// Applies an event of before the take-over by the law of its time, and all since then anew.
-EventReport Estimator::submit_earlier(const Event& event, Stamp now) {
+EventReport Estimator::submit_earlier(Event event, Stamp now) {
+  if (event.kind == EventKind::kJump && law_->delays_jumps()) {
+    // There, or never, since the law since then did not compute what would be released.
+    event.release = std::min(event.release > 0 ? event.release : now, *taken_over_at_);
+  }
   EventReport report = earlier_->submit(event, now);
   if (report.outcome == EventOutcome::kDuplicate) {
     // It may count as rejected.
@@ -38,7 +42,7 @@ EventReport Estimator::submit_earlier(const Event& event, Stamp now) {
   }
   if (report.outcome == EventOutcome::kTooOld) {
     const bool is_of_jump = event.kind == EventKind::kWithdrawal;
-    mark_what_is_unseen(is_of_jump ? EventKind::kJump : event.kind, event.stamp);
+    mark_what_is_unseen(is_of_jump ? EventKind::kJump : event.kind, event.index, event.stamp);
   }
   go_on_from_earlier();
   if (timeline_.size() == 0) return report;
@@ -48,9 +52,9 @@ EventReport Estimator::submit_earlier(const Event& event, Stamp now) {
 }
 
 /// What was taken over may be able to mark something only behind its end.
-void Estimator::mark_what_is_unseen(EventKind kind, Stamp stamp) {
+void Estimator::mark_what_is_unseen(EventKind kind, std::uint32_t index, Stamp stamp) {
   if (earlier_->timeline_.earliest_insertion().value_or(0) > *taken_over_at_) {
-    insert_rejected(kind, stamp);
+    insert_rejected(kind, index, stamp);
   }
 }
 

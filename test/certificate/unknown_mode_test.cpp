@@ -96,6 +96,19 @@ TEST(UnknownModeTest, ARefusedOrSkippedSwitchIsOne) {
   EXPECT_EQ(BoundLoss::kNone, skipped.loss_at(kStart + 4 * kSecond));
 }
 
+TEST(UnknownModeTest, ANumberThatIsRejectedIsNotSkippedAndLosesTheBound) {
+  SwitchedRun run(switched_config());
+  EXPECT_EQ(EventOutcome::kUsed, run.tell(to_mode(2, kStart + kSecond, 1)));
+  EXPECT_EQ(EventOutcome::kUnknownMode, run.tell(to_mode(7, kStart + 2 * kSecond, 2)));
+  EXPECT_EQ(EventOutcome::kUsed, run.tell(to_mode(1, kStart + 3 * kSecond, 3)));
+  EXPECT_EQ(BoundLoss::kNone, run.loss_at(2 * kSecond + kStart - 1));
+  EXPECT_EQ(BoundLoss::kUnknownJump, run.loss_at(kStart + 2 * kSecond));
+  EXPECT_EQ(BoundLoss::kUnknownJump, run.loss_at(kStart + 4 * kSecond));
+  const Estimate* estimate = nullptr;
+  run.estimator.estimate_at(kStart + 4 * kSecond, estimate);
+  EXPECT_EQ(0.0, estimate->law->skipped_jumps(estimate->state.data()));
+}
+
 TEST(UnknownModeTest, GainsWithoutABoundBeforeDidNotWatchTheMode) {
   const ObserverConfig bounded = switched_config();
   SwitchedRun before(CertifiedGains(kSwitchedGains).config());

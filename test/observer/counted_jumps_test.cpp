@@ -66,6 +66,12 @@ class CountedJumpsTest : public ::testing::Test {
       return estimate_;
     }
     double lost_at(double seconds) { return law().skipped_jumps(at(seconds).state.data()); }
+    void enable(bool enabled, double seconds) {
+      runtime_.set_enabled(enabled, kStart + from_seconds(seconds));
+    }
+    bool is_before_gap(double seconds) const {
+      return runtime_.estimator().is_before_gap(kStart + from_seconds(seconds));
+    }
     double violations_at(double seconds) {
       return law().dwell_violations(at(seconds).state.data());
     }
@@ -150,6 +156,49 @@ TEST_F(CountedJumpsTest, NumbersLeftOutAreJumpsLost) {
   EXPECT_EQ(0.0, run.lost_at(9.0));
   run.take(jump(10.0, 4));
   EXPECT_EQ(1.0, run.lost_at(10.0));
+}
+
+TEST_F(CountedJumpsTest, ANumberThatWasRejectedWasTold) {
+  Run run(configure());
+  run.take(jump(1.0, 1));
+  run.enable(false, 1.5);
+  EXPECT_EQ(EventOutcome::kDisabled, run.take(jump(2.0, 2)).outcome);
+  EXPECT_EQ(EventOutcome::kDisabled, run.take(jump(2.2, 5)).outcome);
+  EXPECT_TRUE(run.is_before_gap(2.1));
+  EXPECT_FALSE(run.is_before_gap(1.9 - 1.0));
+  run.enable(true, 2.5);
+  EXPECT_EQ(2.0, run.lost_at(2.5));  // 3 and 4, of before
+  run.take(jump(3.0, 6));
+  EXPECT_EQ(2.0, run.lost_at(3.0));
+  EXPECT_EQ(EventOutcome::kUsed, run.take(jump(4.0, 5)).outcome);  // told again, and taken now
+  EXPECT_EQ(2u, run.at(4.0).counts.jumps);
+}
+
+TEST_F(CountedJumpsTest, ANumberThatIsTooOldFillsItsPlaceAndBeginsNoCount) {
+  Run run(parse(test::replaced(kPlant, "max_events: 2000", "max_events: 2")));
+  run.take(jump(1.0, 1));
+  for (const std::uint32_t k : {3, 4, 5}) run.take(jump(k, k));
+  EXPECT_EQ(1.0, run.lost_at(5.0));
+  EXPECT_EQ(EventOutcome::kTooOld, run.take(jump(2.0, 2)).outcome);
+  EXPECT_EQ(0.0, run.lost_at(5.0));
+  EXPECT_EQ(EventOutcome::kTooOld, run.take(jump(3.0, 3)).outcome);  // told again
+  run.take(jump(6.0, 6));
+  EXPECT_EQ(0.0, run.lost_at(6.0));
+}
+
+TEST_F(CountedJumpsTest, ANumberWhoseJumpWouldOverflowWasTold) {
+  Run run(parse(test::replaced(kPlant, "[[1, 0], [0, -0.8]]", "[[1e90, 0], [0, 1]]")));
+  EXPECT_EQ(EventOutcome::kUsed, run.take(jump(1.0, 1)).outcome);
+  EXPECT_EQ(EventOutcome::kWouldOverflow, run.take(jump(2.0, 2)).outcome);
+  run.take(withdrawal(jump(3.0, 3)));
+  EXPECT_EQ(0.0, run.lost_at(3.0));
+}
+
+TEST_F(CountedJumpsTest, ARejectedNumberBeginsNoEstimate) {
+  ObserverRuntime runtime(configure());
+  runtime.set_enabled(false, kStart);
+  runtime.receive(jump(1.0, 7).view(), kStart + 2 * kSecond);
+  EXPECT_FALSE(runtime.estimator().earliest().has_value());
 }
 
 TEST_F(CountedJumpsTest, ALowerNumberThatIsNotMissingBeginsANewCount) {

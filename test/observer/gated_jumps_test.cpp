@@ -160,6 +160,41 @@ TEST(GatedJumpsTest, ItMayBeginAnewAndJumpFromThere) {
   }
 }
 
+/// Of an estimate that begins anew after a jump was told and before that is released.
+TEST(GatedJumpsTest, WhatBeginsAnewIsInTheModeThatWasTold) {
+  const ObserverConfig config = parse(R"(
+observer: HybridKalmanFilter
+plant:
+  states: [p, v]
+  modes: {1: {A: [[0, 1], [-2, 0]]}, 2: {A: [[0, 1], [0, 0.2]]}, 3: {A: [[0, 1], [0, -0.2]]}}
+sensors: {s: {C: [[1, 0]], source: {topic: s}, gate: {innovation: 0.5, recovery: {after: 1, action: reset}}}}
+sampling: {T1: 0.1, T2: 1}
+jumps: {late: delayed}
+gains: {P0: [[1, 0], [0, 2]], R: [[0.1]]}
+)");
+  const auto stamp_of = [](double seconds) { return kStart + from_seconds(seconds); };
+  for (const bool by_gate : {true, false}) {
+    Estimator estimator(config.law, config.options);
+    const auto sample = [&](double seconds, double y) {
+      return estimator.submit({stamp_of(seconds), EventKind::kSample, 0, &y, 1}, stamp_of(seconds));
+    };
+    sample(0.1, 0.0);
+    EXPECT_EQ(EventOutcome::kGated, sample(0.4, 9.0).outcome);
+    Event jump{stamp_of(1.3), EventKind::kJump, 0, nullptr, 0, stamp_of(1.6), 3.0};
+    EXPECT_TRUE(estimator.submit(jump, stamp_of(1.6)).used());
+    if (by_gate) {
+      EXPECT_EQ(Effect::kRestarted, sample(1.5, 9.0).effect);
+    } else {
+      estimator.restart(stamp_of(1.5));
+    }
+    Estimate estimate = estimator.make_estimate();
+    for (const double seconds : {1.5, 1.7}) {
+      ASSERT_EQ(Timeline::Query::kOk, estimator.estimate_at(stamp_of(seconds), estimate));
+      EXPECT_EQ(2u, config.law->observer().mode_of(estimate.state.data())) << by_gate;
+    }
+  }
+}
+
 TEST(GatedJumpsTest, AContinuousOutputOutsideLeavesTheOneBeforeHeld) {
   ToldOfGates gated(kGatedBall);
   ToldOfGates without(kGatedBall);

@@ -112,6 +112,27 @@ TEST_F(DelayedJumpsLogTest, TheReportIsAboutTheJump) {
   EXPECT_EQ(EventOutcome::kDuplicate, take(estimator, jump, kSecond / 2).outcome);
 }
 
+TEST_F(DelayedJumpsLogTest, AJumpOfBeforeOtherGainsIsReleasedWhereTheyBegin) {
+  const OwnedEvent jump{kStart + kSecond, EventKind::kJump, 0, {}};
+  Eigen::VectorXd expected;
+  for (const bool is_late : {false, true}) {
+    Estimator before = make(100);
+    take(before, {kStart, EventKind::kSample, 0, {1.0}}, 0);
+    if (!is_late) take(before, jump, kSecond);
+    Estimator after = make(100);
+    after.take_over(before, kStart + 2 * kSecond);
+    if (is_late) {
+      EXPECT_TRUE(take(after, jump, 3 * kSecond).used());
+    }
+    // Whenever it comes.
+    EXPECT_EQ(EventOutcome::kDuplicate, after.submit(jump.view(), kStart + 9 * kSecond).outcome);
+    Estimate found = after.make_estimate();
+    ASSERT_EQ(Timeline::Query::kOk, after.estimate_at(kStart + 5 * kSecond / 2, found));
+    if (!is_late) expected = found.state;
+    EXPECT_EQ(expected, found.state);
+  }
+}
+
 TEST_F(DelayedJumpsLogTest, AReleaseToComeOutlastsAPause) {
   Estimator estimator = make(100);
   take(estimator, {kStart, EventKind::kInput, 0, {1.0, -0.5}}, 0);

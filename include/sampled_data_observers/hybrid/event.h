@@ -41,7 +41,8 @@ struct Event {
   /// Of jumps of a plant that switches, and of their withdrawals: the label of the mode that
   /// follows. Messages may hold any number.
   std::optional<double> mode = std::nullopt;
-  /// Of jumps and their withdrawals: their number, as who detects them counts; 0 where nobody does.
+  /// Of jumps and their withdrawals, rejected ones too: their number, as who detects them counts; 0
+  /// where nobody does.
   std::uint32_t index = 0;
   /// Of releases, which have the mode and the number of their jump: the time since it.
   Duration delay = 0;

@@ -154,10 +154,10 @@ class Timeline {
   /// States of the log.
   struct Around {
     const double* before;  ///< after the newest event up to a stamp, or where the log begins
-    const double* after;   ///< after the first jump, or withdrawal of one, behind it
+    const double* after;   ///< after the first jump, withdrawal or rejected number behind it
   };
 
-  /// Those around `stamp`; nothing where no jump is behind it. Valid until the timeline changes.
+  /// Those around `stamp`; nothing where none is behind it. Valid until the timeline changes.
   std::optional<Around> around_next_jump(Stamp stamp) const;
 
   /// The earliest stamp at which an event can be taken in now; nothing where any can.

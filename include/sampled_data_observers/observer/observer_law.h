@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -104,6 +105,17 @@ class ObserverLaw : public HybridSystem {
 
   /// Whether a jump's reset waits for a release event (see DelayedJumps).
   bool delays_jumps() const { return delays_jumps_; }
+
+  /// What a jump leads to whose reset waits, in a state, for its release: a state of observer();
+  /// null where none waits.
+  virtual const double* awaited(const double* state) const {
+    static_cast<void>(state);
+    return nullptr;
+  }
+
+  /// The mode that follows the last jump that a state was told of, waiting or not, as its position
+  /// among the plant's.
+  std::size_t told_mode(const double* state) const;
 
   /// A guaranteed bound on the norm |x − x̂| of the estimate's error in a state, units of the state:
   /// infinite where what it rests on did not hold, NaN where the law gives none.

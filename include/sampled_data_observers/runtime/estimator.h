@@ -105,7 +105,7 @@ class Estimator {
   /// Takes note of something that was rejected before it was an event. What is known of a rejected
   /// input or jump, in submit() too, goes into the timeline as an event of kind kRejected, where
   /// the law minds: at its stamp, or as near to it as events can be taken in; at `now` where it has
-  /// no stamp or one in the future. Rejected samples were not taken.
+  /// no stamp or one in the future; with the number of a jump. Rejected samples were not taken.
   void note_rejected(const Event& event, Stamp now);
 
   /// The bound on the error of an estimate as it can be given at `now`: none while inputs or jumps
@@ -163,8 +163,8 @@ class Estimator {
   /// `stamp` or, where that is later, at its newest event: what is held, the mode, rest, what gates
   /// are, and what is known of jumps and of the error stay; all else begins. The estimate remains
   /// that of the other law up to there, and events of before may come as late as ever; but for
-  /// those up to the change before the kEarlierLaws last ones, and jumps whose release lies behind
-  /// one.
+  /// those up to the change before the kEarlierLaws last ones. Where jumps are delayed, one of
+  /// before whose release lies behind is released where the new law begins.
   ///
   /// @param other  only to be destroyed afterwards, which frees much memory
   /// @param stamp  not before that of the take-over before
@@ -181,8 +181,8 @@ class Estimator {
 
  private:
   std::optional<EventOutcome> objection(const Event& event, Stamp now) const;
-  void mark_what_is_unseen(EventKind kind, Stamp stamp);
-  void insert_rejected(EventKind kind, Stamp stamp);
+  void mark_what_is_unseen(EventKind kind, std::uint32_t index, Stamp stamp);
+  void insert_rejected(EventKind kind, std::uint32_t index, Stamp stamp);
   BoundLoss withheld(Stamp stamp, Stamp now) const;
   bool is_before_jump(Stamp stamp) const;
   std::optional<bool> shows_gap_behind(Stamp stamp) const;
@@ -193,7 +193,7 @@ class Estimator {
   double innovation_of(const Event& measured);
   bool has_earlier() const;
   bool is_earlier(Stamp stamp) const;
-  EventReport submit_earlier(const Event& event, Stamp now);
+  EventReport submit_earlier(Event event, Stamp now);
   bool prepare_take_over();
   void go_on_from_earlier();
   void learn_input(Stamp stamp);
