@@ -83,6 +83,43 @@ scenario:
 """
 
 
+# Two sensors, each sampled at times of its own; what they measure comes late, in another order.
+FUSED = """
+plant: {states: [p, v], inputs: [u], A: [[0, 1], [0, 0]], B: [[0], [1]]}
+sensors:
+  gps: {C: [[1, 0]], source: {topic: gps}}
+  wheel: {C: [[0, 1]], source: {topic: wheel}}
+input: {topic: input}
+scenario:
+  duration: 10
+  initial_state: {p: 1, v: 0}
+  input: {rate: 20, formulas: {u: "sin(t)"}}
+  sensors:
+    gps: {schedule: {uniform: [0.2, 1]}, noise: {gaussian: 0.01}LATE}
+    wheel: {schedule: {uniform: [0.05, 0.2]}, noise: {gaussian: 0.01}LATE}
+"""
+SCHEDULED = """
+observer: TimeVaryingGainObserver
+rate: 50
+publish_delay: 1.5
+sampling: {T1: 0.05, T2: 1}
+gains:
+  timers: {gps: [0, 0.6, 1], wheel: [0, 0.2]}
+  P:
+    0: [[2, 0], [0, 3]]
+    1: [[2, 0.5], [0.5, 1]]
+    2: [[1, 0.1], [0.1, 3]]
+    3: [[1, 0.2], [0.2, 1]]
+    4: [[0.5, 0], [0, 3]]
+    5: [[0.5, 0.2], [0.2, 1]]
+  K:
+    gps: {0: [[0.1], [0]], 1: [[0.2], [0.1]], 2: [[0.4], [0.1]], 3: [[0.5], [0.2]],
+          4: [[0.6], [0.3]], 5: [[0.7], [0.4]]}
+    wheel: {0: [[0], [0.1]], 1: [[0], [0.4]], 2: [[0.1], [0.2]], 3: [[0.1], [0.5]],
+            4: [[0.2], [0.3]], 5: [[0.2], [0.6]]}
+"""
+
+
 class ToolsTest(FolderTest):
     def setUp(self):
         super().setUp()
@@ -238,6 +275,20 @@ class ToolsTest(FolderTest):
         text = self.fault("replay", *self.replay("--truth", "truth"), status=2)
         self.assertIn("GUARANTEE BROKEN: the error was larger than its guaranteed bound at ", text)
         self.succeed("replay", *self.replay())
+
+    def test_gains_that_depend_on_several_timers_give_the_same_bits_whatever_comes_late(self):
+        self.observer = self.write("observer.yaml", SCHEDULED)
+        bags = []
+        for late in ("", ", latency: [0, 0.14], reordering: 0.3"):
+            self.scenario = self.write("scenario.yaml", FUSED.replace("LATE", late))
+            self.simulate()
+            bags.append(self.path("late_%d.bag" % bool(late)))
+            summary = ["--truth", "truth", "--from", "5", "--json", self.path("summary.json")]
+            self.succeed("replay", *self.replay("-o", bags[-1], *summary))
+            with open(self.path("summary.json")) as written:
+                self.assertLess(json.load(written)["rmse_norm"], 0.05)
+        text = self.succeed("compare_estimates", *bags, "--at-least", "100")
+        self.assertIn("identical bit for bit on 501 of 501", text)
 
     def test_estimates_that_rest_on_other_events_are_no_agreement(self):
         self.simulate()

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "sampled_data_observers/observer/observer_law.h"
+#include "sampled_data_observers/observer/plant_observer.h"
 
 namespace sampled_data_observers::test {
 
@@ -20,6 +20,9 @@ class LawRunner {
     law_->initialize(state_.data());
   }
 
+  void start_from(const Eigen::VectorXd& estimate) {
+    law_->observer().start_from(estimate.data(), state_.data());
+  }
   void flow(Duration duration) { law_->flow(duration, state_.data(), workspace_.data()); }
   bool sample(int sensor, std::vector<double> y) { return reset(EventKind::kSample, sensor, y); }
   bool output(int sensor, std::vector<double> y) { return reset(EventKind::kOutput, sensor, y); }
