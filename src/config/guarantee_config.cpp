@@ -13,20 +13,13 @@
 #include "config/integration_check.h"
 #include "config/number_text.h"
 #include "config/plant_fingerprint.h"
+#include "config/sampling_config.h"
 #include "sampled_data_observers/observer/plant_observer.h"
 
 namespace sampled_data_observers {
 namespace {
 
 constexpr double kLargestAssumption = 1e50;
-
-std::string interval(double low, double high) {
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text.precision(12);
-  text << '[' << low << ", " << high << "] s";
-  return text.str();
-}
 
 /// What the plant's own maps, with the outputs that are injected, refute of what the files state.
 std::optional<ConfigError> objection_to_statements(ConfigSection& root,
@@ -88,6 +81,30 @@ std::optional<ConfigError> objection_to_dwell_times(ConfigSection& root,
                      dwell_time_text(to_seconds(own->tau), own->N0));
 }
 
+/// The times between samples of each sensor, or between jumps, must be those of the certificate.
+std::optional<ConfigError> objection_to_sampling(ConfigSection& root, const Plant& plant,
+                                                 const CertificateSubject& subject) {
+  const auto expected = [](const SamplingTimes& certified) {
+    return "T1 and T2 inside " + to_text(certified) + ", for which the gains were made" +
+           kGainsRemedy;
+  };
+  const SamplingTimes of_all{subject.T1, subject.T2};
+  const SamplingConfig sampling = read_sampling(root, plant);
+  if (sampling.jumps && !is_inside(*sampling.jumps, of_all)) {
+    return root.error("sampling", expected(of_all), to_text(*sampling.jumps));
+  }
+  std::size_t sampled = 0;
+  for (std::size_t i = 0; i < plant.sensors().size(); ++i) {
+    const auto& times = sampling.sensors[i];
+    if (!times) continue;
+    const SamplingTimes& certified =
+        subject.sensor_times.empty() ? of_all : subject.sensor_times[sampled++];
+    if (is_inside(*times, certified)) continue;
+    return sampling_error(root, plant.sensors()[i], expected(certified), to_text(*times));
+  }
+  return std::nullopt;
+}
+
 /// Why a certificate does not hold for a configuration, if so.
 std::optional<ConfigError> objection(ConfigSection& root, const ConfigNode& tree,
                                      const CertificateConfig& claim, const ObserverConfig& config) {
@@ -107,14 +124,7 @@ std::optional<ConfigError> objection(ConfigSection& root, const ConfigNode& tree
                          claim.plant_hash);
   }
   const CertificateSubject& subject = certificate.subject;
-  const SamplingBounds& sampling = config.options.sampling;
-  if (root.has("sampling") &&
-      (sampling.T1 < from_seconds(subject.T1) || sampling.T2 > longest_from_seconds(subject.T2))) {
-    return root.error("sampling",
-                      "T1 and T2 inside " + interval(subject.T1, subject.T2) +
-                          ", for which the gains were made" + kGainsRemedy,
-                      interval(to_seconds(sampling.T1), longest_to_seconds(sampling.T2)));
-  }
+  if (auto error = objection_to_sampling(root, *config.plant, subject)) return error;
   if (auto error = objection_to_dwell_times(root, subject)) return error;
   if (auto error = objection_to_statements(root, claim, config)) return error;
   if (auto error = objection_to_step(root, *config.plant, *config.law, true)) return error;

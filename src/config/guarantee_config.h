@@ -33,7 +33,7 @@ struct Guarantee {
 /// checks that the certificate is about this plant, observer and sampling, and that the theorem's
 /// conditions hold for these gains, and that its steps of integration follow the flow.
 /// @param tree    that `root` reads, for the plant's fingerprint
-/// @param config  with type, plant, law (nothing around it) and options.sampling read
+/// @param config  with type, plant, law (nothing around it) and options read
 /// @throws ConfigError where it does not hold and that is not allowed, and for the first fault.
 Guarantee read_guarantee(ConfigSection& root, const ConfigNode& tree, const ObserverConfig& config,
                          bool delays_jumps);

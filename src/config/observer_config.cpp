@@ -5,12 +5,12 @@
 
 #include "config/contraction_check.h"
 #include "config/dwell_times.h"
-#include "config/event_times.h"
 #include "config/gate_config.h"
 #include "config/guarantee_config.h"
 #include "config/integration_check.h"
 #include "config/jump_config.h"
 #include "config/law_config.h"
+#include "config/sampling_config.h"
 #include "sampled_data_observers/config/config_section.h"
 #include "sampled_data_observers/config/law_registry.h"
 #include "sampled_data_observers/config/plant_config.h"
@@ -24,22 +24,32 @@ constexpr double kLongest = 1e6;    // s
 /// What a ROS stamp holds reaches a little further [s].
 constexpr double kLatestStart = 4e9;
 
-/// Required where samples come; a plant that is measured in the flow or at jumps only has none.
-SamplingBounds read_sampling(ConfigSection& root, const Plant& plant) {
-  const bool is_sampled = plant.outputs(SensorTiming::kSampled) > 0;
-  if (!is_sampled && !root.has("sampling")) return {0, kNoLongestTime};
-  ConfigSection section = root.section("sampling");
-  const double T1 = section.number_in("T1", 0.0, kLongest, std::nullopt);
-  const double T2 = read_longest_time(section, kShortest);
-  if (T1 > T2) throw section.error("T2", "a number not less than T1", "T1 > T2");
-  section.finish();
-  return {from_seconds(T1), longest_from_seconds(T2)};
+SamplingBounds bounds_of(const SamplingTimes& times) {
+  return {from_seconds(times.T1), longest_from_seconds(times.T2)};
+}
+
+/// Required where samples come; a plant that is measured in the flow or at jumps only needs none.
+SensorSampling read_sensor_sampling(ConfigSection& root, const Plant& plant) {
+  const SamplingConfig sampling = read_sampling(root, plant);
+  require_sampling(root, plant, sampling);
+  if (plant.outputs(SensorTiming::kSampled) == 0) {
+    const SamplingBounds of_jumps =
+        sampling.jumps ? bounds_of(*sampling.jumps) : SamplingBounds{0, kNoLongestTime};
+    return {of_jumps.T1, of_jumps.T2};
+  }
+  std::vector<std::optional<SamplingBounds>> of_sensors;
+  for (const auto& times : sampling.sensors) {
+    of_sensors.push_back(times ? std::optional<SamplingBounds>(bounds_of(*times)) : std::nullopt);
+  }
+  return SensorSampling(std::move(of_sensors));
 }
 
 /// Times between events that correct: of a plant without samples those between its jumps.
-SamplingBounds times_of_correction(ConfigSection& root, const SamplingBounds& sampling,
+SensorSampling times_of_correction(ConfigSection& root, const Plant& plant,
+                                   const SensorSampling& sampling,
                                    const std::optional<DwellTimes>& of_jumps) {
-  if (root.has("sampling") || !of_jumps) return sampling;
+  const bool is_sampled = plant.outputs(SensorTiming::kSampled) > 0;
+  if (is_sampled || root.has("sampling") || !of_jumps) return sampling;
   return {of_jumps->shortest, of_jumps->longest.value_or(kNoLongestTime)};
 }
 
@@ -113,14 +123,15 @@ ObserverConfig read_observer_config(const ConfigNode& tree, const PlantPluginLoa
 
   config.static_transforms = read_static_transforms(root);
 
-  config.options.sampling = read_sampling(root, plant);
+  config.options.sampling = read_sensor_sampling(root, plant);
   Guarantee guarantee = read_guarantee(root, tree, config, layers.delays_jumps);
   config.guarantee = std::move(guarantee.text);
   config.warning = std::move(guarantee.warning);
   if (!guarantee.remark.empty()) config.warnings.push_back(std::move(guarantee.remark));
   if (config.guarantee.empty()) {
     const std::string found = find_divergence(
-        *config.law, plant, times_of_correction(root, config.options.sampling, layers.dwell_times));
+        *config.law, plant,
+        times_of_correction(root, plant, config.options.sampling, layers.dwell_times));
     if (!found.empty()) config.warnings.push_back("gains: " + found);
   }
   config.options.latency = guarantee.latency;

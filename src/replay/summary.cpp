@@ -1,6 +1,7 @@
 #include "replay/summary.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iomanip>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -85,8 +86,38 @@ void print_bound_loss(const ReplaySummary& summary, std::ostream& out) {
   out << "error bound infinite from " << stamp.str() << " s on: " << summary.bound_loss << "\n";
 }
 
+void print_intervals(const ReplaySummary& summary, std::ostream& out) {
+  const bool has_several = summary.sensors.size() > 1;
+  for (const SensorSummary& sensor : summary.sensors) {
+    const SampleIntervals& intervals = sensor.intervals;
+    if (intervals.count == 0) continue;
+    out << "intervals   ";
+    if (has_several) out << "of " << sensor.name << ": ";
+    out << shown(intervals.smallest) << " to " << shown(intervals.largest) << " s, mean "
+        << shown(intervals.mean()) << " s; " << intervals.below_T1 << " below T1";
+    if (has_several) out << " = " << shown(sensor.T1) << " s";
+    out << ", " << intervals.above_T2 << " above T2";
+    if (has_several) out << " = " << shown(sensor.T2) << " s";
+    out << "\n";
+  }
+}
+
 nlohmann::json number(const std::optional<double>& value) {
   return value ? nlohmann::json(*value) : nlohmann::json();
+}
+
+nlohmann::json to_json(const SampleIntervals& intervals) {
+  return {{"count", intervals.count},       {"min", intervals.smallest},
+          {"mean", intervals.mean()},       {"max", intervals.largest},
+          {"below_T1", intervals.below_T1}, {"above_T2", intervals.above_T2}};
+}
+
+/// T2 is null where it is infinite.
+nlohmann::json to_json(const SensorSummary& sensor) {
+  return {{"T1", sensor.T1},
+          {"T2", std::isinf(sensor.T2) ? nlohmann::json() : nlohmann::json(sensor.T2)},
+          {"samples_used", sensor.samples_used},
+          {"intervals", to_json(sensor.intervals)}};
 }
 
 nlohmann::json by_name(const std::vector<std::string>& names,
@@ -97,6 +128,24 @@ nlohmann::json by_name(const std::vector<std::string>& names,
 }
 
 }  // namespace
+
+double SampleIntervals::mean() const { return count == 0 ? 0.0 : sum / static_cast<double>(count); }
+
+void SampleIntervals::add(const SampleIntervals& other) {
+  if (other.count == 0) return;
+  smallest = count == 0 ? other.smallest : std::min(smallest, other.smallest);
+  largest = count == 0 ? other.largest : std::max(largest, other.largest);
+  sum += other.sum;
+  count += other.count;
+  below_T1 += other.below_T1;
+  above_T2 += other.above_T2;
+}
+
+SampleIntervals ReplaySummary::intervals() const {
+  SampleIntervals all;
+  for (const SensorSummary& sensor : sensors) all.add(sensor.intervals);
+  return all;
+}
 
 void print_table(const ReplaySummary& summary, std::ostream& out) {
   out << summary.observer << " on " << summary.bag << " (" << shown(summary.bag_seconds)
@@ -138,11 +187,7 @@ void print_table(const ReplaySummary& summary, std::ostream& out) {
   for (const auto& [what, count] : summary.recovered) {
     out << "gates       " << count << " x " << what << "\n";
   }
-  if (summary.intervals > 0) {
-    out << "intervals   " << shown(summary.interval_min) << " to " << shown(summary.interval_max)
-        << " s, mean " << shown(summary.interval_mean) << " s; " << summary.intervals_short
-        << " below T1, " << summary.intervals_long << " above T2\n";
-  }
+  print_intervals(summary, out);
   out << "estimates   " << summary.estimates << ", the last";
   for (const auto& [name, value] : summary.final_state) out << " " << name << "=" << shown(value);
   out << "\n";
@@ -171,9 +216,10 @@ void write_json(const ReplaySummary& summary, const std::string& path) {
   json["jumps_without_outputs"] = summary.jumps_without_outputs;
   json["jumps_taken_back"] = summary.jumps_taken_back;
   json["not_recorded"] = summary.not_recorded;
-  json["intervals"] = {{"count", summary.intervals},          {"min", summary.interval_min},
-                       {"mean", summary.interval_mean},       {"max", summary.interval_max},
-                       {"below_T1", summary.intervals_short}, {"above_T2", summary.intervals_long}};
+  json["intervals"] = to_json(summary.intervals());
+  json["sensors"] = nlohmann::json::object();
+  for (const SensorSummary& sensor : summary.sensors)
+    json["sensors"][sensor.name] = to_json(sensor);
   json["estimates"] = summary.estimates;
   json["diverged"] = !summary.diverged.empty();
   json["compared_stamps"] = summary.compared_stamps;

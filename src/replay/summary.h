@@ -27,6 +27,31 @@ struct QuantityPlot {
   Series estimate;
 };
 
+/// The times between the used samples of a sensor, or of several, each by itself [s].
+struct SampleIntervals {
+  std::size_t count = 0;
+  double smallest = 0.0;  ///< of no meaning, as the others, where count is 0
+  double largest = 0.0;
+  double sum = 0.0;
+  std::size_t below_T1 = 0;
+  std::size_t above_T2 = 0;
+
+  /// 0 where there are none.
+  double mean() const;
+
+  /// Joins others.
+  void add(const SampleIntervals& other);
+};
+
+/// What a replay found of one sensor that is sampled.
+struct SensorSummary {
+  std::string name;
+  double T1 = 0.0;  ///< s, as configured
+  double T2 = 0.0;  ///< s; may be infinite
+  std::size_t samples_used = 0;
+  SampleIntervals intervals;
+};
+
 /// What a replay found.
 struct ReplaySummary {
   std::string bag;
@@ -52,13 +77,8 @@ struct ReplaySummary {
   /// Topics that the bag does not have, by what would come on them: the input, jumps.
   std::map<std::string, std::string> not_recorded;
 
-  /// Of the time between used samples [s].
-  double interval_min = 0.0;
-  double interval_mean = 0.0;
-  double interval_max = 0.0;
-  std::size_t intervals = 0;
-  std::size_t intervals_short = 0;
-  std::size_t intervals_long = 0;
+  /// Of each sensor that is sampled.
+  std::vector<SensorSummary> sensors;
 
   std::size_t estimates = 0;
   /// The last estimate.
@@ -90,6 +110,9 @@ struct ReplaySummary {
   std::size_t after_bound = 0;
   /// Whether the truth came on a topic of its own, and not from samples with their noise.
   bool truth_is_given = false;
+
+  /// Of all sensors.
+  SampleIntervals intervals() const;
 
   /// Whether the truth refutes the guarantee: the error was larger than its bound.
   bool is_guarantee_broken() const { return truth_is_given && bound_exceeded > 0; }

@@ -44,24 +44,27 @@ void SummaryRecorder::count(const Event& event, const EventReport& report,
 }
 
 /// Between the samples of each sensor, as they were taken, not as they arrived.
-void SummaryRecorder::count_intervals() {
-  double sum = 0.0;
-  for (std::vector<Stamp>& stamps : used_stamps_) {
+void SummaryRecorder::summarize_sensors() {
+  for (std::size_t i = 0; i < used_stamps_.size(); ++i) {
+    const Sensor& sensor = config_.plant->sensors()[i];
+    if (sensor.timing != SensorTiming::kSampled) continue;
+    std::vector<Stamp>& stamps = used_stamps_[i];
     std::sort(stamps.begin(), stamps.end());
-    for (std::size_t i = 1; i < stamps.size(); ++i) {
-      const Duration duration = stamps[i] - stamps[i - 1];
+    const SamplingBounds& bounds = config_.options.sampling.of_sensor(i);
+    SensorSummary found;
+    found.name = sensor.name;
+    found.T1 = to_seconds(bounds.T1);
+    found.T2 = longest_to_seconds(bounds.T2);
+    found.samples_used = stamps.size();
+    for (std::size_t k = 1; k < stamps.size(); ++k) {
+      const Duration duration = stamps[k] - stamps[k - 1];
       const double interval = to_seconds(duration);
-      summary_.interval_min =
-          summary_.intervals == 0 ? interval : std::min(summary_.interval_min, interval);
-      summary_.interval_max = std::max(summary_.interval_max, interval);
-      sum += interval;
-      ++summary_.intervals;
-      if (duration < config_.options.sampling.T1) ++summary_.intervals_short;
-      if (duration > config_.options.sampling.T2) ++summary_.intervals_long;
+      found.intervals.add({1, interval, interval, interval,
+                           duration < bounds.T1 ? std::size_t{1} : 0,
+                           duration > bounds.T2 ? std::size_t{1} : 0});
     }
+    summary_.sensors.push_back(std::move(found));
   }
-  if (summary_.intervals > 0) sum /= static_cast<double>(summary_.intervals);
-  summary_.interval_mean = sum;
 }
 
 void SummaryRecorder::add_estimate(const Estimate& estimate, BoundLoss loss) {
@@ -112,7 +115,7 @@ void SummaryRecorder::plot(Series& series, Stamp stamp, double value) {
 }
 
 ReplaySummary SummaryRecorder::summary() {
-  count_intervals();
+  summarize_sensors();
   return std::move(summary_);
 }
 

@@ -32,7 +32,7 @@ class SummaryRecorder {
 
  private:
   void count(const Event& event, const EventReport& report, const std::string& reason);
-  void count_intervals();
+  void summarize_sensors();
   void note_bound(Stamp stamp, BoundLoss loss);
   void plot_sample(std::size_t sensor, const Event& event);
   void plot(Series& series, Stamp stamp, double value);

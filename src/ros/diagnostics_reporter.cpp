@@ -20,8 +20,8 @@ void copy(const Finding& finding, diagnostic_updater::DiagnosticStatusWrapper& s
 DiagnosisSubject diagnosis_subject(const ObserverConfig& config) {
   DiagnosisSubject subject;
   for (const EventChannel& channel : event_channels(config)) {
-    subject.channels.push_back(
-        {channel.name, channel.source.topic, channel.kind, channel.source.type});
+    subject.channels.push_back({channel.name, channel.source.topic, channel.kind,
+                                channel.source.type, static_cast<std::size_t>(channel.sensor)});
   }
   subject.period = config.period;
   subject.sampling = config.options.sampling;

@@ -46,7 +46,11 @@ void PlantSimulatorNodelet::onInit() {
   try {
     ConfigNode tree = read_parameter_tree(getPrivateNodeHandle());
     options_ = read_options(tree);
-    simulator_ = std::make_unique<Simulator>(read_scenario(tree, load_plant_plugin));
+    const Scenario scenario = read_scenario(tree, load_plant_plugin);
+    for (const std::string& warning : scenario.warnings) {
+      NodeLog(getName()).warn("%s", warning.c_str());
+    }
+    simulator_ = std::make_unique<Simulator>(scenario);
     start();
   } catch (const std::exception& error) {
     NodeLog(getName()).fatal("not started: %s", error.what());

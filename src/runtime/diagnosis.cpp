@@ -82,6 +82,7 @@ void Diagnosis::update(const RunStatistics& window, Stamp now, Duration elapsed)
       memory_[i].behind = is_behind && window.channels[i].used() > 0 ? latency.smallest : 0;
     }
     if (window.channels[i].used() > 0) memory_[i].used = now;
+    memory_[i].newest = std::max(memory_[i].newest, window.channels[i].newest.value_or(0));
   }
   const std::optional<Suspension> found = find_suspension();
   if (found && !suspension_) {
@@ -250,6 +251,7 @@ Finding Diagnosis::channel(std::size_t index) const {
   const DiagnosisSubject::Channel& channel = subject_.channels[index];
   const ChannelStatistics& statistics = window_.channels[index];
   const ChannelStatistics& total = totals_.channels[index];
+  const SamplingBounds& sampling = subject_.sampling_of(channel);
   const Stamp received = memory_[index].received;
   const bool is_measured = channel.kind == EventKind::kSample || channel.kind == EventKind::kOutput;
   Finding finding;
@@ -278,7 +280,7 @@ Finding Diagnosis::channel(std::size_t index) const {
   } else if (memory_[index].behind > 0) {
     finding.level = HealthLevel::kWarn;
     finding.message = describe_old_stamps(channel.topic, memory_[index].behind);
-  } else if (is_measured && now_ - received > std::max(subject_.sampling.T2, kSilence)) {
+  } else if (is_measured && now_ - received > std::max(sampling.T2, kSilence)) {
     finding.level = HealthLevel::kStale;
     finding.message = "nothing for " + seconds(now_ - received) + " on " + channel.topic +
                       ": has its publisher stopped (rostopic hz)?";
@@ -286,8 +288,8 @@ Finding Diagnosis::channel(std::size_t index) const {
     finding.level = HealthLevel::kWarn;
     finding.message = "used, but " +
                       std::to_string(statistics.short_intervals + statistics.long_intervals) +
-                      " times between samples are outside of [" + seconds(subject_.sampling.T1) +
-                      ", " + longest(subject_.sampling.T2) + "]";
+                      " times between samples are outside of [" + seconds(sampling.T1) + ", " +
+                      longest(sampling.T2) + "]";
   } else {
     finding.message = statistics.received() > 0 ? "used" : "nothing lately";
   }
@@ -307,11 +309,7 @@ Finding Diagnosis::channel(std::size_t index) const {
   if (is_measured) {
     finding.values.emplace_back("innovation, last", shown(statistics.innovation));
   }
-  if (channel.kind == EventKind::kSample) {
-    finding.values.emplace_back("time between samples", extremes(statistics.interval));
-    finding.values.emplace_back("below T1 in all", std::to_string(total.short_intervals));
-    finding.values.emplace_back("above T2 in all", std::to_string(total.long_intervals));
-  }
+  if (channel.kind == EventKind::kSample) add_times_between_samples(index, finding);
   for (std::size_t code = 0; code < kEventOutcomes; ++code) {
     const auto outcome = static_cast<EventOutcome>(code);
     const bool is_usual = outcome == EventOutcome::kUsed || outcome == EventOutcome::kUsedLate;
@@ -340,10 +338,10 @@ Finding Diagnosis::certificate() const {
   } else {
     finding.message = "valid";
   }
-  finding.values = {{"guarantee", subject_.guarantee.empty() ? "none" : subject_.guarantee},
-                    {"T1", seconds(subject_.sampling.T1)},
-                    {"T2", longest(subject_.sampling.T2)},
-                    {"error bound", shown(window_.error_bound)}};
+  finding.values.emplace_back("guarantee",
+                              subject_.guarantee.empty() ? "none" : subject_.guarantee);
+  add_bounds_of_all(finding);
+  finding.values.emplace_back("error bound", shown(window_.error_bound));
   return finding;
 }
 

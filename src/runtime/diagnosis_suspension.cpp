@@ -14,15 +14,15 @@ std::optional<Diagnosis::Suspension> Diagnosis::find_suspension() const {
   if (new_dwell_violations_ > 0) return Suspension{now_, describe(BoundLoss::kDwellTimes)};
   for (std::size_t i = 0; i < subject_.channels.size(); ++i) {
     const ChannelStatistics& statistics = window_.channels[i];
+    const SamplingBounds& sampling = subject_.sampling_of(subject_.channels[i]);
     if (statistics.violations.count > 0) {
       const bool is_long = statistics.long_intervals > 0;
-      return Suspension{
-          statistics.violations.smallest,
-          "a time between events of " + subject_.channels[i].name + " of " +
-              diagnosis_text::seconds(is_long ? statistics.interval.largest
-                                              : statistics.interval.smallest) +
-              (is_long ? ", above T2 = " + diagnosis_text::longest(subject_.sampling.T2)
-                       : ", below T1 = " + diagnosis_text::seconds(subject_.sampling.T1))};
+      return Suspension{statistics.violations.smallest,
+                        "a time between events of " + subject_.channels[i].name + " of " +
+                            diagnosis_text::seconds(is_long ? statistics.interval.largest
+                                                            : statistics.interval.smallest) +
+                            (is_long ? ", above T2 = " + diagnosis_text::longest(sampling.T2)
+                                     : ", below T1 = " + diagnosis_text::seconds(sampling.T1))};
     }
     if (statistics.after_bound > 0) {
       return Suspension{now_, std::to_string(statistics.after_bound) + " events of " +
@@ -32,13 +32,12 @@ std::optional<Diagnosis::Suspension> Diagnosis::find_suspension() const {
                                   "which rested on their absence: set error_assumptions/latency "
                                   "to what is never exceeded, and publish_delay to as much"};
     }
-    const bool is_silent =
-        subject_.channels[i].kind == EventKind::kSample && memory_[i].used > 0 &&
-        now_ - memory_[i].used > std::max(subject_.sampling.T2, diagnosis_text::kSilence);
+    const bool is_silent = subject_.channels[i].kind == EventKind::kSample && memory_[i].used > 0 &&
+                           now_ - memory_[i].used > std::max(sampling.T2, diagnosis_text::kSilence);
     if (is_silent) {
-      return Suspension{memory_[i].used, "no sample of " + subject_.channels[i].name +
-                                             " for longer than T2 = " +
-                                             diagnosis_text::longest(subject_.sampling.T2)};
+      return Suspension{memory_[i].used,
+                        "no sample of " + subject_.channels[i].name +
+                            " for longer than T2 = " + diagnosis_text::longest(sampling.T2)};
     }
   }
   return std::nullopt;

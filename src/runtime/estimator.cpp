@@ -111,7 +111,7 @@ Estimator::Estimator(std::shared_ptr<const ObserverLaw> law, const Options& opti
       is_sampled_(law_->observer().plant().outputs(SensorTiming::kSampled) > 0),
       has_other_events_(law_->observer().plant().inputs() > 0 || law_->observer().plant().jumps()),
       answer_(make_estimate()) {
-  if (options_.sampling.T1 < 0 || options_.sampling.T1 > options_.sampling.T2) {
+  if (!options_.sampling.are_valid()) {
     throw std::invalid_argument("Estimator: 0 <= T1 <= T2 must hold");
   }
   if (options_.future_tolerance < 0) {
@@ -174,8 +174,11 @@ EventReport Estimator::submit(const Event& event, Stamp now) {
   if (is_in_log && event.kind == EventKind::kInput) learn_input(event.stamp);
   if (report.used() && inserted.previous) {
     report.interval = event.stamp - *inserted.previous;
-    if (event.kind == EventKind::kSample || !is_sampled_) {
-      report.interval_check = check(*report.interval, options_.sampling);
+    if (event.kind == EventKind::kSample) {
+      const auto sensor = static_cast<std::size_t>(event.sensor);
+      report.interval_check = check(*report.interval, options_.sampling.of_sensor(sensor));
+    } else if (!is_sampled_) {
+      report.interval_check = check(*report.interval, options_.sampling.of_all());
     }
   }
   if (report.used() && event.kind == EventKind::kJump && law_->watches_dwell_times()) {

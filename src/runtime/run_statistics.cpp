@@ -1,5 +1,6 @@
 #include "sampled_data_observers/runtime/run_statistics.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -14,6 +15,12 @@ constexpr std::memory_order kRelaxed = std::memory_order_relaxed;
 constexpr std::size_t kLongestTransform = 160;
 
 void increment(std::atomic<std::uint64_t>& counter) { counter.fetch_add(1, kRelaxed); }
+
+void raise(std::atomic<Stamp>& newest, Stamp stamp) {
+  Stamp seen = newest.load(kRelaxed);
+  while (stamp > seen && !newest.compare_exchange_weak(seen, stamp, kRelaxed)) {
+  }
+}
 
 std::optional<Stamp> as_stamp(Stamp stamp) {
   return stamp == 0 ? std::nullopt : std::optional<Stamp>(stamp);
@@ -36,6 +43,7 @@ std::uint64_t ChannelStatistics::used() const {
 void ChannelStatistics::add(const ChannelStatistics& other) {
   for (std::size_t i = 0; i < outcomes.size(); ++i) outcomes[i] += other.outcomes[i];
   latency.add(other.latency);
+  if (other.newest) newest = std::max(newest.value_or(*other.newest), *other.newest);
   interval.add(other.interval);
   short_intervals += other.short_intervals;
   long_intervals += other.long_intervals;
@@ -78,6 +86,7 @@ void StatisticsRecorder::record_event(std::size_t index, const Event& event,
   Channel& channel = channels_[index];
   increment(channel.outcomes[static_cast<std::size_t>(report.outcome)]);
   if (report.outcome != EventOutcome::kNoStamp) channel.latency.record(latency);
+  if (report.used()) raise(channel.newest, event.stamp);
   if (report.rewound > 0) channel.rewound.record(static_cast<std::int64_t>(report.rewound));
   if (report.came_after_bound) increment(channel.after_bound);
   if (!std::isnan(report.innovation)) {
@@ -122,6 +131,7 @@ void StatisticsRecorder::take(RunStatistics& statistics) noexcept {
       to.outcomes[code] = from.outcomes[code].exchange(0, kRelaxed);
     }
     to.latency = from.latency.take();
+    to.newest = as_stamp(from.newest.exchange(0, kRelaxed));
     to.interval = from.interval.take();
     to.short_intervals = from.short_intervals.exchange(0, kRelaxed);
     to.long_intervals = from.long_intervals.exchange(0, kRelaxed);

@@ -109,6 +109,8 @@ struct Scenario {
   std::string jumps_topic;
   /// Empty: the plant does not jump.
   std::optional<JumpScenario> jumps;
+  /// What a person should know before it runs.
+  std::vector<std::string> warnings;
 };
 
 }  // namespace sampled_data_observers

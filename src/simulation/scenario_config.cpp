@@ -4,9 +4,11 @@
 #include <utility>
 
 #include "config/expression_config.h"
+#include "config/sampling_config.h"
 #include "sampled_data_observers/config/config_section.h"
 #include "sampled_data_observers/config/topic_config.h"
 #include "sampled_data_observers/config/yaml_file.h"
+#include "simulation/sampling_check.h"
 #include "simulation/schedule_config.h"
 
 namespace sampled_data_observers {
@@ -339,6 +341,7 @@ Scenario read_scenario(const ConfigNode& tree, const PlantPluginLoader& load_plu
   ConfigSection root(tree, "");
   for (const char* key : kObserverKeys) root.has(key);
   Scenario scenario = ScenarioReader(root, load_plugin).read();
+  scenario.warnings = schedules_outside(scenario, read_sampling(root, *scenario.plant));
   root.finish();
   return scenario;
 }

@@ -30,6 +30,9 @@ int simulate(const Arguments& arguments) {
   sdo::refuse_overwriting(sdo::given_files("SCENARIO", arguments.scenario),
                           {{"--output", arguments.output}});
   sdo::Scenario scenario = sdo::read_scenario(arguments.scenario, sdo::load_plant_plugin);
+  for (const std::string& warning : scenario.warnings) {
+    std::fprintf(stderr, "simulate: %s\n", warning.c_str());
+  }
   if (arguments.seed) scenario.seed = *arguments.seed;
   if (arguments.duration) scenario.duration = sdo::from_seconds(*arguments.duration);
   const sdo::SimulationSummary summary = sdo::record_simulation(scenario, arguments.output);

@@ -86,6 +86,29 @@ TEST(ContractionCheckTest, TimesThatAlternateAreLookedAtToo) {
       << message;
 }
 
+// Two states of their own, each measured by itself: the one of gps doubles in ln 2 s.
+const char kTwoPaces[] = R"yaml(
+observer: ConstantGainObserver
+plant: {states: [x, z], A: [[1, 0], [0, -1]]}
+sensors:
+  gps: {C: [[1, 0]], sampling: {T1: 0.2, T2: 1}, source: {topic: gps}}
+  wheel: {C: [[0, 1]], sampling: {T1: 0.05, T2: 0.15}, source: {topic: wheel}}
+gains: {L: {gps: [[0.7], [0]], wheel: [[0], [0.5]]}}
+)yaml";
+
+TEST(ContractionCheckTest, SensorsAreLookedAtEachAtItsOwnTimes) {
+  EXPECT_EQ("", warning(kTwoPaces));  // 0.3 e < 1
+  const std::string slow = warning(replaced(kTwoPaces, "T2: 1}", "T2: 1.5}"));
+  // 0.3 e^1.5
+  EXPECT_NE(std::string::npos, slow.find("with samples of gps every 1.5 s, and those of the other "
+                                         "sensors as seldom between them as may be"))
+      << slow;
+  EXPECT_NE(std::string::npos, slow.find("by the factor 1.345 from sample to sample")) << slow;
+  // Seven samples of wheel in 0.95 s, each of which multiplies by -1.3: e^-0.95 1.3^7.
+  const std::string fast = warning(replaced(kTwoPaces, "[[0], [0.5]]", "[[0], [2.3]]"));
+  EXPECT_NE(std::string::npos, fast.find("by the factor 2.427")) << fast;
+}
+
 TEST(ContractionCheckTest, AModeThatNoSampleShowsMayStand) {
   EXPECT_EQ("", warning(R"yaml(
 observer: ConstantGainObserver

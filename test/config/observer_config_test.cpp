@@ -66,7 +66,7 @@ TEST(ObserverConfigTest, ReadsEveryKey) {
   EXPECT_EQ(10000000, config.publish_delay);
   EXPECT_EQ(3 * kNanosecondsPerSecond, config.options.history.history);
   EXPECT_EQ(70u, config.options.history.max_events);
-  EXPECT_EQ(50000000, config.options.sampling.T1);
+  EXPECT_EQ(50000000, config.options.sampling.of_sensor(1).T1);
   EXPECT_EQ(250000000, config.options.future_tolerance);
   EXPECT_EQ("map", config.frame_id);
   EXPECT_EQ(50, config.real_time.priority);
@@ -81,8 +81,8 @@ TEST(ObserverConfigTest, ReadsEveryKey) {
 
 TEST(ObserverConfigTest, TakesTimesBetweenSamplesWithoutBounds) {
   const ObserverConfig config = parse(replaced(kGood, "{T1: 0.05, T2: 0.2}", "{T1: 0, T2: .inf}"));
-  EXPECT_EQ(0, config.options.sampling.T1);
-  EXPECT_EQ(kNoLongestTime, config.options.sampling.T2);
+  EXPECT_EQ(0, config.options.sampling.of_sensor(1).T1);
+  EXPECT_EQ(kNoLongestTime, config.options.sampling.of_sensor(1).T2);
 }
 
 TEST(ObserverConfigTest, OptionalKeysHaveDefaults) {

@@ -16,6 +16,11 @@ TEST(PlantFingerprintTest, WaysOfWritingDoNotMatter) {
   EXPECT_EQ(fingerprint("{a: {C: [[1]]}}"), fingerprint("{'a': {C: [[1.0]], gate: {}}}"));
 }
 
+TEST(PlantFingerprintTest, WhenASensorMeasuresIsNoPartOfThePlant) {
+  EXPECT_EQ(fingerprint("{a: {C: [[1]]}}"),
+            fingerprint("{a: {C: [[1]], sampling: {T1: 1, T2: 2}}}"));
+}
+
 TEST(PlantFingerprintTest, WhereThePlantJumpsIsNoPartOfWhatIsProved) {
   const auto of_plant = [](const std::string& plant) {
     return plant_fingerprint(read_yaml_text("plant: " + plant + "\nsensors: {}\n", "test.yaml"));

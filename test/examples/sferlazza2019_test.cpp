@@ -120,7 +120,8 @@ TEST_P(Sferlazza2019, TheCertificateGivesTheRatio) {
   const Eigen::MatrixXd C = scenario.plant->modes().front().outputs.front()->affine()->M();
   const Eigen::MatrixXd kernel = test::kernel(C);
   ASSERT_EQ(2, kernel.cols());
-  const SamplingBounds bounds = example.observer("scenario.yaml", "observer.yaml").options.sampling;
+  const SamplingBounds bounds =
+      example.observer("scenario.yaml", "observer.yaml").options.sampling.of_sensor(0);
   double largest = 0.0;
   double smallest = 1.0;
   for (int i = 0; i <= 1000; ++i) {

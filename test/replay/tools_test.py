@@ -81,6 +81,22 @@ scenario:
   initial_state: {x: 1}
   sensors: {position: {schedule: {period: 0.1}}}
 """
+# Two sensors, each at its own pace: every other time between samples of wheel is too long.
+TWO_SENSORS = """
+plant: {states: [p, v], A: [[0, 1], [0, 0]]}
+sensors:
+  gps: {C: [[1, 0]], sampling: {T1: 0.2, T2: 1}, source: {topic: gps}}
+  wheel: {C: [[0, 1]], sampling: {T1: 0.05, T2: 0.15}, source: {topic: wheel}}
+scenario:
+  duration: 3
+  initial_state: {p: 1, v: 1}
+  sensors: {gps: {schedule: {period: 0.5}}, wheel: {schedule: {file: times.txt}}}
+"""
+FUSION = """
+observer: ConstantGainObserver
+rate: 50
+gains: {L: {gps: [[0.5], [0.1]], wheel: [[0], [0.5]]}}
+"""
 
 
 # Two sensors, each sampled at times of its own; what they measure comes late, in another order.
@@ -191,6 +207,27 @@ class ToolsTest(FolderTest):
         self.simulate()
         self.assertIn("jumps       none: the bag has no topic /jumps\n",
                       self.succeed("replay", *self.replay()))
+
+    def test_each_sensor_is_compared_with_its_own_times(self):
+        self.scenario = self.write("scenario.yaml", TWO_SENSORS)
+        self.observer = self.write("observer.yaml", FUSION)
+        self.write("times.txt", "0.1\n0.2\n0.4\n0.5\n0.7\n")
+        text = self.succeed("simulate", self.scenario, "-o", self.path("run.bag"))
+        self.assertIn("simulate: scenario/sensors/wheel/schedule has times in [0.1, 0.2] s, not "
+                      "all inside [0.05, 0.15] s", text)
+        self.assertNotIn("gps/schedule", text)
+        text = self.succeed("replay", *self.replay("--json", self.path("summary.json")))
+        self.assertIn("intervals   of gps: 0.5 to 0.5 s, mean 0.5 s; 0 below T1 = 0.2 s, "
+                      "0 above T2 = 1 s\n", text)
+        self.assertIn("intervals   of wheel: 0.1 to 0.2 s, mean 0.15 s; 0 below T1 = 0.05 s, "
+                      "2 above T2 = 0.15 s\n", text)
+        with open(self.path("summary.json")) as summary:
+            sensors = json.load(summary)["sensors"]
+        self.assertEqual(sensors["gps"]["intervals"]["above_T2"], 0)
+        self.assertEqual(sensors["wheel"]["intervals"]["above_T2"], 2)
+        self.assertEqual(sensors["wheel"]["intervals"]["count"], 4)
+        self.assertEqual(sensors["wheel"]["samples_used"], 5)
+        self.assertEqual((sensors["gps"]["T1"], sensors["gps"]["T2"]), (0.2, 1))
 
     def test_errors_around_jumps_are_told_apart(self):
         self.scenario = self.write("scenario.yaml", BOUNCING)

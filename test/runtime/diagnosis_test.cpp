@@ -232,6 +232,57 @@ TEST_F(DiagnosisTest, IntervalsOutsideSuspendTheCertificateUntilTheyAreWithin) {
          diagnosis_.certificate());
 }
 
+TEST(DiagnosisOfSeveralSensorsTest, EachHasItsOwnTimes) {
+  DiagnosisSubject subject;
+  subject.channels = {{"gps", "/gps", EventKind::kSample, "", 0},
+                      {"wheel", "/wheel", EventKind::kSample, "", 2}};
+  subject.period = kSecond / 100;
+  subject.history = 2 * kSecond;
+  subject.guarantee = "a theorem";
+  subject.sampling = SensorSampling({SamplingBounds{kSecond / 5, 8 * kSecond}, std::nullopt,
+                                     SamplingBounds{kSecond / 20, 3 * kSecond}});
+  Diagnosis diagnosis(subject);
+  RunStatistics window(2);
+  window.newest_estimate = 99 * kSecond;
+  window.error_bound = 0.5;
+  for (ChannelStatistics& channel : window.channels) channel.outcomes[0] = 1;
+  window.channels[0].newest = 99 * kSecond;
+  window.channels[1].newest = 98 * kSecond;
+  diagnosis.update(window, 100 * kSecond, kSecond);
+  EXPECT_EQ("0.2 s", value(diagnosis.certificate(), "T1 of gps"));
+  EXPECT_EQ("3 s", value(diagnosis.certificate(), "T2 of wheel"));
+  EXPECT_EQ("no T1", value(diagnosis.certificate(), "T1"));
+  EXPECT_EQ("8 s", value(diagnosis.channel(0), "T2"));
+  EXPECT_EQ("0.05 s", value(diagnosis.channel(1), "T1"));
+  EXPECT_EQ("2 s", value(diagnosis.channel(1), "time since the last sample"));
+  EXPECT_EQ("no", value(diagnosis.channel(1), "late now"));
+
+  RunStatistics silent(2);
+  silent.newest_estimate = 101 * kSecond;
+  silent.error_bound = 0.5;
+  diagnosis.update(silent, 102 * kSecond, kSecond);
+  EXPECT_EQ("no", value(diagnosis.channel(0), "late now"));
+  EXPECT_EQ("by 1 s", value(diagnosis.channel(1), "late now"));
+  EXPECT_FALSE(diagnosis.is_suspended());
+  diagnosis.update(silent, 104 * kSecond, kSecond);
+  expect(HealthLevel::kOk, {}, diagnosis.channel(0));
+  expect(HealthLevel::kStale, {"nothing for 4 s on /wheel"}, diagnosis.channel(1));
+  expect(HealthLevel::kWarn, {"no sample of wheel for longer than T2 = 3 s"},
+         diagnosis.certificate());
+
+  window.channels[0].interval = {1, kSecond / 10, kSecond / 10, kSecond / 10};
+  window.channels[0].short_intervals = 1;
+  window.channels[0].violations = {1, 0, 104 * kSecond, 104 * kSecond};
+  diagnosis.update(window, 105 * kSecond, kSecond);
+  expect(HealthLevel::kWarn, {"outside of [0.2 s, 8 s]"}, diagnosis.channel(0));
+  expect(HealthLevel::kOk, {}, diagnosis.channel(1));
+  expect(HealthLevel::kWarn, {"wheel"}, diagnosis.certificate());
+  diagnosis.update(RunStatistics(2), 106 * kSecond, kSecond);
+  diagnosis.update(window, 107 * kSecond, kSecond);
+  EXPECT_EQ("2", value(diagnosis.channel(0), "below T1 in all"));
+  EXPECT_EQ("0", value(diagnosis.channel(1), "below T1 in all"));
+}
+
 TEST_F(DiagnosisTest, WhatComesAfterABoundThatRestedOnItsAbsenceSuspendsTheCertificate) {
   RunStatistics window = good();
   window.channels[0].after_bound = 2;

@@ -85,6 +85,24 @@ TEST_F(EstimatorTest, ChecksTheIntervalsBetweenSamples) {
   EXPECT_FALSE(submit({kStart + 3 * kSecond, EventKind::kJump, 0, {}}).interval);
 }
 
+TEST_F(EstimatorTest, EachSensorsIntervalsAreComparedWithItsOwnTimes) {
+  Estimator::Options own = options();
+  own.sampling = SensorSampling(
+      {SamplingBounds{kSecond, 2 * kSecond}, SamplingBounds{kSecond / 10, kSecond / 2}});
+  Estimator estimator(test::example_law(), own);
+  const auto check = [&](Stamp after, int sensor, std::vector<double> y) {
+    const OwnedEvent event{kStart + after, EventKind::kSample, sensor, std::move(y)};
+    return estimator.submit(event.view(), now_).interval_check;
+  };
+  check(0, 0, {1.0});
+  check(0, 1, {0.0, 0.0});
+  EXPECT_EQ(IntervalCheck::kWithin, check(kSecond / 2, 1, {0.0, 0.0}));
+  EXPECT_EQ(IntervalCheck::kWithin, check(kSecond, 0, {1.0}));
+  EXPECT_EQ(IntervalCheck::kLong, check(3 * kSecond / 2, 1, {0.0, 0.0}));
+  EXPECT_EQ(IntervalCheck::kShort, check(3 * kSecond / 2, 0, {1.0}));
+  EXPECT_EQ(IntervalCheck::kLong, check(4 * kSecond, 0, {1.0}));
+}
+
 TEST_F(EstimatorTest, RestartsFromTheConfiguredOrAGivenEstimate) {
   submit(sample(kStart));
   estimator_.restart(kStart + kSecond);
@@ -153,10 +171,12 @@ TEST_F(EstimatorTest, EventsAndEstimatesAllocateNothing) {
 
 TEST_F(EstimatorTest, RefusesBoundsThatMakeNoSense) {
   Estimator::Options bad = options();
-  bad.sampling.T1 = -1;
+  bad.sampling = {-1, kSecond};
   EXPECT_THROW(Estimator(test::example_law(), bad), std::invalid_argument);
   bad = options();
-  bad.sampling.T1 = bad.sampling.T2 + 1;
+  bad.sampling = {kSecond + 1, kSecond};
+  EXPECT_THROW(Estimator(test::example_law(), bad), std::invalid_argument);
+  bad.sampling = SensorSampling({SamplingBounds{0, kSecond}, SamplingBounds{2, 1}});
   EXPECT_THROW(Estimator(test::example_law(), bad), std::invalid_argument);
   bad = options();
   bad.future_tolerance = -1;

@@ -114,6 +114,8 @@ TEST(StatisticsRecorderTest, CountsEventsByChannelAndOutcome) {
   EXPECT_EQ(100, first.interval.largest);
   EXPECT_EQ(200, first.violations.smallest);
   EXPECT_EQ(201, first.violations.largest);
+  EXPECT_EQ(201, first.newest);
+  EXPECT_EQ(std::nullopt, window.channels[1].newest);
   EXPECT_EQ(60, first.latency.largest);
   EXPECT_EQ(1u, first.rewound.count);
   EXPECT_EQ(4, first.rewound.largest);

@@ -221,6 +221,30 @@ TEST(ScenarioConfigTest, FaultsAreNamedWithPathExpectedAndFound) {
   }
 }
 
+TEST(ScenarioConfigTest, SchedulesOutsideOfSamplingAreToldOf) {
+  const std::string scenario = R"yaml(
+plant: {states: [x], A: [[0]]}
+sensors:
+  a: {C: [[1]], sampling: {T1: 0.2, T2: 1}, source: {topic: a}}
+  b: {C: [[1]], source: {topic: b}}
+sampling: {a: {T1: 0, T2: 2}, b: {T1: 0.05, T2: 0.2}}
+scenario:
+  duration: 1
+  initial_state: {x: 0}
+  sensors: {a: {schedule: {uniform: [0.2, 1]}}, b: {schedule: {period: 0.05}}}
+)yaml";
+  EXPECT_TRUE(test::parse_scenario(scenario).warnings.empty());
+  const auto warnings =
+      test::parse_scenario(test::replaced(scenario, "[0.2, 1]", "[0.1, 1]")).warnings;
+  ASSERT_EQ(1u, warnings.size());
+  EXPECT_EQ(
+      "scenario/sensors/a/schedule has times in [0.1, 1] s, not all inside [0.2, 1] s, those of "
+      "'sampling'",
+      warnings.front());
+  EXPECT_EQ(1u, test::parse_scenario(test::replaced(scenario, "period: 0.05", "period: 0.3"))
+                    .warnings.size());
+}
+
 TEST(ScenarioConfigTest, ReadsTimesFromAFileBesideTheScenario) {
   const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "times_test";
   std::filesystem::create_directories(folder);

@@ -36,6 +36,8 @@ struct DiagnosisSubject {
     EventKind kind = EventKind::kSample;
     /// Of its messages, as "package/Type".
     std::string type;
+    /// Index of the sensor, for samples.
+    std::size_t sensor = 0;
   };
 
   /// In the order of RunStatistics::channels.
@@ -43,7 +45,7 @@ struct DiagnosisSubject {
   /// Of the estimates [ns].
   Duration period = 0;
   /// What intervals are compared with.
-  SamplingBounds sampling;
+  SensorSampling sampling;
   /// The history window [ns].
   Duration history = 0;
   /// By how much time may go back and is taken for corrected [ns].
@@ -52,6 +54,9 @@ struct DiagnosisSubject {
   std::string guarantee;
   /// As in ObserverConfig.
   std::string warning;
+
+  /// The times between the events of a channel.
+  const SamplingBounds& sampling_of(const Channel& channel) const;
 };
 
 /// Judges what an observer did in a time, for people who ask why there is no estimate, or why a
@@ -89,11 +94,13 @@ class Diagnosis {
     /// When the last window with a message, and the last with a used one, ended; 0: never.
     Stamp received = 0;
     Stamp used = 0;
+    /// The newest stamp of those used; 0: none was.
+    Stamp newest = 0;
     /// How far all stamps of the last window with a message lie behind the clock, where that is
     /// more than the history window; 0: they do not.
     Duration behind = 0;
 
-    void forget_events() { received = used = behind = 0; }
+    void forget_events() { received = used = newest = behind = 0; }
   };
   /// What the certificate rests on and does not hold.
   struct Suspension {
@@ -108,6 +115,8 @@ class Diagnosis {
   std::string wrong_type(std::size_t channel) const;
   std::string why_stamps_are_old() const;
   std::string rejections(const ChannelStatistics& statistics) const;
+  void add_times_between_samples(std::size_t index, Finding& finding) const;
+  void add_bounds_of_all(Finding& finding) const;
 
   const DiagnosisSubject subject_;
   ClockJumps clock_;

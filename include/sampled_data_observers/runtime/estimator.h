@@ -9,6 +9,7 @@
 #include "sampled_data_observers/hybrid/timeline.h"
 #include "sampled_data_observers/observer/observer_law.h"
 #include "sampled_data_observers/runtime/event_report.h"
+#include "sampled_data_observers/runtime/sensor_sampling.h"
 
 namespace sampled_data_observers {
 
@@ -18,13 +19,6 @@ constexpr double kLargestValue = 1e100;
 
 /// Whether all values are finite and not beyond kLargestValue.
 bool is_admissible(const Eigen::Ref<const Eigen::VectorXd>& values);
-
-/// The bounds T1 <= T2 on the time between samples, or between jumps where there are no samples,
-/// for which the gains were designed [ns].
-struct SamplingBounds {
-  Duration T1 = 0;  ///< the shortest, >= 0
-  Duration T2 = 0;  ///< the longest; kNoLongestTime where there is none
-};
 
 /// An estimate and what it rests on.
 struct Estimate {
@@ -80,7 +74,7 @@ class Estimator {
     /// How far back events are kept, and how many.
     Timeline::Limits history;
     /// What intervals are compared with, in the report of each event.
-    SamplingBounds sampling;
+    SensorSampling sampling;
     /// How far a stamp may lie after the time of its arrival [ns], >= 0.
     Duration future_tolerance = 0;
     /// How long after their stamps inputs and jumps may come [ns], >= 0; 0 where they are taken to

@@ -20,6 +20,8 @@ struct ChannelStatistics {
   std::array<std::uint64_t, kEventOutcomes> outcomes{};
   /// Time of arrival minus stamp [ns].
   Range latency;
+  /// The newest stamp of an event that was used.
+  std::optional<Stamp> newest;
   /// Time between used samples of this sensor [ns].
   Range interval;
   /// How many of them were below T1.
@@ -121,6 +123,8 @@ class StatisticsRecorder {
   struct Channel {
     std::array<std::atomic<std::uint64_t>, kEventOutcomes> outcomes{};
     RangeRecorder latency;
+    /// 0 where there is none.
+    std::atomic<Stamp> newest{0};
     RangeRecorder interval;
     std::atomic<std::uint64_t> short_intervals{0};
     std::atomic<std::uint64_t> long_intervals{0};

@@ -1,0 +1,53 @@
+// What diagnostics say of the times between events.
+#include <algorithm>
+#include <utility>
+
+#include "runtime/diagnosis_text.h"
+#include "sampled_data_observers/runtime/diagnosis.h"
+
+namespace sampled_data_observers {
+
+using diagnosis_text::longest;
+using diagnosis_text::seconds;
+
+const SamplingBounds& DiagnosisSubject::sampling_of(const Channel& channel) const {
+  return channel.kind == EventKind::kSample ? sampling.of_sensor(channel.sensor)
+                                            : sampling.of_all();
+}
+
+/// Those of a channel of samples. How long ago the last one was, by its stamp, says whether it is
+/// late before the next one comes.
+void Diagnosis::add_times_between_samples(std::size_t index, Finding& finding) const {
+  const SamplingBounds& bounds = subject_.sampling_of(subject_.channels[index]);
+  const ChannelStatistics& total = totals_.channels[index];
+  const Stamp newest = memory_[index].newest;
+  const Duration since = newest > 0 ? std::max<Duration>(now_ - newest, 0) : 0;
+  const bool is_late = since > bounds.T2;
+  finding.values.insert(
+      finding.values.end(),
+      {{"T1", seconds(bounds.T1)},
+       {"T2", longest(bounds.T2)},
+       {"time between samples", diagnosis_text::extremes(window_.channels[index].interval)},
+       {"below T1 in all", std::to_string(total.short_intervals)},
+       {"above T2 in all", std::to_string(total.long_intervals)},
+       {"time since the last sample", newest > 0 ? seconds(since) : "none"},
+       {"late now", is_late ? "by " + seconds(since - bounds.T2) : "no"}});
+}
+
+/// T1 and T2, by sensor where they differ.
+void Diagnosis::add_bounds_of_all(Finding& finding) const {
+  const SamplingBounds& all = subject_.sampling.of_all();
+  std::vector<std::pair<std::string, std::string>> by_sensor;
+  bool differ = false;
+  for (const DiagnosisSubject::Channel& channel : subject_.channels) {
+    if (channel.kind != EventKind::kSample) continue;
+    const SamplingBounds& bounds = subject_.sampling_of(channel);
+    differ = differ || bounds.T1 != all.T1 || bounds.T2 != all.T2;
+    by_sensor.emplace_back("T1 of " + channel.name, seconds(bounds.T1));
+    by_sensor.emplace_back("T2 of " + channel.name, longest(bounds.T2));
+  }
+  if (!differ) by_sensor = {{"T1", seconds(all.T1)}, {"T2", longest(all.T2)}};
+  finding.values.insert(finding.values.end(), by_sensor.begin(), by_sensor.end());
+}
+
+}  // namespace sampled_data_observers
