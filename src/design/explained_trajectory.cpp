@@ -224,8 +224,9 @@ class TrajectoryExplanation {
   static double sign_of_determinant(const Eigen::MatrixXd& J) {
     double negative = 1.0;
     // The product of the eigenvalues: complex ones come in pairs, whose product is positive.
-    for (const std::complex<double>& value : eigenvalues_of(J)) {
-      if (value.imag() == 0.0 && value.real() < 0.0) negative = -negative;
+    const Eigen::VectorXcd eigenvalues = eigenvalues_of(J);
+    for (Eigen::Index i = 0; i < eigenvalues.size(); ++i) {
+      if (eigenvalues(i).imag() == 0.0 && eigenvalues(i).real() < 0.0) negative = -negative;
     }
     return negative;
   }

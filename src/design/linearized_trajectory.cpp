@@ -19,11 +19,9 @@ Eigen::MatrixXd jacobian(const VectorMap& map, const Eigen::VectorXd& x, const E
 }
 
 /// Ones in the place of zeros.
-Eigen::VectorXd sizes_of(Eigen::VectorXd largest) {
-  for (double& size : largest) {
-    if (!(size > 0.0 && std::isfinite(size))) size = 1.0;
-  }
-  return largest;
+Eigen::VectorXd sizes_of(const Eigen::VectorXd& largest) {
+  return largest.unaryExpr(
+      [](double size) { return size > 0.0 && std::isfinite(size) ? size : 1.0; });
 }
 
 class Linearization {

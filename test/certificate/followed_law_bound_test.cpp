@@ -112,7 +112,7 @@ class FollowedRun {
   Eigen::VectorXd random_direction() {
     std::normal_distribution<double> normal;
     Eigen::VectorXd direction(plant_.states());
-    for (double& entry : direction) entry = normal(generator_);
+    for (Eigen::Index i = 0; i < direction.size(); ++i) direction(i) = normal(generator_);
     return direction.normalized();
   }
 
