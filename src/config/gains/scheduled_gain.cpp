@@ -10,15 +10,15 @@ constexpr char kNodes[] =
 
 /// The nodes of one sensor's time.
 std::vector<double> read_nodes(ConfigSection& timers, const std::string& sensor) {
-  const std::vector<Eigen::VectorXd> lists = timers.vectors(sensor);
+  const Eigen::VectorXd times = timers.vectors(sensor).front();
   if (timers.is_matrix(sensor)) throw timers.error(sensor, kNodes, "a list of lists");
   std::string found;
   std::vector<double> nodes;
   bool increase = true;
-  for (const double time : lists.front()) {
-    found += (nodes.empty() ? "" : ", ") + number_text(time);
-    increase = increase && (nodes.empty() ? time == 0.0 : time > nodes.back());
-    nodes.push_back(time);
+  for (Eigen::Index i = 0; i < times.size(); ++i) {
+    found += (i == 0 ? "" : ", ") + number_text(times(i));
+    increase = increase && (i == 0 ? times(i) == 0.0 : times(i) > nodes.back());
+    nodes.push_back(times(i));
   }
   if (nodes.size() < 2 || !increase) throw timers.error(sensor, kNodes, "[" + found + "]");
   return nodes;
