@@ -140,7 +140,11 @@ class ErrorBound {
   virtual void ellipsoid(const double* state, double* workspace,
                          Eigen::Ref<Eigen::MatrixXd> Q) const {
     static_cast<void>(workspace);
-    const double radius = bound(state);
+    set_to_ball(bound(state), Q);
+  }
+
+ protected:
+  static void set_to_ball(double radius, Eigen::Ref<Eigen::MatrixXd> Q) {
     Q.setZero();
     Q.diagonal().setConstant(radius * radius);
   }

@@ -7,6 +7,7 @@
 #include "certificate/bound_flow.h"
 #include "certificate/interval_bound.h"
 #include "certificate/outward.h"
+#include "certificate/sublevel_set.h"
 #include "certificate/weighted_norm.h"
 #include "linear_algebra/matrix_functions.h"
 
@@ -27,6 +28,7 @@ class IssBound : public SampledErrorBound {
     final_ = raised(level * level / rate_);
     per_error_ = std::sqrt(largest_eigenvalue_above(P));
     least_ = positive_least_eigenvalue(P, "P");
+    set_ = SublevelSet(P, least_);
     growth_ = -std::numeric_limits<double>::infinity();
     for (const Eigen::MatrixXd& flow : etienne2019_flows(subject.plant)) {
       growth_ = std::max(growth_, growth_above(P, flow));
@@ -62,6 +64,14 @@ class IssBound : public SampledErrorBound {
   double error(const Interval&, const double* numbers) const override {
     return numbers[kRootOfV] / std::sqrt(least_);
   }
+  void errors(const Interval&, const double* numbers, double*,
+              Eigen::Ref<Eigen::VectorXd> bounds) const override {
+    set_.bounds(numbers[kRootOfV], bounds);
+  }
+  void error_ellipsoid(const Interval&, const double* numbers, double*,
+                       Eigen::Ref<Eigen::MatrixXd> Q) const override {
+    set_.ellipsoid(numbers[kRootOfV], Q);
+  }
 
  private:
   enum Entry { kRootOfV, kAtSample, kEntries };  // √V now, and just after the last sample
@@ -70,6 +80,7 @@ class IssBound : public SampledErrorBound {
   double final_ = 0.0;  // of V
   double per_error_ = 0.0;
   double least_ = 0.0;
+  SublevelSet set_;  // of V
   double growth_ = 0.0;
   double push_ = 0.0;
   double held_ = 0.0;        // ‖L C‖ in the norm of P

@@ -3,6 +3,7 @@
 
 #include "certificate/exponential_norm.h"
 #include "certificate/ferrante2016_bounds.h"
+#include "certificate/flown_errors.h"
 #include "certificate/interval_bound.h"
 #include "certificate/linear_sampling.h"
 #include "certificate/theorems.h"
@@ -20,6 +21,7 @@ Eigen::MatrixXd unit(const CertificateSubject& subject) {
 ///   ‖R e^{Aτ} (I − LC) R⁻¹‖ level + ‖R e^{Aτ} L‖ |η|,
 /// where by (12) the first factor is less than 1 for τ in [T1, T2]. This is how V changes in (19)
 /// and (29), with the τ that came rather than the worst one, whether it lies in [T1, T2] or not.
+/// Until the next sample the error is e^{Aτ} ((I − LC) R⁻¹ z level − L η) with |z| <= 1.
 class Theorem1Bound : public SampledErrorBound {
  public:
   /// @param kept  (I − LC) R⁻¹
@@ -33,7 +35,10 @@ class Theorem1Bound : public SampledErrorBound {
         growth_(unit(subject), subject.plant.A(), kept, subject.T2, growth),
         weight_(R, subject.plant.A(), kept, subject.T2, growth),
         noise_growth_(unit(subject), subject.plant.A(), L, subject.T2, growth),
-        noise_weight_(R, subject.plant.A(), L, subject.T2, growth) {}
+        noise_weight_(R, subject.plant.A(), L, subject.T2, growth),
+        errors_(subject.plant.A(), growth, shapes(subject, R, L)) {}
+
+  Eigen::Index workspace_size() const override { return errors_.workspace_size(); }
 
  protected:
   void begin_numbers(double error, double* level) const override { *level = error; }
@@ -50,8 +55,36 @@ class Theorem1Bound : public SampledErrorBound {
     if (at.is_first) return first_growth_.at(at.tau) * *level;
     return growth_.at(at.tau) * *level + noise_growth_.at(at.tau) * noise_;
   }
+  void errors(const Interval& at, const double* level, double* workspace,
+              Eigen::Ref<Eigen::VectorXd> bounds) const override {
+    errors_.bounds(at.tau, balls(at, *level), workspace, bounds);
+  }
+  void error_ellipsoid(const Interval& at, const double* level, double* workspace,
+                       Eigen::Ref<Eigen::MatrixXd> Q) const override {
+    errors_.ellipsoid(at.tau, balls(at, *level), workspace, Q);
+  }
 
  private:
+  enum Shape : std::size_t { kAny, kKept, kNoise };
+
+  static std::vector<FlownErrors::Shape> shapes(const CertificateSubject& subject,
+                                                const Eigen::MatrixXd& R,
+                                                const Eigen::MatrixXd& L) {
+    const Eigen::MatrixXd& C = subject.plant.C();
+    const Eigen::MatrixXd I = unit(subject);
+    const FlownErrors::Shape LC =
+        product_with_rounding(L, 0.0 * L, {C, Eigen::MatrixXd::Zero(C.rows(), C.cols())});
+    const Eigen::MatrixXd rounding = LC.rounding + 1e-15 * (I + LC.X.cwiseAbs());
+    return {{I, 0.0 * I},
+            product_with_rounding(I - LC.X, rounding, inverse_with_rounding(R)),
+            {L, 0.0 * L}};
+  }
+
+  FlownErrors::Balls balls(const Interval& at, double level) const {
+    if (at.is_first) return {{kAny, level}};
+    return {{kKept, level}, {kNoise, noise_}};
+  }
+
   double noise_;
   ExponentialNorm first_growth_;
   ExponentialNorm first_weight_;
@@ -59,6 +92,7 @@ class Theorem1Bound : public SampledErrorBound {
   ExponentialNorm weight_;
   ExponentialNorm noise_growth_;
   ExponentialNorm noise_weight_;
+  FlownErrors errors_;
 };
 
 class Ferrante2016Theorem1 : public Theorem {

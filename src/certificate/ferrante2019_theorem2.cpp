@@ -8,6 +8,7 @@
 #include "certificate/ferrante2019_matrix.h"
 #include "certificate/interval_bound.h"
 #include "certificate/outward.h"
+#include "certificate/sublevel_set.h"
 #include "certificate/theorems.h"
 #include "linear_algebra/matrix_functions.h"
 
@@ -38,8 +39,9 @@ double initial_V(const CertificateSubject& subject, const NamedMatrices& values)
 /// W >= V with the timer τ set as if the next sample came T2 after the last: that decides nothing
 /// of the flow, and at an earlier sample V falls all the more. So
 ///   Ẇ = −2 λ W + γ² |w|² between samples (18), W⁺ = W + ω2 |η|² at them (19),
-/// and |ε|² <= W / λ_min(P1). T1 plays no part. Later than T2 after a sample the timer stands
-/// still: then V̇ lacks −δ e^{δτ} θ̃ᵀ P2 θ̃ and Ẇ = (δ − 2 λ) W + γ² |w|², until the next sample.
+/// and |ε|² <= W / λ_min(P1), ε_j² <= W (P1⁻¹)_jj. T1 plays no part. Later than T2 after a sample
+/// the timer stands still: then V̇ lacks −δ e^{δτ} θ̃ᵀ P2 θ̃ and Ẇ = (δ − 2 λ) W + γ² |w|², until the
+/// next sample.
 class LyapunovErrorBound : public SampledErrorBound {
  public:
   LyapunovErrorBound(const CertificateSubject& subject, const NamedMatrices& values, double rate,
@@ -55,6 +57,7 @@ class LyapunovErrorBound : public SampledErrorBound {
     }
     per_sample_ = V.omega_2 * assumptions.noise * assumptions.noise;
     least_ = positive_least_eigenvalue(values.at("P1"), "P1");
+    set_ = SublevelSet(values.at("P1"), least_);
     of_estimate_ = V.alpha_2;
     // θ̃ = C ε − θ at first, and √V is a norm of (ε, θ̃).
     root_per_error_ = std::sqrt(initial_V(subject, values));
@@ -85,6 +88,14 @@ class LyapunovErrorBound : public SampledErrorBound {
   double error(const Interval&, const double* numbers) const override {
     return std::sqrt(numbers[kW] / least_);
   }
+  void errors(const Interval&, const double* numbers, double*,
+              Eigen::Ref<Eigen::VectorXd> bounds) const override {
+    set_.bounds(std::sqrt(numbers[kW]), bounds);
+  }
+  void error_ellipsoid(const Interval&, const double* numbers, double*,
+                       Eigen::Ref<Eigen::MatrixXd> Q) const override {
+    set_.ellipsoid(std::sqrt(numbers[kW]), Q);
+  }
 
  private:
   enum Entry { kW, kOfEstimate, kEntries };  // W, and what of it is ε's where the estimate begins
@@ -98,6 +109,7 @@ class LyapunovErrorBound : public SampledErrorBound {
   double root_per_error_ = 0.0;     // √V at first, of |ε| = 1
   double root_of_injection_ = 0.0;  // and of θ
   double least_ = 0.0;              // λ_min(P1)
+  SublevelSet set_;                 // of εᵀ P1 ε
 };
 
 /// Theorem 2, and its corollaries for a rate only and for a gain only.

@@ -37,7 +37,8 @@ namespace sampled_data_observers {
 /// are told within 2 δ, so that nobody knows which was first, or one of a plant with inputs, modes
 /// or angles measured at jumps, it is lost.
 ///
-/// A share of 64 n ε of |x̂| is added for the rounding of the estimate, n the number of its states.
+/// A share of 64 n ε of |x̂| is added for the rounding of the estimate, n the number of its states:
+/// to the bound on the norm, to that on each state, and to the ellipsoid.
 class GuaranteedBound : public LawDecorator, public StateBound {
  public:
   /// @param law    of that plant
@@ -53,6 +54,10 @@ class GuaranteedBound : public LawDecorator, public StateBound {
   Effect reset(const Event& event, double* state, double* workspace) const override;
   double error_bound(const double* state) const override;
   BoundLoss bound_loss(const double* state) const override;
+  void state_bounds(const double* state, double* workspace,
+                    Eigen::Ref<Eigen::VectorXd> bounds) const override;
+  void error_ellipsoid(const double* state, double* workspace,
+                       Eigen::Ref<Eigen::MatrixXd> Q) const override;
   PublishedBound known_bound(const double* state) const override;
   void keep_bound(const PublishedBound& bound, double* state) const override;
   void give_up(double* state) const override;
@@ -68,6 +73,7 @@ class GuaranteedBound : public LawDecorator, public StateBound {
   };
 
   double bound_of(const Part& part, const double* state) const;
+  double rounding(const double* state) const;
   double with_rounding(double bound, const double* state) const;
   bool is_near_jump(const double* state) const;
   void settle(const Part& part, double* state) const;

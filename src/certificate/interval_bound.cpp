@@ -26,6 +26,36 @@ double IntervalBound::bound(const double* state) const {
   return is_lost(state) ? kInfinity : error(interval(state), numbers(state));
 }
 
+void IntervalBound::state_bounds(const double* state, double* workspace,
+                                 Eigen::Ref<Eigen::VectorXd> bounds) const {
+  if (is_lost(state)) {
+    bounds.setConstant(kInfinity);
+  } else {
+    errors(interval(state), numbers(state), workspace, bounds);
+  }
+}
+
+void IntervalBound::ellipsoid(const double* state, double* workspace,
+                              Eigen::Ref<Eigen::MatrixXd> Q) const {
+  if (is_lost(state)) {
+    ErrorBound::ellipsoid(state, workspace, Q);
+  } else {
+    error_ellipsoid(interval(state), numbers(state), workspace, Q);
+  }
+}
+
+void IntervalBound::errors(const Interval& at, const double* numbers, double* workspace,
+                           Eigen::Ref<Eigen::VectorXd> bounds) const {
+  static_cast<void>(workspace);
+  bounds.setConstant(error(at, numbers));
+}
+
+void IntervalBound::error_ellipsoid(const Interval& at, const double* numbers, double* workspace,
+                                    Eigen::Ref<Eigen::MatrixXd> Q) const {
+  static_cast<void>(workspace);
+  set_to_ball(error(at, numbers), Q);
+}
+
 void IntervalBound::flow_numbers(double duration, const Interval& from, double* numbers) const {
   static_cast<void>(duration);
   static_cast<void>(from);

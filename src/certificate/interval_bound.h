@@ -18,6 +18,10 @@ class IntervalBound : public ErrorBound {
   void begin(double error, double* state) const final;
   void flow(double duration, double* state) const final;
   double bound(const double* state) const final;
+  void state_bounds(const double* state, double* workspace,
+                    Eigen::Ref<Eigen::VectorXd> bounds) const override;
+  void ellipsoid(const double* state, double* workspace,
+                 Eigen::Ref<Eigen::MatrixXd> Q) const override;
   double jump_stamp_error() const final { return jump_stamp_error_; }
   bool lets_jumps_coincide() const final { return jumps_coincide_; }
 
@@ -46,6 +50,14 @@ class IntervalBound : public ErrorBound {
 
   /// The bound on |x − x̂|.
   virtual double error(const Interval& at, const double* numbers) const = 0;
+
+  /// Those on its entries. By default error() for each.
+  virtual void errors(const Interval& at, const double* numbers, double* workspace,
+                      Eigen::Ref<Eigen::VectorXd> bounds) const;
+
+  /// The ellipsoid around it. By default the ball of error().
+  virtual void error_ellipsoid(const Interval& at, const double* numbers, double* workspace,
+                               Eigen::Ref<Eigen::MatrixXd> Q) const;
 
   // Whether an event at τ [s] after the one before is among those that the theorem is about.
   bool is_foreseen(double tau) const { return T1_ <= tau && tau <= T2_; }

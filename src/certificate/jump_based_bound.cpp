@@ -6,6 +6,7 @@
 #include "certificate/bound_flow.h"
 #include "certificate/interval_bound.h"
 #include "certificate/outward.h"
+#include "certificate/sublevel_set.h"
 #include "certificate/weighted_norm.h"
 #include "linear_algebra/matrix_functions.h"
 
@@ -30,7 +31,9 @@ class JumpBasedBound : public IntervalBound {
     uncorrected_ = norm_between(P, P, A_d);
     noise_ = norm_into(P, L_d) * assumptions.noise;
     per_error_ = std::sqrt(largest_eigenvalue_above(P));
-    least_ = std::sqrt(positive_least_eigenvalue(P, "P"));
+    const double least_eigenvalue = positive_least_eigenvalue(P, "P");
+    least_ = std::sqrt(least_eigenvalue);
+    set_ = SublevelSet(P, least_eigenvalue);
     if (jump_stamp_error() == 0.0) return;
     flow_norm_ = raised(norm2(A));
     flown_ = raised(std::exp(flow_norm_ * jump_stamp_error()));
@@ -74,6 +77,14 @@ class JumpBasedBound : public IntervalBound {
   }
   double error(const Interval& at, const double* numbers) const override {
     return weighted_error(at, numbers) / least_;
+  }
+  void errors(const Interval& at, const double* numbers, double*,
+              Eigen::Ref<Eigen::VectorXd> bounds) const override {
+    set_.bounds(weighted_error(at, numbers), bounds);
+  }
+  void error_ellipsoid(const Interval& at, const double* numbers, double*,
+                       Eigen::Ref<Eigen::MatrixXd> Q) const override {
+    set_.ellipsoid(weighted_error(at, numbers), Q);
   }
 
  private:
@@ -124,6 +135,7 @@ class JumpBasedBound : public IntervalBound {
   double noise_ = 0.0;
   double per_error_ = 0.0;  // |e|_P of |e| = 1
   double least_ = 0.0;
+  SublevelSet set_;  // of |e|_P²
   // Where stamps of jumps may be off.
   double flow_norm_ = 0.0;   // ‖A‖
   double flown_ = 1.0;       // of ‖e^{Aε}‖

@@ -96,6 +96,16 @@ class HeldOutputBound : public IntervalBound {
     const double error = values[kError];
     return values[kMode] == kUntold ? error : error / norms_.at(values[kMode]).least;
   }
+  void errors(const Interval& at, const double* values, double* workspace,
+              Eigen::Ref<Eigen::VectorXd> bounds) const override {
+    if (values[kMode] == kUntold) return IntervalBound::errors(at, values, workspace, bounds);
+    norms_.at(values[kMode]).set.bounds(values[kError], bounds);
+  }
+  void error_ellipsoid(const Interval& at, const double* values, double* workspace,
+                       Eigen::Ref<Eigen::MatrixXd> Q) const override {
+    if (values[kMode] == kUntold) return IntervalBound::error_ellipsoid(at, values, workspace, Q);
+    norms_.at(values[kMode]).set.ellipsoid(values[kError], Q);
+  }
 
  private:
   enum Entry {
@@ -191,6 +201,16 @@ class SwitchBound : public IntervalBound {
   double error(const Interval& at, const double* values) const override {
     if (values[kMode] == kUntold) return values[kAfterSwitch];
     return weighted_error(at, values) / norms_.at(values[kMode]).least;
+  }
+  void errors(const Interval& at, const double* values, double* workspace,
+              Eigen::Ref<Eigen::VectorXd> bounds) const override {
+    if (values[kMode] == kUntold) return IntervalBound::errors(at, values, workspace, bounds);
+    norms_.at(values[kMode]).set.bounds(weighted_error(at, values), bounds);
+  }
+  void error_ellipsoid(const Interval& at, const double* values, double* workspace,
+                       Eigen::Ref<Eigen::MatrixXd> Q) const override {
+    if (values[kMode] == kUntold) return IntervalBound::error_ellipsoid(at, values, workspace, Q);
+    norms_.at(values[kMode]).set.ellipsoid(weighted_error(at, values), Q);
   }
 
  private:

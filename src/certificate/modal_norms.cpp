@@ -17,8 +17,10 @@ ModalNorms::ModalNorms(const CertificateSubject& subject, const std::vector<Moda
     const ModalProof& proof = modes[i];
     OfMode& norms = modes_.emplace_back();
     norms.per_error = std::sqrt(largest_eigenvalue_above(proof.P));
-    norms.least = std::sqrt(positive_least_eigenvalue(
-        proof.P, modes.size() > 1 ? of_mode("P", plant) : std::string("P")));
+    const double least = positive_least_eigenvalue(
+        proof.P, modes.size() > 1 ? of_mode("P", plant) : std::string("P"));
+    norms.least = std::sqrt(least);
+    norms.set = SublevelSet(proof.P, least);
     norms.growth = growth_above(proof.P, plant.A);
     norms.push = norm_into(proof.P, subject.plant.N) * assumptions.disturbance;
     norms.injection = norm_into(proof.P, proof.L_c);

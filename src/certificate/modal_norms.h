@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "certificate/modal_bound.h"
+#include "certificate/sublevel_set.h"
 
 namespace sampled_data_observers {
 
@@ -18,6 +19,7 @@ class ModalNorms {
   struct OfMode {
     double per_error = 0.0;           ///< |e|_q of |e| = 1
     double least = 0.0;               ///< the least of them
+    SublevelSet set;                  ///< of |e|_q²
     double growth = 0.0;              ///< 1/s: of |e|_q by the plant's flow
     double push = 0.0;                ///< |N w|_q at most, per second
     double injection = 0.0;           ///< |L_c|_q

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "certificate/exponential_norm.h"
+#include "certificate/flown_errors.h"
 #include "certificate/interval_bound.h"
 #include "certificate/linear_sampling.h"
 #include "certificate/outward.h"
@@ -44,11 +45,15 @@ class Theorem2Bound : public SampledErrorBound {
         forward_(subject.plant.A(), Eigen::MatrixXd::Zero(n_, 0)),
         backward_(-subject.plant.A(), Eigen::MatrixXd::Zero(n_, 0)),
         growth_(Eigen::MatrixXd::Identity(n_, n_), subject.plant.A(), inverse_R_, subject.T2,
-                flow_growth(subject.plant.A(), subject.T2)) {}
+                flow_growth(subject.plant.A(), subject.T2)),
+        errors_(subject.plant.A(), flow_growth(subject.plant.A(), subject.T2),
+                {inverse_with_rounding(R)}) {}
 
   Eigen::Index workspace_size() const override {
-    return kSquares * n_ * n_ + n_ * m_ + m_ * n_ +
-           std::max({n_, gain_->workspace_size(), spectral_norm_workspace(n_)});
+    const Eigen::Index of_sample =
+        kSquares * n_ * n_ + n_ * m_ + m_ * n_ +
+        std::max({n_, gain_->workspace_size(), spectral_norm_workspace(n_)});
+    return std::max(of_sample, errors_.workspace_size());
   }
 
  protected:
@@ -60,6 +65,14 @@ class Theorem2Bound : public SampledErrorBound {
   }
   double error(const Interval& at, const double* level) const override {
     return growth_.at(at.tau) * *level;
+  }
+  void errors(const Interval& at, const double* level, double* workspace,
+              Eigen::Ref<Eigen::VectorXd> bounds) const override {
+    errors_.bounds(at.tau, {{0, *level}}, workspace, bounds);
+  }
+  void error_ellipsoid(const Interval& at, const double* level, double* workspace,
+                       Eigen::Ref<Eigen::MatrixXd> Q) const override {
+    errors_.ellipsoid(at.tau, {{0, *level}}, workspace, Q);
   }
 
  private:
@@ -143,6 +156,7 @@ class Theorem2Bound : public SampledErrorBound {
   LinearFlow forward_;      ///< of ẋ = A x
   LinearFlow backward_;     ///< of ẋ = −A x, as the law has it
   ExponentialNorm growth_;  ///< ‖e^{Aτ} R⁻¹‖
+  FlownErrors errors_;      ///< e^{Aτ} R⁻¹ z level, |z| <= 1
 };
 
 /// The theorem as printed, or with a rate of convergence.

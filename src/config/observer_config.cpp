@@ -150,7 +150,7 @@ ObserverConfig read_observer_config(const ConfigNode& tree, const PlantPluginLoa
   config.publish_on_event = root.flag("publish_on_event", false);
   config.real_time = read_real_time(root);
   config.outputs = read_outputs(root, {config.law->estimate_names(), config.plant->input_names()},
-                                config.frame_id);
+                                config.frame_id, config.law->has_bound());
   config.reset_on_time_jump_back = root.flag("reset_on_time_jump_back", false);
   config.jump_back_tolerance =
       from_seconds(root.number_in("jump_back_tolerance", 0.0, kLongest, 1.0));

@@ -117,6 +117,39 @@ TransformOutput read_transform(ConfigSection section) {
   return transform;
 }
 
+std::size_t count_states(const BodyNumber* numbers, std::size_t size) {
+  return static_cast<std::size_t>(std::count_if(
+      numbers, numbers + size, [](const BodyNumber& number) { return number.state.has_value(); }));
+}
+
+/// An ellipsoid of the pose follows from that of the states where the pose's error is linear in
+/// theirs: a rotation about one axis that is known turns by the error of its angle.
+bool reads_bounded_pose(ConfigSection& section, const OutputsConfig& outputs, bool has_bound) {
+  const std::string key = "pose_covariance";
+  if (!section.has(key)) return false;
+  if (section.choice(key, {"observer", "guaranteed_ellipsoid"}) == "observer") return false;
+  if (!outputs.odometry && !outputs.pose) {
+    throw section.error(key, "odometry or pose beside guaranteed_ellipsoid", "neither");
+  }
+  if (!has_bound) {
+    throw section.error(key,
+                        "with guaranteed_ellipsoid, error_assumptions and a certificate that "
+                        "holds, from which a bound on the error follows",
+                        "no such bound");
+  }
+  const BodyStates& body = outputs.body;
+  const std::size_t turns =
+      body.quaternion ? 2 * count_states(body.quaternion->data(), body.quaternion->size())
+                      : count_states(body.roll_pitch_yaw.data(), body.roll_pitch_yaw.size());
+  if (turns > 1) {
+    throw section.error(key,
+                        "with guaranteed_ellipsoid, one state at most among roll, pitch and yaw: "
+                        "the error of a rotation is linear in no more",
+                        body.quaternion ? "a quaternion of states" : "several");
+  }
+  return true;
+}
+
 /// What the outputs need to mean anything.
 void require_frames(ConfigSection& section, const OutputsConfig& outputs) {
   if (outputs.world_frame.empty()) {
@@ -159,7 +192,7 @@ void require_states(ConfigSection& section, const OutputsConfig& outputs) {
 }  // namespace
 
 std::optional<OutputsConfig> read_outputs(ConfigSection& root, const BodyNames& names,
-                                          const std::string& world_frame) {
+                                          const std::string& world_frame, bool has_bound) {
   if (!root.has("outputs")) return std::nullopt;
   ConfigSection section = root.section("outputs");
   OutputsConfig outputs;
@@ -170,6 +203,7 @@ std::optional<OutputsConfig> read_outputs(ConfigSection& root, const BodyNames& 
   outputs.pose = read_topic(section, "pose");
   outputs.twist = read_topic(section, "twist");
   if (section.has("tf")) outputs.transform = read_transform(section.section("tf"));
+  outputs.pose_is_bounded = reads_bounded_pose(section, outputs, has_bound);
   section.finish();
   require_frames(section, outputs);
   require_states(section, outputs);

@@ -10,6 +10,37 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
+/// All but the bounds on its entries, for which there is room afterwards.
+void write_estimate(const Estimate& estimate, const PublishedBound& bound,
+                    const std::string& frame_id, StateEstimate& message) {
+  const ObserverLaw& law = *estimate.law;
+  const Eigen::Index size = law.estimate_size();
+  message.header.stamp = to_ros_time(estimate.stamp);
+  message.header.frame_id = frame_id;
+  message.names = law.estimate_names();
+  message.state.assign(estimate.state.data(), estimate.state.data() + size);
+  const double* covariance = law.observer().covariance(estimate.state.data());
+  if (covariance != nullptr) message.covariance.assign(covariance, covariance + size * size);
+  message.error_bound = bound.value;
+  message.error_bounds.resize(law.has_bound() ? static_cast<std::size_t>(size) : 0);
+  message.time_since_sample = estimate.counts.last_sample
+                                  ? to_seconds(estimate.stamp - *estimate.counts.last_sample)
+                                  : kNone;
+  message.events = estimate.counts.events;
+  message.samples = estimate.counts.samples;
+  message.jumps = estimate.counts.jumps;
+  const double* whole = estimate.state.data();
+  message.missing_jumps = static_cast<std::uint64_t>(law.missing_jumps(whole));
+  message.skipped_jumps = static_cast<std::uint64_t>(law.skipped_jumps(whole));
+  message.dwell_violations = static_cast<std::uint64_t>(law.dwell_violations(whole));
+  message.at_rest = law.is_at_rest(whole) ? 1 : 0;
+  message.held = estimate.held ? 1 : 0;
+}
+
+Eigen::Map<Eigen::VectorXd> state_bounds_of(StateEstimate& message) {
+  return {message.error_bounds.data(), static_cast<Eigen::Index>(message.error_bounds.size())};
+}
+
 }  // namespace
 
 static_assert(EventStatus::INPUT == static_cast<int>(EventKind::kInput));
@@ -67,33 +98,14 @@ void write(const EventChannel& channel, const Event& event, const EventReport& r
   status.dwell_check = static_cast<std::uint8_t>(report.dwell_check);
 }
 
-void write(const ObserverRuntime& runtime, const Estimate& estimate, StateEstimate& message) {
-  write(estimate, runtime.bound(estimate), runtime.setup().frame_id, message);
+void write(ObserverRuntime& runtime, const Estimate& estimate, StateEstimate& message) {
+  write_estimate(estimate, runtime.bound(estimate), runtime.setup().frame_id, message);
+  if (estimate.law->has_bound()) runtime.state_bounds(estimate, state_bounds_of(message));
 }
 
-void write(const Estimate& estimate, const PublishedBound& bound, const std::string& frame_id,
-           StateEstimate& message) {
-  const ObserverLaw& law = *estimate.law;
-  const Eigen::Index size = law.estimate_size();
-  message.header.stamp = to_ros_time(estimate.stamp);
-  message.header.frame_id = frame_id;
-  message.names = law.estimate_names();
-  message.state.assign(estimate.state.data(), estimate.state.data() + size);
-  const double* covariance = law.observer().covariance(estimate.state.data());
-  if (covariance != nullptr) message.covariance.assign(covariance, covariance + size * size);
-  message.error_bound = bound.value;
-  message.time_since_sample = estimate.counts.last_sample
-                                  ? to_seconds(estimate.stamp - *estimate.counts.last_sample)
-                                  : kNone;
-  message.events = estimate.counts.events;
-  message.samples = estimate.counts.samples;
-  message.jumps = estimate.counts.jumps;
-  const double* whole = estimate.state.data();
-  message.missing_jumps = static_cast<std::uint64_t>(law.missing_jumps(whole));
-  message.skipped_jumps = static_cast<std::uint64_t>(law.skipped_jumps(whole));
-  message.dwell_violations = static_cast<std::uint64_t>(law.dwell_violations(whole));
-  message.at_rest = law.is_at_rest(whole) ? 1 : 0;
-  message.held = estimate.held ? 1 : 0;
+void write(const EstimateQuery& query, const std::string& frame_id, StateEstimate& message) {
+  write_estimate(query.estimate(), query.bound(), frame_id, message);
+  if (query.estimate().law->has_bound()) query.state_bounds(state_bounds_of(message));
 }
 
 }  // namespace sampled_data_observers

@@ -10,7 +10,8 @@
 
 namespace sampled_data_observers {
 
-// What an ObserverRuntime gives, as messages. Neither allocates when the message held one before.
+// What an ObserverRuntime gives, as messages. Nothing allocates when the message held one before,
+// but where it is said.
 
 /// What became of an event that arrived at `now`.
 /// @param detail  what is said beside the outcome; may be empty
@@ -18,10 +19,9 @@ void write(const EventChannel& channel, const Event& event, const EventReport& r
            const std::string& detail, Stamp now, EventStatus& status);
 
 /// An estimate of `runtime`, and its bound as it can be given now.
-void write(const ObserverRuntime& runtime, const Estimate& estimate, StateEstimate& message);
+void write(ObserverRuntime& runtime, const Estimate& estimate, StateEstimate& message);
 
-/// An estimate and its bound.
-void write(const Estimate& estimate, const PublishedBound& bound, const std::string& frame_id,
-           StateEstimate& message);
+/// The estimate of a query that has come to its end, and its bound. Allocates.
+void write(const EstimateQuery& query, const std::string& frame_id, StateEstimate& message);
 
 }  // namespace sampled_data_observers

@@ -82,13 +82,22 @@ double error_of(const Quantity& quantity, const double* x, double truth) {
   return difference(quantity, quantity.row.dot(estimate), truth);
 }
 
+double bound_on(const Quantity& quantity, const Eigen::VectorXd& state_bounds) {
+  double bound = 0.0;
+  for (Eigen::Index i = 0; i < quantity.row.size(); ++i) {
+    if (quantity.row(i) != 0.0) bound += std::abs(quantity.row(i)) * state_bounds(i);
+  }
+  return bound;
+}
+
 Comparison::Comparison(std::vector<Quantity> quantities, std::shared_ptr<const Plant> plant)
     : quantities_(std::move(quantities)),
       plant_(std::move(plant)),
       held_(quantities_.size()),
       squares_(quantities_.size(), 0.0),
       hold_squares_(quantities_.size(), 0.0),
-      weight_(norm_of(quantities_, plant_->states())) {
+      weight_(norm_of(quantities_, plant_->states())),
+      bound_checks_(quantities_.size()) {
   for (std::size_t i = 0; i < quantities_.size(); ++i) {
     for (std::size_t sensor = 0; sensor < plant_->sensors().size(); ++sensor) {
       if (plant_->sensors()[sensor].timing == SensorTiming::kAtJumps) continue;
@@ -111,28 +120,32 @@ void Comparison::add_sample(std::size_t sensor, Stamp stamp, const double* value
   }
 }
 
-bool Comparison::add_truth(const std::vector<double>& truth, const double* x, double error_bound) {
+void Comparison::check(double error, double allowed, BoundCheck& check) {
+  ++check.stamps;
+  if (error > allowed) ++check.exceeded;
+  if (allowed > 0.0) check.share = std::max(check.share.value_or(0.0), error / allowed);
+}
+
+bool Comparison::add_truth(const std::vector<double>& truth, const double* x,
+                           const Bounds& bounds) {
   for (const Held& held : held_) {
     if (held.is_measured && !held.value) return false;
   }
   double squares = 0.0;
   for (std::size_t i = 0; i < quantities_.size(); ++i) {
-    const double square = std::pow(error_of(quantities_[i], x, truth[i]), 2);
+    const double error = error_of(quantities_[i], x, truth[i]);
+    const double square = std::pow(error, 2);
     squares += square;
+    const double allowed = bounds.states.size() == 0 ? std::numeric_limits<double>::infinity()
+                                                     : bound_on(quantities_[i], bounds.states);
+    if (std::isfinite(allowed)) check(std::abs(error), allowed, bound_checks_[i]);
     squares_[i] += square;
     if (held_[i].is_measured) {
       hold_squares_[i] += std::pow(difference(quantities_[i], *held_[i].value, truth[i]), 2);
     }
   }
   ++size_;
-  if (!std::isfinite(error_bound)) return true;
-  const double error = std::sqrt(squares);
-  const double allowed = weight_ * error_bound;
-  ++bound_check_.stamps;
-  if (error > allowed) ++bound_check_.exceeded;
-  if (allowed > 0.0) {
-    bound_check_.share = std::max(bound_check_.share.value_or(0.0), error / allowed);
-  }
+  if (std::isfinite(bounds.norm)) check(std::sqrt(squares), weight_ * bounds.norm, bound_check_);
   return true;
 }
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -35,6 +36,9 @@ bool measures(const Plant& plant, std::size_t sensor, Eigen::Index output,
 /// is an angle.
 double error_of(const Quantity& quantity, const double* x, double truth);
 
+/// The bound on the error of a quantity that follows from those on the entries of the state.
+double bound_on(const Quantity& quantity, const Eigen::VectorXd& state_bounds);
+
 /// Errors of the estimate and of holding the last sample, against the truth, on the same stamps.
 class Comparison {
  public:
@@ -45,11 +49,17 @@ class Comparison {
   /// Takes in the values of a sample, or of a continuous output, that the observer used.
   void add_sample(std::size_t sensor, Stamp stamp, const double* values);
 
+  /// Guaranteed bounds on |truth − x| of the whole state, NaN where there is none, and of each
+  /// entry, empty likewise.
+  struct Bounds {
+    double norm = std::numeric_limits<double>::quiet_NaN();
+    Eigen::VectorXd states = {};
+  };
+
   /// Compares at one stamp. @param truth one value per quantity @param x the estimate, n entries
-  /// @param error_bound  on |truth − x| of the whole state; NaN: none
   /// Does nothing before each quantity that a sensor measures directly was sampled once, and
   /// returns false then.
-  bool add_truth(const std::vector<double>& truth, const double* x, double error_bound);
+  bool add_truth(const std::vector<double>& truth, const double* x, const Bounds& bounds);
 
   /// Number of stamps compared.
   std::size_t size() const { return size_; }
@@ -62,6 +72,9 @@ class Comparison {
     std::optional<double> share;
   };
   const BoundCheck& bound_check() const { return bound_check_; }
+
+  /// The same of each quantity and the bound on itself (see bound_on()).
+  const std::vector<BoundCheck>& bound_checks() const { return bound_checks_; }
 
   /// Root mean squares, one per quantity; nothing where no stamp was compared or, for the held
   /// sample, no sensor measures the quantity directly.
@@ -79,6 +92,8 @@ class Comparison {
     Stamp stamp = 0;
   };
 
+  static void check(double error, double allowed, BoundCheck& check);
+
   std::vector<Quantity> quantities_;
   std::shared_ptr<const Plant> plant_;
   std::vector<Held> held_;
@@ -88,6 +103,7 @@ class Comparison {
   /// The largest norm of the quantities of a state of norm 1.
   double weight_;
   BoundCheck bound_check_;
+  std::vector<BoundCheck> bound_checks_;
 };
 
 }  // namespace sampled_data_observers

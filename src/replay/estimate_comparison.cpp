@@ -39,6 +39,7 @@ bool is_same_bound(double a, double b) { return a == b || (std::isnan(a) && std:
 
 bool identical(const StateEstimate& a, const StateEstimate& b) {
   return a.state.size() == b.state.size() && is_same_bound(a.error_bound, b.error_bound) &&
+         a.error_bounds == b.error_bounds &&
          std::memcmp(a.state.data(), b.state.data(), a.state.size() * sizeof(double)) == 0;
 }
 

@@ -23,7 +23,8 @@ void draw_plot(const ReplaySummary& summary, const std::string& path) {
     json["quantities"].push_back({{"name", plot.name},
                                   {"truth", to_json(plot.truth)},
                                   {"samples", to_json(plot.samples)},
-                                  {"estimate", to_json(plot.estimate)}});
+                                  {"estimate", to_json(plot.estimate)},
+                                  {"bound", to_json(plot.bound)}});
   }
   run_plot_program("plot_replay", json_text(json), path);
 }

@@ -228,7 +228,8 @@ class Replay {
     while (const Estimate* estimate = runtime_.next_due(now)) {
       write(runtime_, *estimate, estimate_message_);
       final_is_held_ = estimate->held;
-      recorder_->add_estimate(*estimate, runtime_.bound(*estimate).loss);
+      recorder_->add_estimate(*estimate, runtime_.bound(*estimate).loss,
+                              estimate_message_.error_bounds);
       if (output_) {
         output_->write(resolved("estimate"), to_ros_time(estimate->stamp + config_.publish_delay),
                        estimate_message_);
@@ -271,8 +272,12 @@ class Replay {
     const Timeline::Query query = runtime_.estimator().estimate_at(stamp, truth_estimate_);
     if (query != Timeline::Query::kOk && query != Timeline::Query::kHeld) return;
     const double* state = truth_estimate_.state.data();
-    const bool is_compared =
-        comparison_->add_truth(values, state, runtime_.bound(truth_estimate_).value);
+    Comparison::Bounds bounds{runtime_.bound(truth_estimate_).value};
+    if (truth_estimate_.law->has_bound()) {
+      bounds.states.resize(truth_estimate_.law->estimate_size());
+      runtime_.state_bounds(truth_estimate_, bounds.states);
+    }
+    const bool is_compared = comparison_->add_truth(values, state, bounds);
     if (!is_compared || !neighbourhood_) return;
     const PlantObserver& observer = truth_estimate_.law->observer();
     neighbourhood_->add_truth(stamp, values, state, observer.held_part(state));
@@ -295,11 +300,14 @@ class Replay {
     summary.compared_stamps = comparison_->size();
     if (neighbourhood_) summary.apart_from_jumps = neighbourhood_->errors();
     summary.guarantee = config_.guarantee;
-    summary.bounded = !std::isnan(config_.law->error_bound(truth_estimate_.state.data()));
+    summary.bounded = config_.law->has_bound();
     summary.truth_is_given = !options_.truth_topic.empty();
     summary.bound_stamps = comparison_->bound_check().stamps;
     summary.bound_exceeded = comparison_->bound_check().exceeded;
     summary.bound_share = comparison_->bound_check().share;
+    for (const Comparison::BoundCheck& check : comparison_->bound_checks()) {
+      summary.state_bounds.push_back({check.stamps, check.exceeded, check.share});
+    }
     summary.rmse = comparison_->rmse();
     summary.hold_rmse = comparison_->hold_rmse();
     summary.rmse_norm = Comparison::norm(summary.rmse);

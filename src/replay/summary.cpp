@@ -35,6 +35,33 @@ void print_apart_from_jumps(const ReplaySummary& summary, const ErrorsApart& apa
   out << "\n";
 }
 
+void print_bounds(const ReplaySummary& summary, std::ostream& out) {
+  if (summary.is_guarantee_broken()) {
+    std::size_t exceeded = summary.bound_exceeded;
+    std::optional<double> share = summary.bound_share;
+    for (const ReplaySummary::StateBound& bound : summary.state_bounds) {
+      exceeded = std::max(exceeded, bound.exceeded);
+      share = std::max(share, bound.share);
+    }
+    out << "  GUARANTEE BROKEN: the error was larger than its guaranteed bound at " << exceeded
+        << " of " << summary.bound_stamps << " stamps, by a factor of up to " << shown(share)
+        << ". Something that it rests on is not so: error_assumptions, the plant, the stamps, or "
+           "this truth\n";
+  }
+  const auto row = [&out](const auto& stamps, std::size_t exceeded,
+                          const std::optional<double>& share) {
+    out << "finite at " << stamps << " stamps, exceeded at " << exceeded
+        << "; the error took at most " << shown(share) << " of it\n";
+  };
+  out << "  error bound: ";
+  row(summary.bound_stamps, summary.bound_exceeded, summary.bound_share);
+  for (std::size_t i = 0; i < summary.state_bounds.size(); ++i) {
+    const ReplaySummary::StateBound& bound = summary.state_bounds[i];
+    out << "  that on " << summary.compared[i] << ": ";
+    row(bound.stamps, bound.exceeded, bound.share);
+  }
+}
+
 void print_comparison(const ReplaySummary& summary, std::ostream& out) {
   if (summary.compared.empty()) return;
   out << "\nagainst the truth at " << summary.compared_stamps << " stamps\n";
@@ -60,16 +87,7 @@ void print_comparison(const ReplaySummary& summary, std::ostream& out) {
       ratio(summary.rmse_norm, summary.hold_rmse_norm));
   if (summary.apart_from_jumps) print_apart_from_jumps(summary, *summary.apart_from_jumps, out);
   if (!summary.bounded) return;
-  if (summary.is_guarantee_broken()) {
-    out << "  GUARANTEE BROKEN: the error was larger than its guaranteed bound at "
-        << summary.bound_exceeded << " of " << summary.bound_stamps
-        << " stamps, by a factor of up to " << shown(summary.bound_share)
-        << ". Something that it rests on is not so: error_assumptions, the plant, the stamps, or "
-           "this truth\n";
-  }
-  out << "  error bound: finite at " << summary.bound_stamps << " stamps, exceeded at "
-      << summary.bound_exceeded << "; the error took at most " << shown(summary.bound_share)
-      << " of it\n";
+  print_bounds(summary, out);
 }
 
 /// Also where there is no truth.
@@ -247,6 +265,13 @@ void write_json(const ReplaySummary& summary, const std::string& path) {
     json["error_bound"] = {{"finite", summary.bound_stamps},
                            {"exceeded", summary.bound_exceeded},
                            {"largest_share", number(summary.bound_share)}};
+    json["error_bounds"] = nlohmann::json::object();
+    for (std::size_t i = 0; i < summary.state_bounds.size(); ++i) {
+      const ReplaySummary::StateBound& bound = summary.state_bounds[i];
+      json["error_bounds"][summary.compared[i]] = {{"finite", bound.stamps},
+                                                   {"exceeded", bound.exceeded},
+                                                   {"largest_share", number(bound.share)}};
+    }
   }
   json["final_stamp"] = summary.final_stamp;
   json["final_state"] = nlohmann::json::object();

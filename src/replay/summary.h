@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -25,6 +26,8 @@ struct QuantityPlot {
   Series truth;
   Series samples;
   Series estimate;
+  /// The guaranteed bound on its error where it is finite, at those of the estimate's times.
+  Series bound;
 };
 
 /// The times between the used samples of a sensor, or of several, each by itself [s].
@@ -106,6 +109,13 @@ struct ReplaySummary {
   std::size_t bound_stamps = 0;
   std::size_t bound_exceeded = 0;
   std::optional<double> bound_share;
+  /// The same of each quantity compared and the bound on itself.
+  struct StateBound {
+    std::size_t stamps = 0;
+    std::size_t exceeded = 0;
+    std::optional<double> share;
+  };
+  std::vector<StateBound> state_bounds;
   /// Inputs and jumps that came after a bound that rested on their absence.
   std::size_t after_bound = 0;
   /// Whether the truth came on a topic of its own, and not from samples with their noise.
@@ -114,8 +124,13 @@ struct ReplaySummary {
   /// Of all sensors.
   SampleIntervals intervals() const;
 
-  /// Whether the truth refutes the guarantee: the error was larger than its bound.
-  bool is_guarantee_broken() const { return truth_is_given && bound_exceeded > 0; }
+  /// Whether the truth refutes the guarantee: the error, or an entry of it, was larger than its
+  /// bound.
+  bool is_guarantee_broken() const {
+    const auto is_exceeded = [](const StateBound& bound) { return bound.exceeded > 0; };
+    return truth_is_given && (bound_exceeded > 0 ||
+                              std::any_of(state_bounds.begin(), state_bounds.end(), is_exceeded));
+  }
   /// Where a published estimate was first without finite bound: its stamp [s], and why.
   std::optional<double> bound_lost_at;
   std::string bound_loss;

@@ -1,13 +1,15 @@
 #include "replay/summary_recorder.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace sampled_data_observers {
 
 SummaryRecorder::SummaryRecorder(const ObserverConfig& config, std::vector<Quantity> plotted)
     : config_(config), plotted_(std::move(plotted)), used_stamps_(config.sensors.size()) {
-  for (const Quantity& quantity : plotted_) summary_.plots.push_back({quantity.name, {}, {}, {}});
+  for (const Quantity& quantity : plotted_)
+    summary_.plots.push_back({quantity.name, {}, {}, {}, {}});
 }
 
 void SummaryRecorder::add_missing_topic(const std::string& name, const std::string& topic) {
@@ -67,12 +69,17 @@ void SummaryRecorder::summarize_sensors() {
   }
 }
 
-void SummaryRecorder::add_estimate(const Estimate& estimate, BoundLoss loss) {
+void SummaryRecorder::add_estimate(const Estimate& estimate, BoundLoss loss,
+                                   const std::vector<double>& state_bounds) {
   ++summary_.estimates;
   note_bound(estimate.stamp, loss);
   for (std::size_t i = 0; i < summary_.plots.size(); ++i) {
     const Eigen::VectorXd& row = plotted_[i].row;
     plot(summary_.plots[i].estimate, estimate.stamp, row.dot(estimate.state.head(row.size())));
+    if (state_bounds.empty()) continue;
+    const double bound =
+        bound_on(plotted_[i], Eigen::Map<const Eigen::VectorXd>(state_bounds.data(), row.size()));
+    if (std::isfinite(bound)) plot(summary_.plots[i].bound, estimate.stamp, bound);
   }
 }
 

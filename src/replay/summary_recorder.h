@@ -23,7 +23,9 @@ class SummaryRecorder {
   void add_withheld_sample() { ++summary_.samples_withheld; }
   /// @param reason  as the event's status has it
   void add_event(const Event& event, const EventReport& report, const std::string& reason);
-  void add_estimate(const Estimate& estimate, BoundLoss loss);
+  /// @param state_bounds  one for each state; empty where there are none
+  void add_estimate(const Estimate& estimate, BoundLoss loss,
+                    const std::vector<double>& state_bounds);
   /// @param values  one for each quantity that is plotted
   void add_truth(Stamp stamp, const std::vector<double>& values);
 

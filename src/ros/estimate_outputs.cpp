@@ -6,8 +6,9 @@
 namespace sampled_data_observers {
 
 EstimateOutputs::EstimateOutputs(ros::NodeHandle handle, const OutputsConfig& config,
-                                 Duration period, const NodeLog& log)
+                                 Eigen::Index states, Duration period, const NodeLog& log)
     : reader_(config.body) {
+  if (config.pose_is_bounded) ellipsoid_.resize(states, states);
   if (config.odometry) {
     nav_msgs::Odometry prototype;
     prototype.header.frame_id = config.world_frame;
@@ -32,12 +33,15 @@ EstimateOutputs::EstimateOutputs(ros::NodeHandle handle, const OutputsConfig& co
                      [this](Stamp stamp) { return listener_->find(stamp); });
 }
 
-void EstimateOutputs::take(const ObserverLaw& law, const Estimate& estimate) {
+void EstimateOutputs::take(ObserverRuntime& runtime, const Estimate& estimate) {
   const double* state = estimate.state.data();
   stamp_ = estimate.stamp;
-  const PlantObserver& observer = law.observer();
-  reader_.read(state, observer.held_part(state), observer.covariance(state), law.estimate_size(),
-               body_);
+  const PlantObserver& observer = estimate.law->observer();
+  const Eigen::Index n = estimate.law->estimate_size();
+  reader_.read(state, observer.held_part(state), observer.covariance(state), n, body_);
+  if (ellipsoid_.rows() == 0) return;
+  runtime.error_ellipsoid(estimate, ellipsoid_);
+  reader_.read_pose_ellipsoid(state, observer.held_part(state), ellipsoid_.data(), n, body_);
 }
 
 void EstimateOutputs::publish() {

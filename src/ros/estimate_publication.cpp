@@ -120,7 +120,7 @@ std::optional<Duration> EstimatePublication::publish_next() {
     const Estimate* estimate = access->next_due(access.now());
     if (estimate == nullptr) return access->next_due_time(access.now()) - access.now();
     write(*access, *estimate, *message);
-    if (outputs_) outputs_->take(*estimate->law, *estimate);
+    if (outputs_) outputs_->take(*access, *estimate);
     runtime_.statistics().record_estimate(*estimate->law, *estimate, access->bound(*estimate),
                                           access->lateness(estimate->stamp, access.now()));
     break;

@@ -65,7 +65,8 @@ void ObserverNodelet::start(const ConfigNode& tree, const ObserverConfig& config
   runtime_ = std::make_unique<SharedRuntime>(config, log, handle.resolveName("reset"));
   std::unique_ptr<EstimateOutputs> outputs;
   if (config.outputs) {
-    outputs = std::make_unique<EstimateOutputs>(handle, *config.outputs, config.period, log);
+    outputs = std::make_unique<EstimateOutputs>(handle, *config.outputs,
+                                                config.law->estimate_size(), config.period, log);
   }
   publication_ = std::make_unique<EstimatePublication>(handle, *runtime_, std::move(outputs));
   subscriptions_ =

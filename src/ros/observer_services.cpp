@@ -85,7 +85,7 @@ std::string ObserverServices::compute_estimate(const ros::Time& at, StateEstimat
     pace.end();
   }
   if (is_stopping_) return "the observer is being stopped";
-  write(query.estimate(), query.bound(), frame_id, message);
+  write(query, frame_id, message);
   return "";
 }
 

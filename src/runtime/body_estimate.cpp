@@ -117,10 +117,37 @@ void BodyReader::read(const double* estimate, const double* input, const double*
     body.twist_covariance = to_body_twice * body.twist_covariance * to_body_twice.transpose();
   }
   const bool has_covariance = covariance != nullptr;
+  add_variances(pose_axes(), has_covariance, states_.pose_variances, body.pose_covariance);
+  add_variances(twist_, has_covariance, states_.twist_variances, body.twist_covariance);
+}
+
+std::array<BodyNumber, 6> BodyReader::pose_axes() const {
   std::array<BodyNumber, 6> axes;
   std::copy_n(pose_.begin(), axes.size(), axes.begin());
-  add_variances(axes, has_covariance, states_.pose_variances, body.pose_covariance);
-  add_variances(twist_, has_covariance, states_.twist_variances, body.twist_covariance);
+  return axes;
+}
+
+void BodyReader::read_pose_ellipsoid(const double* estimate, const double* input, const double* Q,
+                                     Eigen::Index n, BodyEstimate& body) const {
+  Eigen::Matrix<double, 6, 7> jacobian = Eigen::Matrix<double, 6, 7>::Zero();
+  jacobian.topLeftCorner<3, 3>().setIdentity();
+  Eigen::Matrix<double, 3, 4> of_orientation;
+  read_orientation(estimate, input, body, of_orientation);
+  jacobian.bottomRightCorner<3, 4>() = of_orientation;
+  BodyEstimate::Covariance& ellipsoid = body.pose_covariance;
+  ellipsoid = jacobian * select(pose_, Q, n) * jacobian.transpose();
+  // Not so of what is no number.
+  if (!(ellipsoid.cwiseAbs().maxCoeff() <= kUnknownVariance) || !ellipsoid.allFinite()) {
+    ellipsoid.setZero();
+    for (std::size_t i = 0; i < pose_.size(); ++i) {
+      if (!pose_[i].state) continue;
+      for (Eigen::Index axis = 0; axis < ellipsoid.rows(); ++axis) {
+        if (jacobian(axis, static_cast<Eigen::Index>(i)) == 0.0) continue;
+        ellipsoid(axis, axis) = kUnknownVariance;
+      }
+    }
+  }
+  add_variances(pose_axes(), true, states_.pose_variances, ellipsoid);
 }
 
 }  // namespace sampled_data_observers

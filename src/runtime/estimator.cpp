@@ -87,6 +87,20 @@ PublishedBound published_bound(const Estimate& estimate, BoundLoss withheld) {
   return {value, estimate.law->bound_loss(state)};
 }
 
+void published_state_bounds(const Estimate& estimate, const PublishedBound& bound,
+                            double* workspace, Eigen::Ref<Eigen::VectorXd> bounds) {
+  if (std::isfinite(bound.value)) {
+    estimate.law->state_bounds(estimate.state.data(), workspace, bounds);
+  } else {
+    bounds.setConstant(bound.value);
+  }
+}
+
+void EstimateQuery::state_bounds(Eigen::Ref<Eigen::VectorXd> bounds) const {
+  Eigen::VectorXd workspace(law_->workspace_size());
+  published_state_bounds(estimate_, bound(), workspace.data(), bounds);
+}
+
 bool EstimateQuery::proceed(std::int64_t steps) {
   if (!flow_.proceed(steps)) return false;
   estimate_.state = flow_.state();
@@ -246,6 +260,29 @@ void Estimator::insert_rejected(EventKind kind, std::uint32_t index, Stamp stamp
 
 PublishedBound Estimator::bound(const Estimate& estimate, Stamp now) const {
   return published_bound(estimate, withheld(estimate.stamp, now));
+}
+
+void Estimator::state_bounds(const Estimate& estimate, Stamp now,
+                             Eigen::Ref<Eigen::VectorXd> bounds) {
+  published_state_bounds(estimate, bound(estimate, now), workspace_of(*estimate.law), bounds);
+}
+
+void Estimator::error_ellipsoid(const Estimate& estimate, Stamp now,
+                                Eigen::Ref<Eigen::MatrixXd> Q) {
+  const PublishedBound known = bound(estimate, now);
+  if (std::isfinite(known.value)) {
+    estimate.law->error_ellipsoid(estimate.state.data(), workspace_of(*estimate.law), Q);
+  } else {
+    Q.setZero();
+    Q.diagonal().setConstant(known.value);
+  }
+}
+
+/// Of the law of this estimator or of one that it took over.
+double* Estimator::workspace_of(const ObserverLaw& law) {
+  Estimator* owner = this;
+  while (owner->law_.get() != &law) owner = owner->earlier_.get();
+  return owner->workspace_.data();
 }
 
 /// Why a bound at an estimate's stamp can't be given yet, or not at all, though one is known:

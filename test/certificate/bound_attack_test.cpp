@@ -1,8 +1,8 @@
-// Guaranteed bounds under attack: for each theorem that gives one, on stiff, fast, ill-scaled and
-// multi-output plants, a search for the times between events, initial error, noise and disturbance
-// with which the error comes to most of its bound; in one of four, some events come later than T2
-// or sooner than T1. The environment variable SDO_COMPARISONS says how many comparisons it takes
-// for each claim.
+// Guaranteed bounds under attack, those on the norm, on each state and the ellipsoid: for each
+// theorem that gives one, on stiff, fast, ill-scaled and multi-output plants, a search for the
+// times between events, initial error, noise and disturbance with which the error comes to most of
+// its bound; in one of four, some events come later than T2 or sooner than T1. The environment
+// variable SDO_COMPARISONS says how many comparisons it takes for each claim.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -91,15 +91,23 @@ TEST_P(BoundAttackTest, FindsNoErrorAboveItsBound) {
   for (std::uint64_t seed = 0; observer.comparisons() < wanted; ++seed) {
     const bool strays = seed % 4 == 3;
     const std::size_t without_bound = observer.without_bound();
+    observer.attack_states(seed % 2 == 1);
     search.run(seed, strays);
     ASSERT_LE(observer.largest_share(), 1.0 + 1e-9) << claim.gains << ", seed " << seed;
+    ASSERT_LE(observer.largest_state_share(), 1.0 + 1e-9) << claim.gains << ", seed " << seed;
+    ASSERT_LE(observer.largest_ellipsoid_share(), 1.0 + 1e-6) << claim.gains << ", seed " << seed;
     if (strays) continue;
     ASSERT_EQ(without_bound, observer.without_bound()) << claim.gains << ", seed " << seed;
   }
   // Otherwise the attack would not notice a bound of another size.
   EXPECT_GT(observer.largest_share(), 0.01);
-  std::printf("%s: %zu comparisons, the error came to %.3g of its bound\n", claim.gains,
-              observer.comparisons(), observer.largest_share());
+  EXPECT_GT(observer.largest_state_share(), 0.01);
+  EXPECT_GT(observer.largest_ellipsoid_share(), 0.01);
+  std::printf(
+      "%s: %zu comparisons, the error came to %.3g of its bound, a state to %.3g of its own, "
+      "%.3g of the ellipsoid\n",
+      claim.gains, observer.comparisons(), observer.largest_share(), observer.largest_state_share(),
+      observer.largest_ellipsoid_share());
 }
 
 INSTANTIATE_TEST_SUITE_P(EveryClaim, BoundAttackTest, ::testing::ValuesIn(kClaims));

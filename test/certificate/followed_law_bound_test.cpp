@@ -10,6 +10,7 @@
 
 #include "certificate/certified_gains.h"
 #include "certificate/disturbed_flow.h"
+#include "certificate/state_shares.h"
 #include "sampled_data_observers/observer/plant_observer.h"
 #include "support/long_tests.h"
 
@@ -57,6 +58,7 @@ class FollowedRun {
         subject_(subject),
         claim_(claim),
         flow_(plant_, disturbance_of(subject), kNanosecondsPerSecond),
+        shares_(law_),
         generator_(seed),
         strays_(seed % 4 == 3),
         restarts_(seed % 4 == 2),
@@ -212,7 +214,10 @@ class FollowedRun {
       return;
     }
     ++outcome_.finite;
-    const double share = error().norm() / bound;
+    const double rounding = 1e-12 * x_.norm();
+    const double share =
+        std::max({error().norm() / bound, shares_.largest(state_, error(), rounding),
+                  shares_.of_ellipsoid(state_, error(), rounding)});
     outcome_.largest_share = std::max(outcome_.largest_share, share);
     if (++since_start_ > kSettled) {
       outcome_.settled_share = std::max(outcome_.settled_share, share);
@@ -224,6 +229,7 @@ class FollowedRun {
   const CertificateSubject& subject_;
   FollowedClaim claim_;
   DisturbedFlow flow_;
+  StateShares shares_;
   std::mt19937_64 generator_;
   bool strays_;
   bool restarts_;

@@ -11,6 +11,7 @@
 #include <limits>
 
 #include "certificate/certified_gains.h"
+#include "certificate/state_shares.h"
 #include "observer/gated_measurements.h"
 #include "observer/limited_jumps.h"
 #include "support/allocation_counter.h"
@@ -427,6 +428,8 @@ std::vector<double> bounds(const Estimator& estimator) {
     const Timeline::Query query = estimator.estimate_at(stamp, estimate);
     if (query != Timeline::Query::kOk && query != Timeline::Query::kHeld) continue;
     result.push_back(estimator.law().error_bound(estimate.state.data()));
+    const Eigen::VectorXd of_states = StateShares(estimator.law()).bounds(estimate.state);
+    result.insert(result.end(), of_states.data(), of_states.data() + of_states.size());
     result.insert(result.end(), estimate.state.data(),
                   estimate.state.data() + estimate.state.size());
   }
@@ -437,17 +440,22 @@ bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
 }
 
-/// Every observer type with the example's bound, and the real one of a theorem.
+/// Every observer type with the example's bound, and the real ones of some theorems.
 std::vector<std::shared_ptr<const ObserverLaw>> bounded_laws() {
   std::vector<std::shared_ptr<const ObserverLaw>> laws;
   for (const std::string& type : type_examples()) {
     const ObserverConfig config = read_example(type);
     if (!config.law->delays_jumps()) laws.push_back(bounded(config, 0.4));
   }
-  laws.push_back(CertifiedGains("test/certificate/ferrante2019_oscillator_0.2.yaml")
-                     .assuming("{initial_error: 1, noise: 0.1, disturbance: 0.5}")
-                     .config()
-                     .law);
+  const auto add = [&laws](const char* gains, const char* assumptions) {
+    laws.push_back(CertifiedGains(gains).assuming(assumptions).config().law);
+  };
+  add("test/certificate/ferrante2019_oscillator_0.2.yaml",
+      "{initial_error: 1, noise: 0.1, disturbance: 0.5}");
+  add("config/examples/ferrante2016_mass_spring/gains.yaml",
+      "{initial_error: 1, noise: 0.1, disturbance: 0}");
+  add("config/examples/sferlazza2019_aircraft_1_3/gains.yaml",
+      "{initial_error: 1, noise: 0.1, disturbance: 0}");
   return laws;
 }
 
@@ -486,6 +494,55 @@ TEST(GuaranteedBoundTest, EveryOrderOfArrivalAndAnyQueriesGiveTheSameBits) {
   }
 }
 
+/// Of each state the double, but half the bound of the first; of the last one something that is no
+/// number.
+class ExampleStateBound : public ExampleBound {
+ public:
+  using ExampleBound::ExampleBound;
+  void state_bounds(const double* state, double*,
+                    Eigen::Ref<Eigen::VectorXd> bounds) const override {
+    bounds.setConstant(2.0 * bound(state));
+    bounds(bounds.size() - 1) = kNan;
+    bounds(0) = bound(state) / 2.0;
+  }
+  void ellipsoid(const double* state, double*, Eigen::Ref<Eigen::MatrixXd> Q) const override {
+    set_to_ball(bound(state) / 2.0, Q);
+    if (bound(state) > 9.0) Q(0, 0) = kNan;
+  }
+};
+
+TEST(GuaranteedBoundTest, OfAStateIsTheSmallerOneAndInfiniteWhereThatOfTheNormIs) {
+  const ObserverConfig config = read_example("constant_gain");
+  const GuaranteedBound law(config.law, std::make_unique<ExampleStateBound>(2.0), config.plant,
+                            0.0);
+  StateShares shares(law);
+  Eigen::VectorXd state(law.state_size());
+  Eigen::VectorXd workspace(law.workspace_size());
+  law.initialize(state.data());
+  state(0) = 1e6;
+  const Eigen::Index n = law.estimate_size();
+  const double rounding = law.error_bound(state.data()) - 8.0;
+  EXPECT_GT(rounding, 0.0);
+  Eigen::VectorXd expected = Eigen::VectorXd::Constant(n, 8.0 + rounding);
+  expected(0) = 4.0 + rounding;
+  EXPECT_LT((shares.bounds(state) - expected).norm(), rounding / 100.0);
+  Eigen::MatrixXd Q(n, n);
+  law.error_ellipsoid(state.data(), workspace.data(), Q);
+  EXPECT_GT(Q(0, 0), 16.0);
+  EXPECT_LT((Q - 16.0 * Eigen::MatrixXd::Identity(n, n)).norm(), 1e-5);
+
+  law.flow(3 * kSecond / 2, state.data(), workspace.data());
+  law.error_ellipsoid(state.data(), workspace.data(), Q);
+  EXPECT_NEAR(9.5 * 9.5, Q(0, 0), 1e-4);  // the ball where the ellipsoid is no set
+
+  law.flow(kSecond, state.data(), workspace.data());
+  EXPECT_EQ(kInfinity, law.error_bound(state.data()));
+  EXPECT_EQ(kInfinity, shares.bounds(state).minCoeff());
+  law.error_ellipsoid(state.data(), workspace.data(), Q);
+  EXPECT_EQ(kInfinity, Q.diagonal().minCoeff());
+  EXPECT_EQ(0.0, Q(0, 1));
+}
+
 TEST(GuaranteedBoundTest, NothingIsAllocatedForEventsAndQueries) {
   if (!allocations_are_counted()) GTEST_SKIP() << "a sanitizer owns the allocator";
   Estimator::Options options;
@@ -497,11 +554,16 @@ TEST(GuaranteedBoundTest, NothingIsAllocatedForEventsAndQueries) {
     Estimator estimator(law, options);
     Estimate estimate = estimator.make_estimate();
     double sum = 0.0;
+    Eigen::VectorXd of_states(law->estimate_size());
+    Eigen::MatrixXd Q(law->estimate_size(), law->estimate_size());
     const std::size_t before = allocations();
     for (const OwnedEvent& event : events) {
       estimator.submit(event.view(), kStart + 50 * kSecond);
       estimator.estimate_at(event.stamp + kSecond / 7, estimate);
       sum += law->error_bound(estimate.state.data());
+      estimator.state_bounds(estimate, kStart + 50 * kSecond, of_states);
+      estimator.error_ellipsoid(estimate, kStart + 50 * kSecond, Q);
+      sum += of_states(0) + Q(0, 0);
     }
     estimator.restart(kStart + 6 * kSecond);
     EXPECT_EQ(before, allocations());

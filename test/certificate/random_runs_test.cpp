@@ -12,6 +12,7 @@
 
 #include "certificate/certified_gains.h"
 #include "certificate/disturbed_flow.h"
+#include "certificate/state_shares.h"
 #include "sampled_data_observers/runtime/estimator.h"
 #include "support/long_tests.h"
 #include "support/stamps.h"
@@ -34,6 +35,7 @@ class RandomRuns {
         certificate_(std::move(certificate)),
         assumptions_(assumptions),
         flow_(plant_, certificate_.subject.plant.N, kStep),
+        shares_(*config.law),
         estimate_(Estimator(config.law, config.options).make_estimate()) {}
 
   void run(std::uint64_t seed) {
@@ -150,7 +152,9 @@ class RandomRuns {
     if (!std::isfinite(bound)) ++losses_;
     const double norm = error().norm();
     // The estimate is rounded, in digits of the state.
-    if (norm > bound * (1.0 + 1e-9) + 1e-12 * (1.0 + x_.norm())) ++violations_;
+    const double rounding = 1e-12 * (1.0 + x_.norm());
+    if (norm > bound * (1.0 + 1e-9) + rounding) ++violations_;
+    if (shares_.largest(estimate_.state, error(), rounding) > 1.0 + 1e-9) ++violations_;
     if (bound > 1e-6) largest_share_ = std::max(largest_share_, norm / bound);
   }
 
@@ -159,6 +163,7 @@ class RandomRuns {
   Certificate certificate_;
   ErrorAssumptions assumptions_;
   DisturbedFlow flow_;
+  StateShares shares_;
   std::optional<Estimator> estimator_;
   Estimate estimate_;
   std::mt19937_64 generator_;

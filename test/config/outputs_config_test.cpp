@@ -96,6 +96,66 @@ TEST(OutputsConfigTest, RefusesFaultsAndSaysWhatExists) {
   }
 }
 
+/// An integrator whose bound holds for all its samplings.
+const char kBounded[] = R"(
+observer: ConstantGainObserver
+plant: {states: [x, y, yaw], A: [[0, 0, 0], [0, 0, 0], [0, 0, 0]]}
+sensors: {s: {C: [[1, 0, 0], [0, 1, 0], [0, 0, 1]], source: {topic: s}}}
+sampling: {T1: 0.1, T2: 1}
+gains: {L: [[0.5, 0, 0], [0, 0.5, 0], [0, 0, 0.5]]}
+certificate:
+  theorem: ferrante2016_theorem1
+  plant: {file: plant.yaml, hash: HASH}
+  T1: 0.1
+  T2: 1
+  decay: 0.1
+  P: [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
+error_assumptions: {initial_error: 1, noise: 0, disturbance: 0}
+frame_id: map
+outputs:
+  base_frame: base_link
+  position: {x: x, y: y}
+  orientation: {yaw: yaw}
+  pose_covariance: guaranteed_ellipsoid
+  odometry: {topic: odometry}
+)";
+
+TEST(OutputsConfigTest, APoseMayBeGivenTheEllipsoidOfItsError) {
+  const auto with_own_hash = [](const std::string& text) {
+    const std::string fault = test::fault(text);
+    const std::string before = "plant/hash: expected ";
+    const std::size_t begin = fault.find(before) + before.size();
+    return test::replaced(
+        text, "HASH",
+        fault.substr(begin, fault.find_first_not_of("0123456789abcdef-", begin) - begin));
+  };
+  const std::string bounded = with_own_hash(kBounded);
+  EXPECT_TRUE(test::parse(bounded).outputs->pose_is_bounded);
+  const std::string ellipsoid = "pose_covariance: guaranteed_ellipsoid";
+  EXPECT_FALSE(test::parse(test::replaced(bounded, ellipsoid, "pose_covariance: observer"))
+                   .outputs->pose_is_bounded);
+  EXPECT_FALSE(test::parse(test::replaced(bounded, ellipsoid, "")).outputs->pose_is_bounded);
+  EXPECT_TRUE(test::parse(test::replaced(bounded, "{yaw: yaw}", "{pitch: yaw, roll: 0.1}"))
+                  .outputs->pose_is_bounded);
+  const std::vector<test::Fault> faults = {
+      {"guaranteed_ellipsoid", "ellipse", {"outputs/pose_covariance", "guaranteed_ellipsoid"}},
+      {"error_assumptions: {initial_error: 1, noise: 0, disturbance: 0}",
+       "",
+       {"outputs/pose_covariance", "error_assumptions and a certificate", "no such bound"}},
+      {"odometry: {topic: odometry}",
+       "tf: {mode: odom}",
+       {"outputs/pose_covariance", "odometry or pose", "neither"}},
+      {"{yaw: yaw}", "{yaw: yaw, pitch: y}", {"outputs/pose_covariance", "one state", "several"}},
+      {"{yaw: yaw}",
+       "{x: 0, y: 0, z: yaw, w: 1}",
+       {"outputs/pose_covariance", "one state", "a quaternion of states"}},
+  };
+  for (const test::Fault& fault : faults) {
+    const std::string message = test::fault(test::replaced(bounded, fault.from, fault.to));
+    EXPECT_EQ("", test::missing_parts(fault, message)) << message;
+  }
+}
+
 TEST(OutputsConfigTest, NeedsAnOutputAndAPose) {
   const char kStart[] = "rate: 10\nframe_id: map\noutputs:\n  base_frame: b\n";
   const std::string plant = test::replaced(kOutputs, "frame_id: map", "#");

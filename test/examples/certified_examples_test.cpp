@@ -61,6 +61,10 @@ TEST_P(CertifiedExampleTest, NeverExceedsItsBound) {
     const double bound = run.error_bound.value(k)(0);
     ASSERT_TRUE(std::isfinite(bound)) << run.error.time(k);
     ASSERT_LE(run.error.value(k).norm(), bound + kRounding) << run.error.time(k);
+    const Eigen::VectorXd& bounds = run.state_bounds.value(k);
+    ASSERT_TRUE((run.error.value(k).cwiseAbs().array() <= bounds.array() + kRounding).all())
+        << run.error.time(k);
+    ASSERT_LE(bounds.maxCoeff(), bound * (1.0 + 1e-9) + kRounding);
   }
   EXPECT_LT(run.error_bound.value(run.error_bound.size() - 1)(0), example.final_bound);
 }

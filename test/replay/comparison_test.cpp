@@ -10,7 +10,7 @@
 namespace sampled_data_observers {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+const Comparison::Bounds kNone = {};
 
 std::shared_ptr<const Plant> plant() {
   LinearPlantDescription description;
@@ -62,14 +62,24 @@ TEST(ComparisonTest, CountsWhereTheErrorExceedsItsBound) {
   const double x[] = {1.0, 7.0, 3.0};
   // What is compared, p and p + v, is at most 1.618 times as large as the state.
   const double weight = (1.0 + std::sqrt(5.0)) / 2.0;
-  comparison.add_truth({4.0, 12.0}, x, std::numeric_limits<double>::infinity());
-  comparison.add_truth({4.0, 12.0}, x, 5.01 / weight);
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  comparison.add_truth({4.0, 12.0}, x, {kInfinity, Eigen::Vector3d::Constant(kInfinity)});
+  comparison.add_truth({4.0, 12.0}, x, {5.01 / weight, Eigen::Vector3d(3.01, 1.0, kInfinity)});
   EXPECT_EQ(1u, comparison.bound_check().stamps);
   EXPECT_EQ(0u, comparison.bound_check().exceeded);
   EXPECT_NEAR(5.0 / 5.01, *comparison.bound_check().share, 1e-12);
-  comparison.add_truth({4.0, 12.0}, x, 4.99 / weight);
+  comparison.add_truth({4.0, 12.0}, x, {4.99 / weight, Eigen::Vector3d(2.5, 1.4, 0.0)});
   EXPECT_EQ(2u, comparison.bound_check().stamps);
   EXPECT_EQ(1u, comparison.bound_check().exceeded);
+  // p was off by 3 and p + v by 4.
+  const Comparison::BoundCheck& of_p = comparison.bound_checks()[0];
+  EXPECT_EQ(2u, of_p.stamps);
+  EXPECT_EQ(1u, of_p.exceeded);
+  EXPECT_DOUBLE_EQ(3.0 / 2.5, *of_p.share);
+  const Comparison::BoundCheck& of_sum = comparison.bound_checks()[1];
+  EXPECT_EQ(2u, of_sum.stamps);
+  EXPECT_EQ(1u, of_sum.exceeded);
+  EXPECT_DOUBLE_EQ(4.0 / 3.9, *of_sum.share);
 }
 
 TEST(ComparisonTest, WhatNoSensorMeasuresHasNoHeldSample) {

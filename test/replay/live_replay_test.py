@@ -85,6 +85,12 @@ class ExampleTest(ReplayTestCase):
         self.assertEqual(0, summary["error_bound"]["exceeded"])
         self.assertLess(summary["error_bound"]["largest_share"], 1)
         self.assertGreater(summary["error_bound"]["largest_share"], 0.001)
+        for state in "z1", "z2":
+            bound = summary["error_bounds"][state]
+            self.assertEqual(summary["error_bound"]["finite"], bound["finite"])
+            self.assertEqual(0, bound["exceeded"])
+            self.assertLess(bound["largest_share"], 1)
+            self.assertGreater(bound["largest_share"], 0.001)
 
     def test_a_gap_longer_than_the_history_leaves_no_estimate_out(self):
         run_tool("simulate", MASS_SPRING[0], "-o", self.path("example.bag"))

@@ -89,6 +89,8 @@ TEST_F(CertifiedNodeletTest, PublishesTheBoundWhileTheAssumptionsHold) {
       EXPECT_GE(estimate.error_bound, 1.0) << estimate.header.stamp;
       EXPECT_LT(estimate.error_bound, 30.0) << estimate.header.stamp;
       at_T2 = estimate.error_bound;
+      ASSERT_EQ(2u, estimate.error_bounds.size());
+      for (const double bound : estimate.error_bounds) EXPECT_LE(bound, estimate.error_bound);
       ++in_time;
     } else if (estimate.header.stamp > last + ros::Duration(0.3)) {
       // Then the error may grow as the plant does, and the bound with it.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "support/allocation_counter.h"
 
@@ -184,6 +185,63 @@ TEST(BodyReaderTest, AllocatesNothing) {
   const std::size_t before = test::allocations();
   reader.read(estimate, &input, covariance.data(), 4, body);
   EXPECT_EQ(before, test::allocations());
+}
+
+/// The body's pose with the error of an estimate of x, yaw and y about it.
+TEST(BodyReaderTest, AnEllipsoidOfTheStatesIsOneOfThePose) {
+  BodyStates states;
+  states.position[0] = state(0);
+  states.position[1] = state(2);
+  states.position[2].constant = 1.0;
+  states.roll_pitch_yaw[0].constant = 0.2;
+  states.roll_pitch_yaw[1].constant = -0.3;
+  states.roll_pitch_yaw[2] = state(1);
+  states.pose_variances = {1.0, 2.0, 3.0, 4.0, 5.0, 6.0};
+  const BodyReader reader(states);
+  const double estimate[] = {7.0, 2.5, -2.0};
+  const Eigen::MatrixXd Q = some_covariance(3);
+  BodyEstimate body;
+  reader.read(estimate, nullptr, nullptr, 3, body);
+  const std::size_t before = test::allocations();
+  reader.read_pose_ellipsoid(estimate, nullptr, Q.data(), 3, body);
+  EXPECT_TRUE(test::allocations() == before || !test::allocations_are_counted());
+  BodyEstimate::Covariance expected = BodyEstimate::Covariance::Zero();
+  const Eigen::Index axes[] = {0, 5, 1};
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    for (Eigen::Index j = 0; j < 3; ++j) expected(axes[i], axes[j]) = Q(i, j);
+  }
+  expected(2, 2) = 3.0;
+  expected(3, 3) = 4.0;
+  expected(4, 4) = 5.0;
+  EXPECT_LT((body.pose_covariance - expected).norm(), 1e-14);
+  // Any error of the states within, as the error of the pose that it makes.
+  BodyEstimate there;
+  for (int k = 0; k < 20; ++k) {
+    const Eigen::Vector3d z = Eigen::Vector3d(std::sin(k), std::cos(2.0 * k), std::sin(3.0 * k));
+    const Eigen::Vector3d e = Q * z / std::sqrt(z.dot(Q * z));
+    const double moved[] = {estimate[0] + e(0), estimate[1] + e(1), estimate[2] + e(2)};
+    reader.read(moved, nullptr, nullptr, 3, there);
+    const Eigen::Vector3d turn = rotation(body.orientation, there.orientation);
+    EXPECT_LT(turn.head<2>().norm(), 1e-12);
+    EXPECT_NEAR(turn(2), e(1), 1e-12);
+  }
+}
+
+TEST(BodyReaderTest, AnEllipsoidThatIsNotFiniteIsALargeOne) {
+  BodyStates states;
+  states.position[1] = state(0);
+  states.roll_pitch_yaw[2] = state(1);
+  states.pose_variances = {1.0, 2.0, 3.0, 4.0, 5.0, 6.0};
+  const BodyReader reader(states);
+  const double estimate[] = {7.0, 2.5};
+  for (const double width :
+       {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN(), 1e200}) {
+    const Eigen::MatrixXd Q = (Eigen::MatrixXd(2, 2) << width, 0.0, 0.0, 1.0).finished();
+    BodyEstimate body;
+    reader.read_pose_ellipsoid(estimate, nullptr, Q.data(), 2, body);
+    const double unknown = BodyReader::kUnknownVariance;
+    EXPECT_EQ(diagonal({1.0, unknown, 3.0, 4.0, 5.0, unknown}), body.pose_covariance);
+  }
 }
 
 }  // namespace

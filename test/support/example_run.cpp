@@ -122,6 +122,11 @@ class Runner {
     run_.error.add(time, estimate - truth);
     run_.error_bound.add(
         time, Eigen::VectorXd::Constant(1, config_.law->error_bound(estimate_.state.data())));
+    if (!config_.law->has_bound()) return;
+    Eigen::VectorXd bounds(estimate.size());
+    Eigen::VectorXd workspace(config_.law->workspace_size());
+    config_.law->state_bounds(estimate_.state.data(), workspace.data(), bounds);
+    run_.state_bounds.add(time, bounds);
   }
 
   const ObserverConfig& config_;

@@ -24,12 +24,13 @@ struct ExampleRun {
   };
 
   explicit ExampleRun(double period)
-      : truth(period), estimate(period), error(period), error_bound(period) {}
+      : truth(period), estimate(period), error(period), error_bound(period), state_bounds(period) {}
 
   Trajectory truth;  ///< where there is an estimate
   Trajectory estimate;
   Trajectory error;        ///< estimate minus truth
-  Trajectory error_bound;  ///< the guaranteed one
+  Trajectory error_bound;  ///< the guaranteed one, and those on each state
+  Trajectory state_bounds;
   std::vector<double> sample_times;
   std::vector<Jump> jumps;  ///< of which the observer was told
   Simulator::End end = Simulator::End::kNone;

@@ -26,6 +26,9 @@ struct TransformOutput {
 struct OutputsConfig {
   /// Which numbers of the estimate are the body's.
   BodyStates body;
+  /// Whether the pose's covariance is the ellipsoid that holds the error, from the guaranteed
+  /// bound.
+  bool pose_is_bounded = false;
   /// In which the pose is given.
   std::string world_frame;
   /// Empty where no output needs it.
@@ -50,8 +53,9 @@ struct BodyNames {
 /// @param root         the section that holds it
 /// @param names        what its values may name
 /// @param world_frame  the key `frame_id`
+/// @param has_bound    whether the error of the estimates has a guaranteed bound
 /// @throws ConfigError for the first fault: a name that does not exist, a frame that is missing.
 std::optional<OutputsConfig> read_outputs(ConfigSection& root, const BodyNames& names,
-                                          const std::string& world_frame);
+                                          const std::string& world_frame, bool has_bound);
 
 }  // namespace sampled_data_observers

@@ -24,6 +24,26 @@ class StateBound {
   /// Why error_bound() is infinite.
   virtual BoundLoss bound_loss(const double* state) const = 0;
 
+  /// Bounds on |x_j − x̂_j| of each estimated state, in its units; infinite where error_bound() is.
+  /// By default error_bound() for each. The workspace is the law's; `bounds`, one for each
+  /// estimated state, is written.
+  virtual void state_bounds(const double* state, double* workspace,
+                            Eigen::Ref<Eigen::VectorXd> bounds) const {
+    static_cast<void>(workspace);
+    bounds.setConstant(error_bound(state));
+  }
+
+  /// An ellipsoid that holds the error: (x − x̂)(x − x̂)ᵀ <= Q. By default the ball of error_bound().
+  /// The workspace is the law's; Q, with as many rows and columns as estimated states, is written:
+  /// with an infinite diagonal where error_bound() is.
+  virtual void error_ellipsoid(const double* state, double* workspace,
+                               Eigen::Ref<Eigen::MatrixXd> Q) const {
+    static_cast<void>(workspace);
+    const double radius = error_bound(state);
+    Q.setZero();
+    Q.diagonal().setConstant(radius * radius);
+  }
+
   /// What keep_bound() of another law is to know. By default what is published.
   virtual PublishedBound known_bound(const double* state) const {
     return {error_bound(state), bound_loss(state)};
@@ -127,6 +147,23 @@ class ObserverLaw : public HybridSystem {
   /// Why error_bound() is infinite in a state.
   BoundLoss bound_loss(const double* state) const {
     return bound_ != nullptr ? bound_->bound_loss(state) : BoundLoss::kNone;
+  }
+
+  /// Whether it gives a bound.
+  bool has_bound() const { return bound_ != nullptr; }
+
+  /// Bounds on |x_j − x̂_j| of each estimated state: see StateBound.
+  /// @pre has_bound()
+  void state_bounds(const double* state, double* workspace,
+                    Eigen::Ref<Eigen::VectorXd> bounds) const {
+    bound_->state_bounds(state, workspace, bounds);
+  }
+
+  /// The ellipsoid that holds the error: see StateBound.
+  /// @pre has_bound()
+  void error_ellipsoid(const double* state, double* workspace,
+                       Eigen::Ref<Eigen::MatrixXd> Q) const {
+    bound_->error_ellipsoid(state, workspace, Q);
   }
 
   /// What another law that goes on from the estimate of a state is to know of its error, for its

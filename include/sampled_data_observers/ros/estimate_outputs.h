@@ -10,7 +10,7 @@
 #include "sampled_data_observers/ros/node_log.h"
 #include "sampled_data_observers/ros/odometry_listener.h"
 #include "sampled_data_observers/ros/transform_publisher.h"
-#include "sampled_data_observers/runtime/estimator.h"
+#include "sampled_data_observers/runtime/observer_runtime.h"
 
 namespace sampled_data_observers {
 
@@ -21,13 +21,14 @@ class EstimateOutputs {
   /// Advertises all topics.
   /// @param handle  resolves their names
   /// @param config  which outputs there are, and from which numbers
+  /// @param states  number of estimated states
   /// @param period  of the estimates [ns]
   /// @param log     of the nodelet
-  EstimateOutputs(ros::NodeHandle handle, const OutputsConfig& config, Duration period,
-                  const NodeLog& log);
+  EstimateOutputs(ros::NodeHandle handle, const OutputsConfig& config, Eigen::Index states,
+                  Duration period, const NodeLog& log);
 
-  /// Takes in an estimate of a law: nothing of either is needed afterwards.
-  void take(const ObserverLaw& law, const Estimate& estimate);
+  /// Takes in an estimate of `runtime`: nothing of either is needed afterwards.
+  void take(ObserverRuntime& runtime, const Estimate& estimate);
 
   /// Publishes what was taken in last.
   void publish();
@@ -36,6 +37,8 @@ class EstimateOutputs {
   BodyReader reader_;
   Stamp stamp_ = 0;
   BodyEstimate body_;
+  /// The ellipsoid that holds the error; no rows where the pose needs none.
+  Eigen::MatrixXd ellipsoid_;
   std::optional<BodyOutput<nav_msgs::Odometry>> odometry_;
   std::optional<BodyOutput<geometry_msgs::PoseWithCovarianceStamped>> pose_;
   std::optional<BodyOutput<geometry_msgs::TwistWithCovarianceStamped>> twist_;

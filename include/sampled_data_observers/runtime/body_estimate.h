@@ -75,11 +75,24 @@ class BodyReader {
   void read(const double* estimate, const double* input, const double* covariance, Eigen::Index n,
             BodyEstimate& body) const;
 
+  /// Replaces the covariance of the pose by an ellipsoid, (error)(error)ᵀ <= it, from one of the
+  /// states; the variances of what is no state stay. Where that is not finite, or beyond
+  /// kUnknownVariance, by that for each of its axes. Q is n x n and symmetric: the ellipsoid that
+  /// holds the error of the estimate; the others as for read().
+  /// @pre at most one of roll, pitch and yaw is a state, and none of the quaternion's numbers: the
+  ///      error of the pose is linear in that of the states
+  void read_pose_ellipsoid(const double* estimate, const double* input, const double* Q,
+                           Eigen::Index n, BodyEstimate& body) const;
+
+  /// Stands for nothing known [m², rad²]: finite, as filters that take covariances need it.
+  static constexpr double kUnknownVariance = 1e12;
+
  private:
   using Numbers = std::array<BodyNumber, 7>;
 
   void read_orientation(const double* estimate, const double* input, BodyEstimate& body,
                         Eigen::Matrix<double, 3, 4>& jacobian) const;
+  std::array<BodyNumber, 6> pose_axes() const;
 
   BodyStates states_;
   /// Position and orientation, and the two velocities: what the covariances are of.

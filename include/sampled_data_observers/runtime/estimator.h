@@ -40,6 +40,12 @@ struct Estimate {
 /// withhold a finite one.
 PublishedBound published_bound(const Estimate& estimate, BoundLoss withheld);
 
+/// The bounds on its entries, infinite where `bound` is. The workspace is that of its law;
+/// `bounds`, one for each estimated state, is written.
+/// @pre estimate.law->has_bound()
+void published_state_bounds(const Estimate& estimate, const PublishedBound& bound,
+                            double* workspace, Eigen::Ref<Eigen::VectorXd> bounds);
+
 /// An estimate that is computed in parts (Estimator::begin_query()), so that others may use the
 /// estimator meanwhile.
 class EstimateQuery {
@@ -52,6 +58,8 @@ class EstimateQuery {
   const Estimate& estimate() const { return estimate_; }
   /// Its bound, as it could be given when the query began.
   PublishedBound bound() const { return published_bound(estimate_, withheld_); }
+  /// The bounds on its entries, likewise; as published_state_bounds().
+  void state_bounds(Eigen::Ref<Eigen::VectorXd> bounds) const;
 
  private:
   friend class Estimator;
@@ -108,6 +116,13 @@ class Estimator {
   /// after its stamp: that a later number tells of a lost jump takes no bound of before away here
   /// (see begin_query() and is_before_gap()).
   PublishedBound bound(const Estimate& estimate, Stamp now) const;
+
+  /// The bounds on the entries of an estimate, as published_state_bounds(); likewise at `now`.
+  /// @pre the estimate was made by this estimator, and is not older than a take-over
+  void state_bounds(const Estimate& estimate, Stamp now, Eigen::Ref<Eigen::VectorXd> bounds);
+
+  /// The ellipsoid that holds its error (StateBound::error_ellipsoid()), likewise.
+  void error_ellipsoid(const Estimate& estimate, Stamp now, Eigen::Ref<Eigen::MatrixXd> Q);
 
   /// The estimate at `stamp` from all events taken in; `estimate` is written for kOk and kHeld.
   /// @pre `estimate` was made by make_estimate() of at(stamp)
@@ -193,6 +208,7 @@ class Estimator {
   void learn_input(Stamp stamp);
   void miss_input(Stamp stamp);
   Estimator& responsible_for(Stamp stamp);
+  double* workspace_of(const ObserverLaw& law);
 
   std::shared_ptr<const ObserverLaw> law_;
   Options options_;

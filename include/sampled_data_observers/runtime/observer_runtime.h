@@ -80,6 +80,16 @@ class ObserverRuntime {
   /// The bound on the error of an estimate as it can be given now (Estimator::bound()).
   PublishedBound bound(const Estimate& estimate) const { return estimator_.bound(estimate, now_); }
 
+  /// Those on its entries (Estimator::state_bounds()).
+  void state_bounds(const Estimate& estimate, Eigen::Ref<Eigen::VectorXd> bounds) {
+    estimator_.state_bounds(estimate, now_, bounds);
+  }
+
+  /// The ellipsoid that holds its error (Estimator::error_ellipsoid()).
+  void error_ellipsoid(const Estimate& estimate, Eigen::Ref<Eigen::MatrixXd> Q) {
+    estimator_.error_ellipsoid(estimate, now_, Q);
+  }
+
   /// The observer and its events, to be looked at.
   const Estimator& estimator() const { return estimator_; }
   /// What it was made from.

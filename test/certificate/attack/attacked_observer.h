@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "certificate/disturbed_flow.h"
+#include "certificate/state_shares.h"
 #include "sampled_data_observers/config/observer_config.h"
 #include "sampled_data_observers/observer/plant_observer.h"
 
@@ -25,6 +26,7 @@ class AttackedObserver {
   AttackedObserver(const ObserverConfig& config, Eigen::MatrixXd N)
       : law_(*config.law),
         plant_(*config.plant),
+        shares_(law_),
         flow_(plant_, std::move(N), plant_.integration().step) {
     workspace_.resize(law_.workspace_size());
     for (std::size_t i = 0; i < plant_.sensors().size(); ++i) {
@@ -71,7 +73,13 @@ class AttackedObserver {
 
   double bound(const Attacked& at) const { return law_.error_bound(at.law_state.data()); }
 
-  /// |x − x̂| over its bound, less what double precision leaves of both; counted as a comparison.
+  const Eigen::VectorXd& state_bounds(const Attacked& at) { return shares_.bounds(at.law_state); }
+
+  /// Whether the attack is on the bounds on each state, instead of that on the norm.
+  void attack_states(bool are_attacked) { states_are_attacked_ = are_attacked; }
+
+  /// |x − x̂| over its bound, or the largest of |x_j − x̂_j| over its own, less what double precision
+  /// leaves of both; counted as a comparison.
   double compare(const Attacked& at) {
     ++comparisons_;
     const double bound = this->bound(at);
@@ -82,20 +90,33 @@ class AttackedObserver {
     const double rounding = 1e-12 * (at.x.norm() + at.law_state.head(plant_.states()).norm());
     const double share = std::max(0.0, error(at).norm() - rounding) / std::max(bound, 1e-300);
     largest_share_ = std::max(largest_share_, share);
-    return share;
+    const double of_states = shares_.largest(at.law_state, error(at), rounding);
+    largest_state_share_ = std::max(largest_state_share_, of_states);
+    if (comparisons_ % kPerEllipsoid == 0) {
+      largest_ellipsoid_share_ = std::max(largest_ellipsoid_share_,
+                                          shares_.of_ellipsoid(at.law_state, error(at), rounding));
+    }
+    return states_are_attacked_ ? of_states : share;
   }
 
   std::size_t comparisons() const { return comparisons_; }
   std::size_t without_bound() const { return without_bound_; }
   double largest_share() const { return largest_share_; }
+  /// Of the bound on a state, and √(eᵀ Q⁻¹ e) of the ellipsoid.
+  double largest_state_share() const { return largest_state_share_; }
+  double largest_ellipsoid_share() const { return largest_ellipsoid_share_; }
 
  private:
+  /// It is compared with one of so many errors.
+  static constexpr std::size_t kPerEllipsoid = 8;
+
   void reset(const Event& event, Attacked& at) {
     static_cast<void>(law_.reset(event, at.law_state.data(), workspace_.data()));
   }
 
   const ObserverLaw& law_;
   const Plant& plant_;
+  StateShares shares_;
   DisturbedFlow flow_;
   Eigen::VectorXd workspace_;
   std::size_t sensor_ = 0;
@@ -104,6 +125,9 @@ class AttackedObserver {
   std::size_t comparisons_ = 0;
   std::size_t without_bound_ = 0;
   double largest_share_ = 0.0;
+  double largest_state_share_ = 0.0;
+  double largest_ellipsoid_share_ = 0.0;
+  bool states_are_attacked_ = false;
 };
 
 }  // namespace sampled_data_observers::test

@@ -47,9 +47,10 @@ class BeamSearch {
     }
     if (!observer_.plant().is_affine()) return;
     for (int i = 0; i < kPolished; ++i) {
-      const Play worst =
-          WorstInputs(observer_, beam[static_cast<std::size_t>(i)].run, assumptions_).worst();
-      play(observer_, worst, [this](const Attacked& at) { observer_.compare(at); });
+      WorstInputs inputs(observer_, beam[static_cast<std::size_t>(i)].run, assumptions_);
+      for (const Play& worst : {inputs.worst(), inputs.worst_for_a_state()}) {
+        play(observer_, worst, [this](const Attacked& at) { observer_.compare(at); });
+      }
     }
   }
 

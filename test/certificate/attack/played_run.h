@@ -50,7 +50,8 @@ void play(AttackedObserver& observer, const Play& run, const Look& look) {
 /// For the times of a run, the worst initial error, noise and disturbance for an instant of it: the
 /// error depends linearly on them where the plant is affine, e = M_0 e_0 + M_1 v_1 + …, and
 /// |e| is largest, with each part within its norm, where each is the multiple of M_iᵀ d that its
-/// norm allows and d = e/|e|. That is iterated, from several d.
+/// norm allows and d = e/|e|. That is iterated, from several d. |e_j| is largest with d = ±the unit
+/// vector of j.
 class WorstInputs {
  public:
   WorstInputs(AttackedObserver& observer, const Play& run, const ErrorAssumptions& assumptions)
@@ -68,8 +69,28 @@ class WorstInputs {
     }
   }
 
-  /// The run with the inputs that are the worst for the instant at which that comes to most of its
-  /// bound.
+  /// The run with the inputs that are the worst for the state and the instant at which that comes
+  /// to most of its bound.
+  Play worst_for_a_state() {
+    std::vector<Eigen::VectorXd> bounds;
+    play(observer_, run_,
+         [&](const Attacked& at) { bounds.push_back(observer_.state_bounds(at)); });
+    Play worst = run_;
+    double largest = 0.0;
+    for (std::size_t instant = 0; instant < bounds.size(); ++instant) {
+      if (!bounds[instant].allFinite()) continue;
+      for (Eigen::Index j = 0; j < bounds[instant].size(); ++j) {
+        const Eigen::VectorXd along = Eigen::VectorXd::Unit(bounds[instant].size(), j);
+        const double share = largest_along(instant, along)(j) / bounds[instant](j);
+        if (!(share > largest)) continue;
+        largest = share;
+        worst = chosen();
+      }
+    }
+    return worst;
+  }
+
+  /// The same for the norm.
   Play worst() {
     const Eigen::Index n = observer_.plant().states();
     std::vector<double> bounds;
