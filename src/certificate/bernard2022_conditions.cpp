@@ -93,8 +93,6 @@ class QuadraticCondition : public LyapunovTheorem {
   std::unique_ptr<const ErrorBound> error_bound(
       const CertificateSubject& subject, const NamedMatrices& values,
       const ErrorAssumptions& assumptions) const override {
-    // Stated maps of the error take outputs as known at all times, which come in messages.
-    if (!subject.plant.stated.is_empty()) return nullptr;
     if (in_flow_) {
       const Eigen::MatrixXd L_d = at_jumps_ ? values.at("L_d") : Eigen::MatrixXd();
       return held_output_bound(subject, {{values.at("P"), values.at("L_c"), L_d}},

@@ -66,8 +66,6 @@ class Corollary52 : public Theorem {
   std::unique_ptr<const ErrorBound> error_bound(
       const CertificateSubject& subject, const NamedMatrices& values,
       const ErrorAssumptions& assumptions) const override {
-    // Stated maps of the error take outputs as known at all times, which come in messages.
-    if (!subject.plant.stated.is_empty()) return nullptr;
     const Eigen::MatrixXd& L_d = values.at("L_d");
     return jump_based_bound(subject, values.at("P"), L_d,
                             {-scalar_value(values, "jump_decay"), 0.0}, assumptions);

@@ -71,8 +71,6 @@ class Example42 : public LyapunovTheorem {
   std::unique_ptr<const ErrorBound> error_bound(
       const CertificateSubject& subject, const NamedMatrices& values,
       const ErrorAssumptions& assumptions) const override {
-    // Stated maps of the error take outputs as known at all times, which come in messages.
-    if (!subject.plant.stated.is_empty()) return nullptr;
     const ModeMatrices& plant = subject.plant.mode();
     const ObservableForm form = observable_form(plant.A, plant.C_c);
     const double ell = scalar_value(values, "ell");

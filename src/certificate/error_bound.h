@@ -16,6 +16,9 @@ struct ErrorAssumptions {
   double jump_stamp_error = 0.0;  ///< by how much the stamps of jumps may be off [s]
   /// How far a continuous output moves per second at most, between jumps: units of the outputs/s.
   std::optional<double> output_rate = std::nullopt;
+  /// n, where the law injects an output y that picks a state into its flow (OutputInjection):
+  /// |f_i(x with y) − f_i(x with y')| <= injection_lipschitz(i) |y − y'| for all x, y, y'.
+  std::optional<Eigen::VectorXd> injection_lipschitz = std::nullopt;
 };
 
 /// What a jump of the plant does to an estimate.
@@ -27,6 +30,8 @@ struct JumpMotion {
   double speed_before = 0.0;  ///< |f(x̂)|, f the plant's flow
   double speed_after = 0.0;   ///< |f(g(x̂))|
   std::size_t mode = 0;       ///< the one that follows, by its position among the plant's
+  /// Where x̂ stays for now, and x̂⁺ waits for its release: |f(x̂⁺)|.
+  std::optional<double> awaited_speed = std::nullopt;
 };
 
 /// What a law does from an event on, as far as its error depends on it.
@@ -121,6 +126,18 @@ class ErrorBound {
   /// At a jump that was told and that the law did not take, so that the plant may have jumped or
   /// not.
   virtual void refused_jump(const JumpMotion& motion, double* state) const { jump(motion, state); }
+
+  /// Whether it bounds what jumps do whose resets wait for a release (see DelayedJumps).
+  virtual bool takes_delays() const { return false; }
+
+  /// While a reset x̂⁺ waits, the input changes, and |f(x̂⁺)| with it.
+  virtual void change_awaited_speed(double speed, double* state) const {
+    static_cast<void>(speed);
+    static_cast<void>(state);
+  }
+
+  /// x̂ becomes the x̂⁺ that waited.
+  virtual void release(double* state) const { static_cast<void>(state); }
 
   /// The bound on |x − x̂|, units of the state.
   virtual double bound(const double* state) const = 0;

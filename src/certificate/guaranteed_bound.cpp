@@ -126,6 +126,7 @@ void GuaranteedBound::initialize(double* state) const {
   moved_.set(0.0, state);
   speed_before_.set(0.0, state);
   speed_after_.set(0.0, state);
+  awaited_speed_.set(0.0, state);
   since_start_.restart(state);
   since_jump_.expire(state);
   before_.fill(0.0, state);
@@ -142,6 +143,8 @@ bool GuaranteedBound::accepts(const Event& event) const {
 void GuaranteedBound::flow(Duration duration, double* state, double* workspace) const {
   const double missing = law().missing_jumps(state);
   const double violations = law().dwell_violations(state);
+  // No more outputs come to a jump that waits.
+  if (duration > 0 && awaiting_.of(state) && law().awaited(state) != nullptr) begin_interval(state);
   look_at_law(state, workspace);
   law().flow(duration, state, workspace);
   if (law().missing_jumps(state) != missing) give_up(state);
@@ -182,8 +185,9 @@ Effect GuaranteedBound::reset(const Event& event, double* state, double* workspa
   const bool is_sample = event.kind == EventKind::kSample;
   const bool is_wrapped = is_sample && may_be_wrapped(event, state, workspace);
   if ((is_sample || is_jump || is_output) && !comes_to_jump) {
-    before_.set(state, state);
+    before_.set(next_estimate(state), state);
   }
+  const bool awaits = law().awaited(state) != nullptr;
   const double skipped = law().skipped_jumps(state);
   const double violations = law().dwell_violations(state);
   const Effect effect = law().reset(event, state, workspace);
@@ -192,9 +196,12 @@ Effect GuaranteedBound::reset(const Event& event, double* state, double* workspa
   if (law().is_at_rest(state)) give_up(state, BoundLoss::kAtRest);
   // Outputs of the same stamp would find before_ overwritten.
   if (!outputs_may_come && is_told_again(event, effect, state)) return effect;
+  if (is_jump && took_effect(effect) && awaits) release(state);
+  note_awaited_speed(state, workspace);
   if (is_jump && event.mode && took_effect(effect)) mode_is_open_.set(false, state);
   if (is_jump) note_stamp_of_jump(event, state, workspace);
   if (!took_effect(effect)) {
+    if (is_jump && awaits) give_up(state, BoundLoss::kUnknownJump);
     if (is_jump) refuse_jump(state);
     return effect;
   }
@@ -214,10 +221,17 @@ Effect GuaranteedBound::reset(const Event& event, double* state, double* workspa
   } else if (comes_to_jump) {
     if (effect != Effect::kWithoutOutputs) take_jump(state);
   } else if (is_output && moved_since_before(state) > 0.0) {
+    if (awaits) give_up(state, BoundLoss::kUnknownJump);
     go_on_from_moved(state);
   } else if (event.kind == EventKind::kOutput && bound_->holds_outputs()) {
     begin_interval(state);
     bound_->output(then_.bound.of(state));
+    go_on_from_then(state);
+  } else if (event.kind == EventKind::kRelease) {
+    release(state);
+  } else if (event.kind == EventKind::kInput && awaits) {
+    begin_interval(state);
+    bound_->change_awaited_speed(awaited_speed_.of(state), then_.bound.of(state));
     go_on_from_then(state);
   }
   return effect;
@@ -254,77 +268,6 @@ void GuaranteedBound::go_on_from_moved(double* state) const {
   go_on_from_then(state);
 }
 
-void GuaranteedBound::await_outputs(double* state) const {
-  // The part stays as before the jump, to which the outputs of the same stamp belong.
-  awaiting_.set(true, state);
-  moved_.set(moved_since_before(state), state);
-  flow_part(state);
-}
-
-/// A jump with its outputs, where it has any.
-void GuaranteedBound::take_jump(double* state) const {
-  awaiting_.set(false, state);
-  for (std::size_t i = 0; i < angles_.size(); ++i) {
-    if (plant_->sensors()[i].timing != SensorTiming::kAtJumps) continue;
-    if (may_be_wrapped(bound_of(then_, state), i, nullptr)) lose(then_, BoundLoss::kAngle, state);
-  }
-  bound_->jump(motion(moved_since_before(state), state), then_.bound.of(state));
-  go_on_from_then(state);
-}
-
-/// Whether its number, and its mode, are those of the jump before: then the plant made no other.
-bool GuaranteedBound::is_told_again(const Event& jump, Effect effect, const double* state) const {
-  if (effect != Effect::kRepeated) return false;
-  const double mode = plant_->modes()[observer().mode_of(state)].label;
-  return !plant_->switches() || jump.mode.value_or(mode) == mode;
-}
-
-/// Nobody knows whether the plant has jumped.
-void GuaranteedBound::refuse_jump(double* state) const {
-  begin_interval(state);
-  if (plant_->switches()) {
-    // It may be in another mode than the law.
-    give_up(state, BoundLoss::kUnknownJump);
-    return;
-  }
-  const VectorMap* map = plant_->modes()[observer().mode_of(state)].jump.get();
-  if (map != nullptr) map->evaluate(state, observer().held_part(state), before_.of(state));
-  bound_->refused_jump(motion(moved_since_before(state), state), then_.bound.of(state));
-  go_on_from_then(state);
-}
-
-/// What the bound needs of a jump that may not have been at its stamp; x̂ before it stands in
-/// before_. Of two of one stamp, numbers alone tell which was first.
-void GuaranteedBound::note_stamp_of_jump(const Event& jump, double* state,
-                                         double* workspace) const {
-  const double since = since_jump_.of(state);
-  const bool are_numbered = is_numbered_.of(state) && jump.index != 0;
-  since_jump_.restart(state);
-  is_numbered_.set(jump.index != 0, state);
-  if (lets_jumps_coincide() && since == 0.0 && !are_numbered) {
-    give_up(state, BoundLoss::kUncertainJump);
-  }
-  if (jump_stamp_error_ == 0) return;
-  if (!shift_is_bounded_ || since <= 2.0 * static_cast<double>(jump_stamp_error_)) {
-    give_up(state, BoundLoss::kUncertainJump);
-    return;
-  }
-  const PlantMode& mode = plant_->modes().front();
-  const double* u = observer().held_part(state);
-  const double* x = before_.of(state);
-  double* speed = speed_.of(workspace);
-  mode.flow->evaluate(x, u, speed);
-  speed_before_.set(norm(speed, estimate_size()), state);
-  double* jumped = jumped_.of(workspace);
-  mode.jump->evaluate(x, u, jumped);
-  mode.flow->evaluate(jumped, u, speed);
-  speed_after_.set(norm(speed, estimate_size()), state);
-}
-
-JumpMotion GuaranteedBound::motion(double moved, const double* state) const {
-  return {moved, speed_before_.of(state), speed_after_.of(state), observer().mode_of(state)};
-}
-
 void GuaranteedBound::begin_interval(double* state) const {
   copy(now_, then_, state);
   since_.restart(state);
@@ -333,9 +276,10 @@ void GuaranteedBound::begin_interval(double* state) const {
 
 double GuaranteedBound::moved_since_before(const double* state) const {
   const double* from = before_.of(state);
+  const double* to = next_estimate(state);
   double sum = 0.0;
   for (Eigen::Index i = 0; i < estimate_size(); ++i) {
-    sum += (state[i] - from[i]) * (state[i] - from[i]);
+    sum += (to[i] - from[i]) * (to[i] - from[i]);
   }
   return std::sqrt(sum);
 }

@@ -37,6 +37,9 @@ namespace sampled_data_observers {
 /// are told within 2 δ, so that nobody knows which was first, or one of a plant with inputs, modes
 /// or angles measured at jumps, it is lost.
 ///
+/// Where jumps wait for their release (ErrorBound::takes_delays()), a jump is one to what waits,
+/// and x̂ takes it at the release. A jump that is refused meanwhile loses the bound.
+///
 /// A share of 64 n ε of |x̂| is added for the rounding of the estimate, n the number of its states:
 /// to the bound on the norm, to that on each state, and to the ellipsoid.
 class GuaranteedBound : public LawDecorator, public StateBound {
@@ -93,6 +96,9 @@ class GuaranteedBound : public LawDecorator, public StateBound {
   void await_outputs(double* state) const;
   void take_jump(double* state) const;
   void refuse_jump(double* state) const;
+  const double* next_estimate(const double* state) const;
+  void note_awaited_speed(double* state, double* workspace) const;
+  void release(double* state) const;
   void note_stamp_of_jump(const Event& jump, double* state, double* workspace) const;
   JumpMotion motion(double moved, const double* state) const;
   void go_on_from_moved(double* state) const;
@@ -112,8 +118,9 @@ class GuaranteedBound : public LawDecorator, public StateBound {
   FlagSlot mode_is_open_ = state_layout().flag();
   FlagSlot is_numbered_ = state_layout().flag();  ///< the last jump that was told, taken or not
   NumberSlot moved_ = state_layout().number();    ///< by how much x̂ did at that jump
-  NumberSlot speed_before_ = state_layout().number();  ///< |f(x̂)| at the last jump
-  NumberSlot speed_after_ = state_layout().number();   ///< |f(g(x̂))| there
+  NumberSlot speed_before_ = state_layout().number();   ///< |f(x̂)| at the last jump
+  NumberSlot speed_after_ = state_layout().number();    ///< |f(g(x̂))| there
+  NumberSlot awaited_speed_ = state_layout().number();  ///< |f(x̂⁺)| of a reset that waits
   TimerSlot since_start_ = state_layout().timer();
   TimerSlot since_jump_ = state_layout().timer(1e18);           ///< that was told, taken or not
   VectorSlot before_ = state_layout().vector(estimate_size());  ///< x̂ before the last of them

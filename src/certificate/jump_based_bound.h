@@ -30,6 +30,14 @@ struct JumpContraction {
 /// where |f(z)| <= |f(x̂)| + ‖A‖ |z − x̂| and |f(g(z))| <= |f(g(x̂))| + ‖A‖ ‖A_d‖ |z − x̂|. A
 /// disturbance |w| <= d that acts between jump and stamp adds up to (1 + γ ‖A_d‖ + ‖L_d‖ ‖C_d‖) γ δ
 /// ‖N‖ d. Between stamps the error of x̃ moves as without.
+///
+/// Where the reset μ of a jump waits for its release while x̂ flows on: let x̂_v be the estimate that
+/// flows from μ on, so that x − x̂_v is the error of an observer without delay, of which all of the
+/// above is true. Until the release x̂_v − x̂ flows by ẋ = A x from μ − x̂ on. From then on x̂ begins
+/// at μ, and x̂_v − x̂ at what x̂_v has moved by: d/dt (x̂_v − μ) = A (x̂_v − μ) + f(μ, u), f affine
+/// in x. That is added to what was caused since the jump, and so goes through the next reset.
+///
+/// Where the flow takes an output in place of a state: as held_output_bound().
 /// @param P       n x n
 /// @param L_d     n x m
 std::unique_ptr<const ErrorBound> jump_based_bound(const CertificateSubject& subject,

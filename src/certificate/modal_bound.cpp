@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "certificate/bound_flow.h"
+#include "certificate/held_output.h"
 #include "certificate/interval_bound.h"
 #include "certificate/modal_norms.h"
 #include "certificate/outward.h"
@@ -22,18 +23,24 @@ void refuse_uncertain_stamps(const ErrorAssumptions& assumptions) {
       "jumps/stamp_error: the theorem's bound takes each jump at its stamp");
 }
 
+/// A jump whose reset waits: `kNext` and `kShift` are of the estimate that flows on from that reset
+/// as the plant flows, without outputs.
 class HeldOutputBound : public IntervalBound {
  public:
   HeldOutputBound(const CertificateSubject& subject, const std::vector<ModalProof>& modes,
-                  double flow_decay, double output_rate, const ErrorAssumptions& assumptions)
+                  double flow_decay, const ErrorAssumptions& assumptions)
       : IntervalBound(subject, assumptions, kEntries),
         norms_(subject, modes, assumptions),
         rate_(-flow_decay / 2.0),
-        noise_(assumptions.noise),
-        output_rate_(output_rate) {}
+        takes_delays_(modes.size() == 1 && !assumptions.injection_lipschitz) {
+    for (std::size_t mode = 0; mode < modes.size(); ++mode) {
+      held_.emplace_back(assumptions, norms_.at(static_cast<double>(mode)).output);
+    }
+  }
 
   bool follows_law() const override { return true; }
   bool holds_outputs() const override { return true; }
+  bool takes_delays() const override { return takes_delays_; }
 
   void look_at(const LawAtWork& law, double* state) const override {
     if (is_lost(state)) return;
@@ -43,15 +50,10 @@ class HeldOutputBound : public IntervalBound {
       values[kMode] = static_cast<double>(law.mode);
       values[kError] *= norms.per_error;
     }
-    if (!law.innovation) {
-      values[kIsHeld] = 0.0;
-    } else if (values[kIsHeld] == 0.0) {
-      const double error = values[kError] / norms.least;
-      hold(raised(*law.innovation) + norms.output * error, values);
-    }
+    held_[law.mode].look_at(law.innovation, values[kError] / norms.least, values + kHeld);
   }
 
-  void output(double* state) const override { hold(noise_, numbers(state)); }
+  void output(double* state) const override { held_.front().take_message(numbers(state) + kHeld); }
   void sample(std::size_t, double*, double*) const override {}
 
   void jump(const JumpMotion& motion, double* state) const override {
@@ -68,28 +70,43 @@ class HeldOutputBound : public IntervalBound {
         norms.uncorrected[motion.mode] * values[kError] + norms.per_error * motion.moved;
     values[kError] = std::max(values[kError], jumped);
     // The law holds what it held, which may have been measured before a jump.
-    values[kIsHeld] = 0.0;
+    HeldOutput::forget(values + kHeld);
     begin_interval(state);
+  }
+
+  void change_awaited_speed(double speed, double* state) const override {
+    double* values = numbers(state);
+    values[kSpeed] = raised(norms_.at(values[kMode]).per_error * speed);
+  }
+  void release(double* state) const override {
+    if (is_lost(state)) return;
+    double* values = numbers(state);
+    values[kError] = values[kNext] + values[kShift];
+    values[kIsAwaited] = values[kNext] = values[kShift] = values[kSpeed] = 0.0;
   }
 
  protected:
   void begin_numbers(double error, double* values) const override {
+    std::fill_n(values, kEntries, 0.0);
     values[kError] = error;
     values[kMode] = kUntold;
-    values[kIsHeld] = values[kSince] = values[kOffset] = 0.0;
   }
 
   void flow_numbers(double duration, const Interval&, double* values) const override {
     const ModalNorms::OfMode& norms = norms_.at(values[kMode]);
-    if (values[kIsHeld] == 0.0) {
-      values[kError] = flowed_linearly(values[kError], norms.growth, norms.push, duration);
+    if (values[kIsAwaited] != 0.0) {
+      values[kNext] = flowed_linearly(values[kNext], norms.growth, norms.push, duration);
+      values[kShift] = flowed_linearly(values[kShift], norms.growth, values[kSpeed], duration);
+    }
+    if (!HeldOutput::is_known(values + kHeld)) {
+      const double growth = norms.growth + norms.free_injection;
+      values[kError] = flowed_linearly(values[kError], growth, norms.push, duration);
       return;
     }
-    const double held = values[kOffset] + output_rate_ * values[kSince];
+    const HeldOutput& held = held_[static_cast<std::size_t>(values[kMode])];
     values[kError] =
-        flowed_linearly(values[kError], rate_, norms.push + norms.injection * held, duration) +
-        norms.injection * output_rate_ * integral_of_ramp(rate_, duration);
-    values[kSince] += duration;
+        held.flowed(values[kError], rate_, norms.push, norms.injection, duration, values + kHeld);
+    HeldOutput::advance(duration, values + kHeld);
   }
 
   double error(const Interval&, const double* values) const override {
@@ -108,20 +125,16 @@ class HeldOutputBound : public IntervalBound {
   }
 
  private:
-  enum Entry {
-    kError,   ///< at least |e| in the norm of the mode's P
-    kMode,    ///< its position, or kUntold
-    kIsHeld,  ///< whether |y_held − C_c x| is bounded by the next two
-    kSince,   ///< time since that was kOffset at most [s]
-    kOffset,
-    kEntries
+  enum Entry : Eigen::Index {
+    kError,      ///< at least |e| in the norm of the mode's P
+    kMode,       ///< its position, or kUntold
+    kIsAwaited,  ///< whether a reset waits
+    kNext,       ///< likewise, of the error of the estimate that flows from it
+    kShift,      ///< by how much that one has moved since the jump, in the same norm
+    kSpeed,      ///< how fast it moves there
+    kHeld,       ///< HeldOutput
+    kEntries = kHeld + HeldOutput::kEntries
   };
-
-  static void hold(double offset, double* values) {
-    values[kIsHeld] = 1.0;
-    values[kSince] = 0.0;
-    values[kOffset] = offset;
-  }
 
   void go_on(double factor, double noise, const JumpMotion& motion, double* state) const {
     if (is_lost(state)) return;
@@ -129,21 +142,32 @@ class HeldOutputBound : public IntervalBound {
     const double before = values[kError];
     double after = factor * before + noise;
     const auto mode = static_cast<double>(motion.mode);
+    const double moved = raised(norms_.at(mode).per_error * motion.moved);
     // Sooner than T1 it may have been told twice, before the estimate began, too: then x stayed
     // where it was, and only x̂ jumped.
     if (is_too_soon(interval(state).tau) && values[kMode] == mode) {
-      after = std::max(after, before + norms_.at(mode).per_error * motion.moved);
+      after = std::max(after, before + moved);
     }
     values[kError] = after;
     values[kMode] = mode;
-    values[kIsHeld] = 0.0;  // a law takes no output of before a jump for one of after it
+    // A law takes no output of before a jump for one of after it; and one that waits goes on
+    // holding what it held.
+    HeldOutput::forget(values + kHeld);
+    values[kIsAwaited] = 0.0;
+    if (motion.awaited_speed) {
+      values[kIsAwaited] = 1.0;
+      values[kNext] = after;
+      values[kShift] = 0.0;
+      values[kError] = after + moved;
+      change_awaited_speed(*motion.awaited_speed, state);
+    }
     begin_interval(state);
   }
 
   ModalNorms norms_;
   double rate_;
-  double noise_;
-  double output_rate_;
+  bool takes_delays_;
+  std::vector<HeldOutput> held_;  ///< one for each mode
 };
 
 class SwitchBound : public IntervalBound {
@@ -249,13 +273,8 @@ std::unique_ptr<const ErrorBound> held_output_bound(const CertificateSubject& su
                                                     double flow_decay,
                                                     const ErrorAssumptions& assumptions) {
   refuse_uncertain_stamps(assumptions);
-  if (!assumptions.output_rate) {
-    throw std::invalid_argument(
-        "no output_rate, how fast the continuous output changes at most [its unit/s]: it is held "
-        "between its messages");
-  }
-  return std::make_unique<const HeldOutputBound>(subject, modes, flow_decay,
-                                                 *assumptions.output_rate, assumptions);
+  require_output_rate(assumptions);
+  return std::make_unique<const HeldOutputBound>(subject, modes, flow_decay, assumptions);
 }
 
 std::unique_ptr<const ErrorBound> switch_bound(const CertificateSubject& subject,

@@ -29,6 +29,14 @@ struct ModalProof {
 /// is |ν| + ‖C_c‖ |e| there, and grows as fast. Where no output is held yet, as after each jump,
 /// the error grows as the plant lets it grow at most. A jump from mode q into q' makes of |e|_{P_q}
 /// at most √λ_max(RᵀP_q'R, P_q) |e|_{P_q} + |L_d|_P' noise, R = A_d − L_d C_d.
+///
+/// Where the flow takes the output in place of a state x_s = C_c x, k bounding what f_i makes of it
+/// (ErrorAssumptions::injection_lipschitz), f(x) − f(x̂ with y_held) is A e + d with |d_i| <= k_i
+/// |h|, and k_i |x_s − x̂_s| where nothing is held: |d|_P <= √(kᵀ |P| k) |h|, |P| entry by entry.
+///
+/// Where the reset μ of a jump waits for its release, x̂ goes on as above from |x − μ| + |μ − x̂|.
+/// With x̂_v from μ on by ẋ̂_v = f(x̂_v), e_v = x − x̂_v flows as the plant lets it, and x̂_v − μ by
+/// d/dt (x̂_v − μ) = A (x̂_v − μ) + f(μ, u): at the release x − μ is the sum of the two.
 /// @param flow_decay  1/s
 /// @throws std::invalid_argument without an output_rate, and where stamps of jumps may be off.
 std::unique_ptr<const ErrorBound> held_output_bound(const CertificateSubject& subject,

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "certificate/held_output.h"
 #include "certificate/outward.h"
 #include "certificate/weighted_norm.h"
 #include "linear_algebra/matrix_functions.h"
@@ -23,7 +24,9 @@ ModalNorms::ModalNorms(const CertificateSubject& subject, const std::vector<Moda
     norms.set = SublevelSet(proof.P, least);
     norms.growth = growth_above(proof.P, plant.A);
     norms.push = norm_into(proof.P, subject.plant.N) * assumptions.disturbance;
-    norms.injection = norm_into(proof.P, proof.L_c);
+    const double injected = injection_gain(proof.P, assumptions);
+    norms.injection = norm_into(proof.P, proof.L_c) + injected;
+    norms.free_injection = raised(injected / norms.least);
     norms.output = plant.C_c.rows() == 0 ? 0.0 : raised(norm2(plant.C_c));
     const Eigen::MatrixXd A_d = jump_of(plant);
     MatrixExpression reset = A_d;

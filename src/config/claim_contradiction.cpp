@@ -220,6 +220,39 @@ std::optional<Contradiction> refute_error_maps(const Plant& plant, const StatedE
   return found;
 }
 
+std::optional<Contradiction> refute_injection_constants(const Plant& plant,
+                                                        const OutputInjection& injection,
+                                                        const Vector& constants,
+                                                        const Vector& centre) {
+  const VectorMap& flow = *plant.modes().front().flow;
+  std::optional<Contradiction> found;
+  double worst = 1.0;
+  visit_pairs(centre, plant.inputs(), [&](const Pair& pair) {
+    Vector other = pair.a;
+    other(injection.state) = pair.b(injection.state);
+    const double distance = std::abs(pair.a(injection.state) - other(injection.state));
+    const Vector at_a = value_of(flow, pair.a, pair.u);
+    const Vector at_other = value_of(flow, other, pair.u);
+    for (Eigen::Index i = 0; i < constants.size(); ++i) {
+      const double change = std::abs(at_a(i) - at_other(i));
+      const double allowed =
+          constants(i) * distance * (1.0 + kTolerance) +
+          kRounding * (at_a.norm() + at_other.norm() + pair.a.norm() + other.norm());
+      if (!std::isfinite(change) || !(change > worst * allowed)) continue;
+      worst = change / allowed;
+      const std::string& name = plant.state_names()[static_cast<std::size_t>(i)];
+      found = Contradiction{
+          "injection_lipschitz",
+          "for " + name + " at least what the injected output makes of its derivative, which is " +
+              number_text(change / distance, 9) + " per unit between " + in_digits(pair.a) +
+              " and " + in_digits(other) + with_input(pair.u) + kEverywhere,
+          number_text(constants(i), 9)};
+    }
+    return false;
+  });
+  return found;
+}
+
 std::optional<std::vector<OutputInjection>> injections_that_explain(const Plant& plant,
                                                                     const StatedErrorMaps& stated,
                                                                     const Vector& centre) {

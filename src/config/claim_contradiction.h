@@ -14,12 +14,13 @@ namespace sampled_data_observers {
 
 /// Something that a file states of a plant and that the plant's own maps refute at a point.
 struct Contradiction {
-  std::string key;       ///< that states it: "lipschitz_constant", "vertices", "A" or "A_d"
+  /// That states it: "lipschitz_constant", "vertices", "A", "A_d" or "injection_lipschitz".
+  std::string key;
   std::string expected;  ///< what the plant's maps ask of it, with the point
   std::string found;
 };
 
-// Both look at pairs of points, the same in every run, at distances from 1e-7 to 1e4 times the size
+// All look at pairs of points, the same in every run, at distances from 1e-7 to 1e4 times the size
 // of `centre` (n entries) or 1: near it, and far away, since what is stated is stated of all
 // states. What they find is certain; what they do not find may be wrong all the same.
 
@@ -36,6 +37,14 @@ std::optional<Contradiction> refute_lipschitz_claims(const Plant& plant,
 std::optional<Contradiction> refute_error_maps(const Plant& plant, const StatedErrorMaps& stated,
                                                const std::vector<OutputInjection>& injections,
                                                const Eigen::VectorXd& centre);
+
+/// Compares what an injected output y that picks a state makes of the flow with what is stated:
+///   |f_i(x with y) − f_i(x with y')| <= constants(i) |y − y'|.
+/// @param constants  n
+std::optional<Contradiction> refute_injection_constants(const Plant& plant,
+                                                        const OutputInjection& injection,
+                                                        const Eigen::VectorXd& constants,
+                                                        const Eigen::VectorXd& centre);
 
 /// The output injections under which nothing refutes the stated maps; none where there are no such.
 std::optional<std::vector<OutputInjection>> injections_that_explain(const Plant& plant,

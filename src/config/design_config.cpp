@@ -92,8 +92,9 @@ DesignConfig read_design_config(const std::vector<std::string>& files,
   };
   config.noise = assumption("noise");
   config.disturbance = assumption("disturbance");
-  for (const char* of_observer : {"initial_error", "latency", "output_rate"})
-    assumption(of_observer);
+  // Those of an observer.
+  for (const char* key : {"initial_error", "latency", "output_rate"}) assumption(key);
+  if (assumptions.has("injection_lipschitz")) assumptions.section("injection_lipschitz");
   assumptions.finish();
   return config;
 }

@@ -10,6 +10,7 @@
 #include "config/claim_contradiction.h"
 #include "config/claimed_gains.h"
 #include "config/dwell_times.h"
+#include "config/injection_config.h"
 #include "config/integration_check.h"
 #include "config/number_text.h"
 #include "config/plant_fingerprint.h"
@@ -21,15 +22,19 @@ namespace {
 
 constexpr double kLargestAssumption = 1e50;
 
+Eigen::VectorXd initial_estimate_of(const ObserverLaw& law, const Plant& plant) {
+  Eigen::VectorXd state(law.state_size());
+  law.initialize(state.data());
+  return state.head(plant.states());
+}
+
 /// What the plant's own maps, with the outputs that are injected, refute of what the files state.
 std::optional<ConfigError> objection_to_statements(ConfigSection& root,
                                                    const CertificateConfig& claim,
                                                    const ObserverConfig& config) {
   const Certificate& certificate = claim.certificate;
   const Plant& plant = *config.plant;
-  Eigen::VectorXd state(config.law->state_size());
-  config.law->initialize(state.data());
-  const Eigen::VectorXd centre = state.head(plant.states());
+  const Eigen::VectorXd centre = initial_estimate_of(*config.law, plant);
   const StatedErrorMaps& stated = certificate.subject.plant.stated;
   if (!stated.A) {
     if (const auto found = refute_lipschitz_claims(plant, centre)) {
@@ -176,8 +181,9 @@ double read_disturbance(ConfigSection& section, const CertificateConfig& claim,
 }
 
 ErrorAssumptions read_assumptions(ConfigSection& root, const CertificateConfig& claim,
-                                  const LawGains& law, bool has_held_outputs,
-                                  Guarantee& guarantee) {
+                                  const ObserverConfig& config, Guarantee& guarantee) {
+  const LawGains law = config.law->observer().gains();
+  const Plant& plant = *config.plant;
   ErrorAssumptions assumptions;
   ConfigSection section = root.section("error_assumptions");
   assumptions.initial_error = assumption(section, "initial_error");
@@ -192,22 +198,20 @@ ErrorAssumptions read_assumptions(ConfigSection& root, const CertificateConfig& 
   }
   guarantee.latency = from_seconds(section.number_in("latency", 0.0, kLongestLatency, 0.0));
   if (section.has("output_rate")) {
-    if (!has_held_outputs) {
+    if (plant.outputs(SensorTiming::kContinuous) == 0) {
       throw section.error("output_rate", "a sensor with measured: continuous beside it", "none");
     }
     assumptions.output_rate = assumption(section, "output_rate");
   }
+  assumptions.injection_lipschitz =
+      read_injection(section, law, plant, initial_estimate_of(*config.law, plant));
   section.finish();
   assumptions.initial_injection = law.initial_injection;
   return assumptions;
 }
 
 /// Theorems are about the law itself, and take innovations as they are.
-void require_bounded(ConfigSection& root, const ObserverConfig& config, bool delays_jumps) {
-  if (delays_jumps) {
-    throw root.error("error_assumptions", "jumps/late: rewind beside it",
-                     "delayed, for which there is no bound");
-  }
+void require_bounded(ConfigSection& root, const ObserverConfig& config) {
   if (config.plant->has_angles(SensorTiming::kContinuous)) {
     throw root.error("error_assumptions", "no angles among the outputs with measured: continuous",
                      "one, for which there is no bound: it may have been wrapped");
@@ -238,7 +242,7 @@ std::string conditions_of_bound(const Plant& plant, const ObserverLaw& law,
 
 std::unique_ptr<const ErrorBound> bound_of(const ConfigSection& root,
                                            const Certificate& certificate,
-                                           const ErrorAssumptions& assumptions) {
+                                           const ErrorAssumptions& assumptions, bool delays_jumps) {
   const Theorem& theorem = *certificate.theorem;
   std::unique_ptr<const ErrorBound> bound;
   try {
@@ -248,11 +252,14 @@ std::unique_ptr<const ErrorBound> bound_of(const ConfigSection& root,
                      "assumptions for which " + theorem.name() + " gives a bound", fault.what());
   }
   if (!bound) {
-    const bool is_stated = !certificate.subject.plant.stated.is_empty();
     throw root.error("error_assumptions", "a certificate of a theorem that gives a bound",
-                     theorem.name() + (is_stated ? " with stated maps of the error, which take "
-                                                   "outputs as known at all times"
-                                                 : ""));
+                     theorem.name());
+  }
+  if (delays_jumps && !bound->takes_delays()) {
+    throw root.error("error_assumptions", "jumps/late: rewind beside it",
+                     "delayed, for which there is no bound here: there is one of plants that do "
+                     "not switch, are corrected by continuous outputs or at jumps, without "
+                     "gains/output_injection and jumps/stamp_error");
   }
   return bound;
 }
@@ -295,11 +302,6 @@ Guarantee read_guarantee(ConfigSection& root, const ConfigNode& tree, const Obse
     guarantee.text =
         statement(certificate) + (unproved == nullptr ? "; proved in ball arithmetic"
                                                       : "; checked in floating point, not proved");
-    for (const auto* known : {&claim, &for_bound}) {
-      if (*known && (*known)->certificate.subject.dwell_time) {
-        guarantee.dwell_times.push_back(*(*known)->certificate.subject.dwell_time);
-      }
-    }
     if (unproved != nullptr) {
       guarantee.remark =
           unproved->origin + ": " + unproved->section +
@@ -307,21 +309,28 @@ Guarantee read_guarantee(ConfigSection& root, const ConfigNode& tree, const Obse
           "just these numbers: prove them with 'design verify GAINS --rigorous --record'";
     }
   }
+  if (!error && (!delays_jumps || root.has("error_assumptions"))) {
+    for (const auto* known : {&claim, &for_bound}) {
+      if (*known && (*known)->certificate.subject.dwell_time) {
+        guarantee.dwell_times.push_back(*(*known)->certificate.subject.dwell_time);
+      }
+    }
+  }
   if (error) guarantee.warning = std::string("no guarantee and no error bound: ") + error->what();
   if (!root.has("error_assumptions")) return guarantee;
-  require_bounded(root, config, delays_jumps);
+  require_bounded(root, config);
   const CertificateConfig& basis = for_bound ? *for_bound : *claim;
-  ErrorAssumptions assumptions =
-      read_assumptions(root, basis, law.observer().gains(),
-                       config.plant->outputs(SensorTiming::kContinuous) > 0, guarantee);
+  ErrorAssumptions assumptions = read_assumptions(root, basis, config, guarantee);
   assumptions.jump_stamp_error = to_seconds(config.options.jump_stamp_error);
   if (error) return guarantee;
-  guarantee.bound = bound_of(root, basis.certificate, assumptions);
+  guarantee.bound = bound_of(root, basis.certificate, assumptions, delays_jumps);
   guarantee.noise = assumptions.noise;
-  if (for_bound) {
-    guarantee.text += std::string("; error bound by the proof in ") + kRunTimeCertificate;
+  std::string& told = delays_jumps ? guarantee.warning : guarantee.text;
+  if (delays_jumps) {
+    told += "; the error bound takes that in, and is of the size of a jump until its release";
   }
-  guarantee.text += conditions_of_bound(*config.plant, law, config.options, guarantee.latency);
+  if (for_bound) told += std::string("; error bound by the proof in ") + kRunTimeCertificate;
+  told += conditions_of_bound(*config.plant, law, config.options, guarantee.latency);
   return guarantee;
 }
 
