@@ -9,6 +9,7 @@
 #include "config/event_times.h"
 #include "config/named_values.h"
 #include "config/plant_fingerprint.h"
+#include "config/sampling_config.h"
 #include "sampled_data_observers/config/config_section.h"
 #include "sampled_data_observers/config/yaml_file.h"
 
@@ -36,7 +37,8 @@ void take_watched_times(ConfigSection& root, CertificateSubject& subject) {
 }
 
 /// Those of the section `design`, or else what an observer's configuration expects.
-void read_design_times(ConfigSection& root, ConfigSection& design, CertificateSubject& subject) {
+void read_design_times(ConfigSection& root, ConfigSection& design, const Plant& plant,
+                       CertificateSubject& subject) {
   const std::optional<DwellTime> dwell_time = read_dwell_time(design);
   if (dwell_time) {
     if (design.has("sampling")) {
@@ -46,12 +48,12 @@ void read_design_times(ConfigSection& root, ConfigSection& design, CertificateSu
     subject.T2 = std::numeric_limits<double>::infinity();
     return;
   }
-  if (!design.has("sampling") && !root.has("sampling")) return take_watched_times(root, subject);
-  ConfigSection sampling = (design.has("sampling") ? design : root).section("sampling");
-  subject.T1 = sampling.number_in("T1", 0.0, 1e6, std::nullopt);
-  subject.T2 = read_longest_time(sampling, 1e-9);
-  if (subject.T1 > subject.T2) throw sampling.error("T2", "a number not less than T1", "T1 > T2");
-  sampling.finish();
+  const bool has_own = design.has("sampling");
+  const SamplingConfig sampling =
+      has_own ? read_sampling_section(design, plant) : read_sampling(root, plant);
+  if (sampling.is_empty()) return take_watched_times(root, subject);
+  require_sampling(has_own ? design : root, plant, sampling);
+  take_sampling(sampling, subject);
 }
 
 }  // namespace
@@ -79,7 +81,7 @@ DesignConfig read_design_config(const std::vector<std::string>& files,
   require_no_contradiction(*config.plant, stated, plant, section);
   if (section.has("N")) config.subject.plant.N = section.matrix("N", n, -1);
   if (section.has("C_p")) config.subject.plant.C_p = section.matrix("C_p", -1, n);
-  read_design_times(root, section, config.subject);
+  read_design_times(root, section, *config.plant, config.subject);
   ConfigSection parameters = section.section_or_empty("parameters");
   for (const std::string& name : parameters.keys()) {
     config.parameters[name] = parameters.number(name);

@@ -1,6 +1,7 @@
 #include "config/sampling_config.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "config/event_times.h"
 #include "config/misspelling.h"
@@ -74,12 +75,9 @@ std::string to_text(const SamplingTimes& times) {
   return "[" + number_text(times.T1, kDigits) + ", " + number_text(times.T2, kDigits) + "] s";
 }
 
-std::vector<SamplingTimes> SamplingConfig::of_sampled() const {
-  std::vector<SamplingTimes> result;
-  for (const auto& times : sensors) {
-    if (times) result.push_back(*times);
-  }
-  return result;
+bool SamplingConfig::is_empty() const {
+  return !jumps && std::none_of(sensors.begin(), sensors.end(),
+                                [](const auto& times) { return times.has_value(); });
 }
 
 SamplingConfig read_sampling_section(ConfigSection& owner, const Plant& plant) {
@@ -129,6 +127,17 @@ void require_sampling(ConfigSection& root, const Plant& plant, const SamplingCon
                          sensor.name + "/" + kSampling,
                      root.has(kSampling) ? "none of " + sensor.name : root.absence_of(kSampling));
   }
+}
+
+void take_sampling(const SamplingConfig& sampling, CertificateSubject& subject) {
+  std::vector<SamplingTimes> all;
+  for (const auto& times : sampling.sensors) {
+    if (times) all.push_back(*times);
+  }
+  if (sampling.jumps) all = {*sampling.jumps};
+  subject.T1 = all.front().T1;
+  subject.T2 = all.front().T2;
+  if (all.size() > 1) set_sensor_times(subject, std::move(all));
 }
 
 ConfigError sampling_error(ConfigSection& root, const Sensor& sensor, const std::string& expected,

@@ -24,9 +24,8 @@ struct SamplingConfig {
   /// Between two jumps of a plant without sampled sensors.
   std::optional<SamplingTimes> jumps;
 
-  /// Those of the sampled sensors, in the plant's order, as in CertificateSubject::sensor_times.
-  /// @pre require_sampling() did not throw
-  std::vector<SamplingTimes> of_sampled() const;
+  /// Whether nothing is said of any.
+  bool is_empty() const;
 };
 
 /// Reads `sampling` of a section, where it is there: {T1, T2} for all sampled sensors, or for the
@@ -42,6 +41,10 @@ SamplingConfig read_sampling(ConfigSection& root, const Plant& plant);
 
 /// @throws ConfigError where nothing is said of a sensor that is sampled
 void require_sampling(ConfigSection& root, const Plant& plant, const SamplingConfig& sampling);
+
+/// Takes the times of all sampled sensors, or of jumps, for those that a claim is about.
+/// @pre not empty, and require_sampling() did not throw
+void take_sampling(const SamplingConfig& sampling, CertificateSubject& subject);
 
 /// An error at the times of a sensor: sensors/NAME/sampling, sampling/NAME or sampling.
 ConfigError sampling_error(ConfigSection& root, const Sensor& sensor, const std::string& expected,

@@ -140,7 +140,11 @@ void say_sampled_output(ExplanationContext& c, const ModeMatrices& mode) {
            "measure something that the unseen modes move"});
     }
   }
-  say_samples(c, mode);
+  if (c.has_several_sensors()) {
+    say_sampled_sensors(c, mode);
+  } else {
+    say_samples(c, mode);
+  }
 }
 
 void say_continuous_output(ExplanationContext& c, const ModeMatrices& mode) {

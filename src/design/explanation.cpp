@@ -76,7 +76,8 @@ class Explanation {
         (c_.plant.jumps() ? ", with jumps" : ", no jumps") + "; outputs: " +
         std::to_string(mode.C.rows()) + " sampled, " + std::to_string(mode.C_c.rows()) +
         " continuous, " + std::to_string(mode.C_d.rows()) + " at jumps");
-    c_.out.paragraph(c_.has_times()
+    c_.out.paragraph(c_.has_times_of_sensors() ? "times between samples: " + times_of_sensors(c_)
+                     : c_.has_times()
                          ? "times between events: " + c_.times()
                          : "times between events: not given (--T1, --T2 or design/sampling)");
   }
@@ -162,7 +163,7 @@ class Explanation {
 
   /// Only where T2 comes close: designs for longer or much shorter times work well.
   void say_nearest_pathology(const ModeMatrices& mode) {
-    if (mode.C.rows() == 0 || !c_.has_times()) return;
+    if (mode.C.rows() == 0 || !c_.has_times() || c_.has_several_sensors()) return;
     for (const PathologicalInterval& interval :
          pathological_intervals(mode.A, mode.C, c_.subject.T2 / kClose)) {
       if (interval.decays || interval.tau <= c_.subject.T2) continue;

@@ -21,9 +21,9 @@ struct ObservabilityCurve {
 };
 
 /// Of each mode of the plant: the least singular value for samples τ apart (sferlazza2019, Fig. 2),
-/// where an output is sampled, and the detectability margin of the pair at jumps, where one is
-/// measured at jumps. The last τ is beyond T2 and, where it is not too far, beyond the first
-/// pathological interval.
+/// where an output is sampled, of several sensors also for each alone, and the detectability margin
+/// of the pair at jumps, where one is measured at jumps. The last τ is beyond T2 and, where it is
+/// not too far, beyond the first pathological interval.
 std::vector<ObservabilityCurve> observability_curves(const CertificateSubject& subject);
 
 /// Pathological intervals of all modes of the plant in the range of the curves [s].

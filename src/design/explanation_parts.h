@@ -25,6 +25,8 @@ struct ExplanationContext {
   std::string times() const {
     return "[T1, T2] = [" + brief(subject.T1) + ", " + brief(subject.T2) + "] s";
   }
+  bool has_several_sensors() const { return plant.sampled.size() > 1; }
+  bool has_times_of_sensors() const { return !subject.sensor_times.empty(); }
   /// Else jumps or other modes may show what one flow does not.
   bool only_flows() const { return !plant.jumps() && plant.modes.size() == 1; }
   std::string moved(const Mode& mode) const {
@@ -51,6 +53,10 @@ void say_modes(ExplanationContext& c, const std::string& heading, const Eigen::M
 /// @return whether what is unseen decays
 bool say_unseen(ExplanationContext& c, const std::vector<Mode>& unseen, TimeDomain domain);
 void say_sampled_output(ExplanationContext& c, const ModeMatrices& mode);
+/// Of several sensors, each sampled at times of its own.
+void say_sampled_sensors(ExplanationContext& c, const ModeMatrices& mode);
+/// "gps in [T1, T2] = [0.2, 1] s, …"
+std::string times_of_sensors(const ExplanationContext& c);
 void say_continuous_output(ExplanationContext& c, const ModeMatrices& mode);
 void say_output_at_jumps(ExplanationContext& c, const ModeMatrices& mode);
 /// Conditions (C) of bernard2022 with a quadratic Lyapunov function, in terms of the error, not

@@ -41,12 +41,19 @@ std::vector<ObservabilityCurve> observability_curves(const CertificateSubject& s
   for (const ModeMatrices& mode : subject.plant.modes) {
     const std::string name =
         subject.plant.modes.size() > 1 ? ", mode " + std::to_string(mode.label) : "";
-    if (mode.C.rows() > 0) {
-      ObservabilityCurve curve{"samples tau apart: least singular value" + name, times, {}};
+    const auto add_sampled = [&](const Eigen::MatrixXd& C, const std::string& of) {
+      ObservabilityCurve curve{
+          "samples" + of + " tau apart: least singular value" + name, times, {}};
       for (const double tau : times) {
-        curve.value.push_back(sampled_observability(mode.A, mode.C, tau));
+        curve.value.push_back(sampled_observability(mode.A, C, tau));
       }
       curves.push_back(std::move(curve));
+    };
+    const std::vector<SampledOutputs>& sensors = subject.plant.sampled;
+    if (mode.C.rows() > 0) add_sampled(mode.C, sensors.size() > 1 ? " of all sensors" : "");
+    for (std::size_t i = 0; sensors.size() > 1 && i < sensors.size(); ++i) {
+      add_sampled(mode.C.middleRows(sensors[i].first, sensors[i].rows),
+                  " of " + sensors[i].sensor + " alone");
     }
     if (mode.A_d && mode.C_d.rows() > 0) {
       ObservabilityCurve curve{"jumps tau apart: detectability margin" + name, {}, {}};

@@ -11,8 +11,7 @@ using diagnosis_text::longest;
 using diagnosis_text::seconds;
 
 const SamplingBounds& DiagnosisSubject::sampling_of(const Channel& channel) const {
-  return channel.kind == EventKind::kSample ? sampling.of_sensor(channel.sensor)
-                                            : sampling.of_all();
+  return sampling.of(channel.kind, channel.sensor);
 }
 
 /// Those of a channel of samples. How long ago the last one was, by its stamp, says whether it is

@@ -188,11 +188,9 @@ EventReport Estimator::submit(const Event& event, Stamp now) {
   if (is_in_log && event.kind == EventKind::kInput) learn_input(event.stamp);
   if (report.used() && inserted.previous) {
     report.interval = event.stamp - *inserted.previous;
-    if (event.kind == EventKind::kSample) {
+    if (event.kind == EventKind::kSample || !is_sampled_) {
       const auto sensor = static_cast<std::size_t>(event.sensor);
-      report.interval_check = check(*report.interval, options_.sampling.of_sensor(sensor));
-    } else if (!is_sampled_) {
-      report.interval_check = check(*report.interval, options_.sampling.of_all());
+      report.interval_check = check(*report.interval, options_.sampling.of(event.kind, sensor));
     }
   }
   if (report.used() && event.kind == EventKind::kJump && law_->watches_dwell_times()) {

@@ -581,6 +581,38 @@ TEST_F(DesignTool, TellsWhetherJumpsShowTheState) {
       << without_end.output;
 }
 
+TEST_F(DesignTool, ReadsTheTimesOfEachSensor) {
+  const auto plant = [&](const std::string& gps, const std::string& design) {
+    return write("plant.yaml",
+                 "plant: {states: [p, v], A: [[0, 1], [-4, 0]]}\n"
+                 "sensors:\n"
+                 "  gps: {C: [[1, 0]], " +
+                     gps +
+                     "source: {topic: gps}}\n"
+                     "  wheel: {C: [[0, 1]], source: {topic: wheel}}\n" +
+                     design);
+  };
+  const char kTimes[] = "gps in [T1, T2] = [0.5, 2] s, wheel in [T1, T2] = [0.1, 1] s";
+  const char kGps[] = "sampling: {T1: 0.5, T2: 2}, ";
+  const char kWheel[] = "sampling: {wheel: {T1: 0.1, T2: 1}}\n";
+  const ToolRun of_sensors = run("explain " + plant(kGps, kWheel));
+  EXPECT_TRUE(of_sensors.says(kTimes)) << of_sensors.output;
+  // What a design is asked for overrules what is.
+  const std::string asked =
+      "design: {sampling: {gps: {T1: 0.5, T2: 2}, wheel: {T1: 0.1, T2: 1}}}\n";
+  const ToolRun of_design = run("explain " + plant("sampling: {T1: 1, T2: 3}, ", asked));
+  EXPECT_TRUE(of_design.says(kTimes)) << of_design.output;
+  const ToolRun missing = run("explain " + plant("", kWheel));
+  EXPECT_EQ(1, missing.status);
+  EXPECT_TRUE(missing.says("here or at sensors/gps/sampling, found none of gps")) << missing.output;
+  const ToolRun of_all = run("explain --T1 0.1 --T2 1.8 " + plant("", ""));
+  EXPECT_TRUE(of_all.says("gps in [T1, T2] = [0.1, 1.8] s, wheel in [T1, T2] = [0.1, 1.8] s"))
+      << of_all.output;
+  const ToolRun others = run("explain --T2 1.8 " + plant(kGps, kWheel));
+  EXPECT_NE(0, others.status);
+  EXPECT_TRUE(others.says("--T1 and --T2 are the times of all sensors")) << others.output;
+}
+
 TEST_F(DesignTool, ExplainsPlantsOfFormulasAlongATrajectory) {
   const std::string neuron = SDO_SOURCE_DIR "/config/examples/bernard2022_neuron_high_gain/";
   const ToolRun along = run("explain --along " + neuron + "scenario.yaml --gains " + neuron +

@@ -55,6 +55,46 @@ TEST(Explanation, FindsFlowAndJumpsDetectableTogetherOnly) {
   EXPECT_FALSE(says(unobserved_impulsive(), "NO OBSERVER"));
 }
 
+/// Position and velocity, each sampled at times of its own.
+CertificateSubject two_sensors(const Eigen::MatrixXd& A, std::vector<SamplingTimes> times) {
+  const Eigen::Index n = A.rows();
+  CertificateSubject subject =
+      test::linear_subject(A, Eigen::MatrixXd::Identity(n, n).topRows(2), 0.0, 0.0);
+  subject.plant.sampled = {{"gps", 0, 0, 1}, {"wheel", 1, 1, 1}};
+  if (!times.empty()) set_sensor_times(subject, std::move(times));
+  return subject;
+}
+
+TEST(Explanation, SaysWhatEachSensorContributes) {
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(3, 3);
+  A(0, 1) = A(1, 2) = 1.0;
+  const CertificateSubject subject = two_sensors(A, {{0.2, 1.0}, {0.05, 0.2}});
+  for (const char* part :
+       {"gps in [T1, T2] = [0.2, 1] s, wheel in [T1, T2] = [0.05, 0.2] s",
+        "gps alone shows all states. Without it, the others leave unseen the mode 0, which moves "
+        "x1.",
+        "wheel alone shows x2, x3; it leaves unseen the mode 0, which moves x1. The others show as "
+        "much without it.",
+        "There are no pathological intervals inside of their times"}) {
+    EXPECT_TRUE(says(subject, part)) << part << "\n" << explain(subject);
+  }
+  EXPECT_FALSE(says(subject, "NO OBSERVER"));
+}
+
+TEST(Explanation, TellsThatSensorsShowNothingAtTimesThatEachAllows) {
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2, 2);
+  A(0, 1) = 1.0;
+  A(1, 0) = -4.0;
+  const CertificateSubject subject = two_sensors(A, {{0.5, 2.0}, {1.0, 3.5}});
+  EXPECT_TRUE(says(subject,
+                   "gps every 1.571 s and wheel every 1.571 s: nothing is seen of a "
+                   "combination of all states, which does not decay"))
+      << explain(subject);
+  EXPECT_TRUE(says(subject, "NO OBSERVER CAN CONVERGE"));
+  EXPECT_FALSE(says(two_sensors(A, {{0.5, 2.0}, {0.1, 1.5}}), "NO OBSERVER"));
+  EXPECT_TRUE(says(two_sensors(A, {}), "Pathological intervals at all"));
+}
+
 TEST(Explanation, TellsThatNothingSeesAnUnstableModeAtJumps) {
   CertificateSubject subject = unobserved_impulsive();
   subject.plant.modes.front().C_d = Eigen::RowVector3d(0, 1, 0);  // the velocity only

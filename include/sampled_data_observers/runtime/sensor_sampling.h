@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "sampled_data_observers/hybrid/time.h"
+#include "sampled_data_observers/hybrid/event.h"
 
 namespace sampled_data_observers {
 
@@ -34,6 +34,11 @@ class SensorSampling {
   /// @pre the plant has this sensor
   const SamplingBounds& of_sensor(std::size_t sensor) const {
     return of_sensors_.empty() ? common_ : *of_sensors_[sensor];
+  }
+
+  /// Between two events of a kind: of samples, those of the sensor.
+  const SamplingBounds& of(EventKind kind, std::size_t sensor) const {
+    return kind == EventKind::kSample ? of_sensor(sensor) : of_all();
   }
 
   /// From the least T1 to the largest T2 of all; between jumps where there are no samples.

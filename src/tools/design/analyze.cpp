@@ -7,8 +7,8 @@
 #include "config/certificate_config.h"
 #include "config/claimed_gains.h"
 #include "config/design_config.h"
-#include "config/event_times.h"
 #include "config/law_config.h"
+#include "config/sampling_config.h"
 #include "console/option_checks.h"
 #include "console/output_checks.h"
 #include "design/analysis.h"
@@ -112,8 +112,9 @@ AnalysisProblem read_problem(const AnalyzeArguments& arguments, const DesignConf
   if (claim) {
     problem.subject = claim->certificate.subject;
   } else if (root.has("sampling")) {
-    ConfigSection sampling = root.section("sampling");
-    read_event_times(sampling, problem.subject);
+    const SamplingConfig sampling = read_sampling_section(root, *config.plant);
+    require_sampling(root, *config.plant, sampling);
+    take_sampling(sampling, problem.subject);
   }
   take_event_times(arguments.times, problem.subject);
   if (!(problem.subject.T2 > 0.0)) {

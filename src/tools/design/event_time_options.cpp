@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
+#include <vector>
 
 #include "console/option_checks.h"
 #include "design/request_error.h"
@@ -18,6 +19,21 @@ DwellTime dwell_time_of(DwellTime::Kind kind, const std::array<double, 2>& value
 }
 
 }  // namespace
+
+void require_common_times(const CertificateSubject& subject) {
+  for (const SamplingTimes& times : subject.sensor_times) {
+    if (times.T1 == subject.T1 && times.T2 == subject.T2) continue;
+    throw RequestError(
+        "--T1 and --T2 are the times of all sensors, but these have times of their own: change "
+        "design/sampling, or sensors/NAME/sampling");
+  }
+}
+
+void give_to_all_sensors(CertificateSubject& subject) {
+  const std::size_t sensors = subject.plant.sampled.size();
+  if (sensors < 2) return;
+  set_sensor_times(subject, std::vector<SamplingTimes>(sensors, {subject.T1, subject.T2}));
+}
 
 void add_event_times(CommandLine& command, const std::string& source,
                      EventTimeArguments& arguments) {
@@ -52,8 +68,10 @@ void take_event_times(const EventTimeArguments& arguments, CertificateSubject& s
     subject.dwell_time.reset();
     subject.T2 = 0.0;
   }
+  if (has_bounds) require_common_times(subject);
   if (arguments.T1) subject.T1 = *arguments.T1;
   if (!arguments.T2.empty()) subject.T2 = std::strtod(arguments.T2.c_str(), nullptr);
+  if (has_bounds) give_to_all_sensors(subject);
   if (has_dwell_time) {
     subject.T1 = 0.0;
     subject.T2 = std::numeric_limits<double>::infinity();

@@ -21,7 +21,15 @@ struct EventTimeArguments {
 void add_event_times(CommandLine& command, const std::string& source,
                      EventTimeArguments& arguments);
 
-/// @throws RequestError for T1 > T2, and for bounds on single times beside a dwell time
+/// --T1 and --T2 are for all sensors.
+/// @throws RequestError where those have different times of their own
+void require_common_times(const CertificateSubject& subject);
+
+/// T1 and T2 of the subject for each sensor, where there are several.
+void give_to_all_sensors(CertificateSubject& subject);
+
+/// @throws RequestError for T1 > T2, for bounds on single times beside a dwell time, and where
+/// sensors have different times
 void take_event_times(const EventTimeArguments& arguments, CertificateSubject& subject);
 
 }  // namespace sampled_data_observers

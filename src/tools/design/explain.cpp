@@ -21,6 +21,7 @@
 #include "sampled_data_observers/config/observer_config.h"
 #include "simulation/scenario_config.h"
 #include "tools/design/commands.h"
+#include "tools/design/event_time_options.h"
 #include "tools/design/simulated_trajectory.h"
 
 namespace sampled_data_observers {
@@ -58,7 +59,7 @@ void draw(const CertificateSubject& subject, const ExplainArguments& arguments) 
   for (const double tau : pathological_times(subject)) {
     json["lines"].push_back({{"x", tau}, {"label", "pathological intervals"}});
   }
-  if (subject.T2 > 0.0) {
+  if (subject.T2 > 0.0 && subject.sensor_times.empty()) {
     json["band"] = {{"low", subject.T1}, {"high", subject.T2}, {"label", "[T1, T2]"}};
   }
   run_plot_program("plot_curves", json_text(json), arguments.plot);
@@ -108,6 +109,7 @@ void explain_command(const ExplainArguments& arguments) {
   }
   refuse_overwriting(given_files("PLANT", arguments.files), {{"--plot", arguments.plot}});
   CertificateSubject subject = read_design_config(arguments.files, load_plant_plugin).subject;
+  if (arguments.T1 || arguments.T2) require_common_times(subject);
   if (arguments.T2) {
     subject.T2 = *arguments.T2;
     subject.dwell_time.reset();
@@ -119,6 +121,7 @@ void explain_command(const ExplainArguments& arguments) {
         "T2 = inf: what a plant shows is told of times up to a longest one; give --T2");
   }
   if (subject.T1 > subject.T2) throw DesignError("T1 > T2");
+  if (arguments.T1 || arguments.T2) give_to_all_sensors(subject);
   std::printf("%s", explain(subject).c_str());
   if (!arguments.plot.empty()) draw(subject, arguments);
 }
