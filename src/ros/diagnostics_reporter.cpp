@@ -64,6 +64,12 @@ void DiagnosticsReporter::tell_of_guarantee() {
   }
 }
 
+void DiagnosticsReporter::note_other_gains(const ObserverConfig& config) {
+  DiagnosisSubject subject = diagnosis_subject(config);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  diagnosis_.set_subject(std::move(subject));
+}
+
 void DiagnosticsReporter::note_published_type(std::size_t channel, const std::string& type) {
   const std::lock_guard<std::mutex> lock(mutex_);
   diagnosis_.set_published_type(channel, type);

@@ -22,11 +22,13 @@ constexpr std::chrono::milliseconds kPause{500};
 GainReloader::Busy::Busy()
     : std::runtime_error("busy: the gains of another call are being loaded") {}
 
-GainReloader::GainReloader(ConfigNode tree, const ObserverConfig& config, SharedRuntime& runtime)
+GainReloader::GainReloader(ConfigNode tree, const ObserverConfig& config, SharedRuntime& runtime,
+                           std::function<void(const ObserverConfig&)> tell)
     : tree_(std::move(tree)),
       type_(config.type),
       directory_(config.gains_directory),
-      runtime_(runtime) {
+      runtime_(runtime),
+      tell_(std::move(tell)) {
   std::error_code fault;
   if (directory_.empty() || std::filesystem::is_directory(directory_, fault)) return;
   throw ConfigError(tree_.origin, "gains_directory", "a directory on this machine",
@@ -45,6 +47,7 @@ std::string GainReloader::reload(const std::string& file) {
   const ObserverConfig next = read_observer_config(tree, load_plant_plugin);
   if (next.type != type_) throw ConfigError(file, "observer", type_, next.type);
   runtime_.replace(std::make_unique<ObserverRuntime>(next));
+  tell_(next);
   last_call_ = std::chrono::steady_clock::now();
   tree_ = std::move(tree);
   if (!next.guarantee.empty()) return "certified by " + next.guarantee;

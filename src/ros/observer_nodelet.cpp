@@ -71,7 +71,10 @@ void ObserverNodelet::start(const ConfigNode& tree, const ObserverConfig& config
   publication_ = std::make_unique<EstimatePublication>(handle, *runtime_, std::move(outputs));
   subscriptions_ =
       std::make_unique<EventSubscriptions>(handle, config, *runtime_, *publication_, log);
-  gains_ = std::make_unique<GainReloader>(tree, config, *runtime_);
+  // Nobody calls before all is there.
+  gains_ = std::make_unique<GainReloader>(
+      tree, config, *runtime_,
+      [this](const ObserverConfig& next) { diagnostics_->note_other_gains(next); });
   services_ = std::make_unique<ObserverServices>(control, query_threads_.handle(getNodeHandle()),
                                                  *runtime_, *gains_, log);
   clock_watch_ = std::make_unique<ClockWatch>(control, log);

@@ -608,6 +608,9 @@ TEST_F(DesignTool, ReadsTheTimesOfEachSensor) {
   const ToolRun of_all = run("explain --T1 0.1 --T2 1.8 " + plant("", ""));
   EXPECT_TRUE(of_all.says("gps in [T1, T2] = [0.1, 1.8] s, wheel in [T1, T2] = [0.1, 1.8] s"))
       << of_all.output;
+  const ToolRun swept = run("sweep " + plant(kGps, kWheel) + " -o " + path("folder"));
+  EXPECT_NE(0, swept.status);
+  EXPECT_TRUE(swept.says("several sensors are sampled")) << swept.output;
   const ToolRun others = run("explain --T2 1.8 " + plant(kGps, kWheel));
   EXPECT_NE(0, others.status);
   EXPECT_TRUE(others.says("--T1 and --T2 are the times of all sensors")) << others.output;

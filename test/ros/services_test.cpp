@@ -1,4 +1,5 @@
 // The services that change a running observer, and estimates at once after events.
+#include <diagnostic_msgs/DiagnosticArray.h>
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 #include <rosgraph_msgs/Log.h>
@@ -82,6 +83,16 @@ TEST_F(ServicesTest, EstimatesFollowEventsAtOnceAndStampsIncrease) {
 }
 
 TEST_F(ServicesTest, GainsAreChangedWithoutLosingTheEstimate) {
+  std::string T2;
+  const auto take = [&](const diagnostic_msgs::DiagnosticArrayConstPtr& array) {
+    for (const diagnostic_msgs::DiagnosticStatus& status : array->status) {
+      for (const diagnostic_msgs::KeyValue& pair : status.values) {
+        if (pair.key == "T2") T2 = pair.value;
+      }
+    }
+  };
+  const ros::Subscriber diagnostics =
+      ros::NodeHandle().subscribe<diagnostic_msgs::DiagnosticArray>("/diagnostics", 100, take);
   EXPECT_NEAR(0.8, correction(), 1e-9);
   const ros::Time now = ros::Time::now();
   const double before = client_.get_estimate(now).estimate.state[0];
@@ -99,6 +110,7 @@ TEST_F(ServicesTest, GainsAreChangedWithoutLosingTheEstimate) {
   EXPECT_EQ("without certificate", reloaded.message);
   EXPECT_NEAR(expected, client_.get_estimate(swap).estimate.state[0], 1e-9);
   EXPECT_NEAR(0.4, correction(), 1e-9);
+  EXPECT_TRUE(test::spin_until([&] { return T2 == "0.7 s"; })) << T2;  // the file's
 }
 
 TEST_F(ServicesTest, SamplesOfBeforeOtherGainsAreUsed) {

@@ -283,6 +283,21 @@ TEST(DiagnosisOfSeveralSensorsTest, EachHasItsOwnTimes) {
   EXPECT_EQ("0", value(diagnosis.channel(1), "below T1 in all"));
 }
 
+TEST_F(DiagnosisTest, OtherGainsHaveOtherTimesAndGuarantees) {
+  update(good());
+  DiagnosisSubject other = subject();
+  other.sampling = {kSecond / 100, 5 * kSecond};
+  other.guarantee = "another theorem";
+  diagnosis_.set_subject(other);
+  RunStatistics silent = good();
+  silent.channels[0] = ChannelStatistics();
+  for (int i = 0; i < 4; ++i) update(silent);
+  expect(HealthLevel::kOk, {"valid"}, diagnosis_.certificate());
+  EXPECT_EQ("another theorem", value(diagnosis_.certificate(), "guarantee"));
+  EXPECT_EQ("5 s", value(diagnosis_.certificate(), "T2"));
+  EXPECT_EQ("10", value(diagnosis_.channel(0), "used in all"));
+}
+
 TEST_F(DiagnosisTest, WhatComesAfterABoundThatRestedOnItsAbsenceSuspendsTheCertificate) {
   RunStatistics window = good();
   window.channels[0].after_bound = 2;

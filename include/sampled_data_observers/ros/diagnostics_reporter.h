@@ -29,6 +29,10 @@ class DiagnosticsReporter {
   DiagnosticsReporter(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle,
                       NodeLog log, DiagnosisSubject subject, StatisticsRecorder& recorder);
 
+  /// Compares with what the observer does with other gains from now on. For any thread that is not
+  /// in a hurry.
+  void note_other_gains(const ObserverConfig& config);
+
   /// See Diagnosis::set_published_type(). For any thread that is not in a hurry.
   void note_published_type(std::size_t channel, const std::string& type);
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -18,8 +19,10 @@ class GainReloader {
   /// @param tree     the whole configuration of `runtime`
   /// @param config   the same, read
   /// @param runtime  whose gains are changed
+  /// @param tell     is told of the configuration after each change
   /// @throws ConfigError where there is no directory config.gains_directory.
-  GainReloader(ConfigNode tree, const ObserverConfig& config, SharedRuntime& runtime);
+  GainReloader(ConfigNode tree, const ObserverConfig& config, SharedRuntime& runtime,
+               std::function<void(const ObserverConfig&)> tell);
 
   /// Another thread stays in reload().
   class Busy : public std::runtime_error {
@@ -41,6 +44,7 @@ class GainReloader {
   const std::string type_;
   const std::string directory_;
   SharedRuntime& runtime_;
+  const std::function<void(const ObserverConfig&)> tell_;
 };
 
 }  // namespace sampled_data_observers

@@ -72,6 +72,10 @@ class Diagnosis {
   /// @param elapsed  ROS time since the last call [ns]; 0 where time stands still
   void update(const RunStatistics& window, Stamp now, Duration elapsed);
 
+  /// Goes on with what the observer is configured to do from now on, as after a change of gains.
+  /// @pre the channels are the same
+  void set_subject(DiagnosisSubject subject) { subject_ = std::move(subject); }
+
   /// Takes in the type under which the topic of a channel is published; empty where nobody does.
   void set_published_type(std::size_t channel, std::string type);
 
@@ -85,7 +89,7 @@ class Diagnosis {
   /// Whether what the certificate rests on does not hold now.
   bool is_suspended() const { return suspension_.has_value(); }
 
-  /// As given.
+  /// As given last.
   const DiagnosisSubject& subject() const { return subject_; }
 
  private:
@@ -118,7 +122,7 @@ class Diagnosis {
   void add_times_between_samples(std::size_t index, Finding& finding) const;
   void add_bounds_of_all(Finding& finding) const;
 
-  const DiagnosisSubject subject_;
+  DiagnosisSubject subject_;
   ClockJumps clock_;
   RunStatistics window_;
   RunStatistics totals_;

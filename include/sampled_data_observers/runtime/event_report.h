@@ -31,7 +31,7 @@ struct EventReport {
   /// Time since the newest sample of the same sensor, or the newest jump, that was used and has an
   /// earlier stamp; used samples and jumps only.
   std::optional<Duration> interval;
-  /// How `interval` compares with T1 and T2.
+  /// How `interval` compares with T1 and T2, those of the sensor.
   IntervalCheck interval_check = IntervalCheck::kNone;
   /// How the newest jump of its stamp compares with the times between jumps that are configured;
   /// used jumps only.

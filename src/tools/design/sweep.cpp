@@ -68,6 +68,11 @@ Objective objective_for(const SweepArguments& arguments, const CertificateSubjec
 }
 
 SweepRequest request_of(const SweepArguments& arguments, const DesignConfig& config) {
+  if (config.subject.plant.sampled.size() > 1) {
+    throw DesignError(
+        "a sweep is over the one longest time between samples, but several sensors are sampled, "
+        "each at times of its own: `design synthesize` designs for them");
+  }
   SweepRequest request;
   request.subject = config.subject;
   double low = 0.0;
