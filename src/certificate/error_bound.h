@@ -79,6 +79,13 @@ class ErrorBound {
     begin(error, state);
   }
 
+  /// After one of these, where (x − x̂)(x − x̂)ᵀ <= Q is known, too: n x n, symmetric, finite. By
+  /// default that is not made use of.
+  virtual void narrow(const Eigen::Ref<const Eigen::MatrixXd>& Q, double* state) const {
+    static_cast<void>(Q);
+    static_cast<void>(state);
+  }
+
   /// Carries the state over `duration` >= 0 [s], the time since the last sample, jump or message
   /// that holds_outputs() is about: the double nearest to a whole number of nanoseconds, so that it
   /// compares with T1 and T2 as they are written. It is not split: GuaranteedBound starts again

@@ -45,6 +45,9 @@ class IssBound : public SampledErrorBound {
     numbers[kRootOfV] = per_error_ * error;
     numbers[kAtSample] = 0.0;
   }
+  void narrow_numbers(const Eigen::Ref<const Eigen::MatrixXd>& Q, double* numbers) const override {
+    numbers[kRootOfV] = std::min(numbers[kRootOfV], set_.radius_around(Q));
+  }
   void flow_numbers(double duration, const Interval& from, double* numbers) const override {
     double& root = numbers[kRootOfV];
     if (from.is_first) {

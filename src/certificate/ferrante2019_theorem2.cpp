@@ -62,6 +62,11 @@ class LyapunovErrorBound : public SampledErrorBound {
     // θ̃ = C ε − θ at first, and √V is a norm of (ε, θ̃).
     root_per_error_ = std::sqrt(initial_V(subject, values));
     root_of_injection_ = std::sqrt(V.omega_2) * assumptions.initial_injection;
+    const Eigen::MatrixXd& C = subject.plant.C();
+    const Eigen::MatrixXd& P2 = values.at("P2");
+    const double e = std::exp(scalar_value(values, "delta") * subject.T2);
+    of_injection_ = {e * C.transpose() * P2 * C,
+                     e * C.cwiseAbs().transpose() * P2.cwiseAbs() * C.cwiseAbs()};
   }
 
   bool injects_between_samples() const override { return true; }
@@ -71,6 +76,12 @@ class LyapunovErrorBound : public SampledErrorBound {
     const double root = root_per_error_ * error + root_of_injection_;
     numbers[kW] = root * root;
     numbers[kOfEstimate] = of_estimate_ * error * error;
+  }
+  void narrow_numbers(const Eigen::Ref<const Eigen::MatrixXd>& Q, double* numbers) const override {
+    const double of_estimate = std::pow(set_.radius_around(Q), 2);
+    const double root = std::sqrt(of_estimate + of_injection_.over(Q)) + root_of_injection_;
+    numbers[kW] = std::min(numbers[kW], raised(root * root));
+    numbers[kOfEstimate] = std::min(numbers[kOfEstimate], raised(of_estimate));
   }
   void flow_numbers(double duration, const Interval& from, double* numbers) const override {
     double& W = numbers[kW];
@@ -110,6 +121,7 @@ class LyapunovErrorBound : public SampledErrorBound {
   double root_of_injection_ = 0.0;  // and of θ
   double least_ = 0.0;              // λ_min(P1)
   SublevelSet set_;                 // of εᵀ P1 ε
+  FormMaximum of_injection_;        // of e^{δ T2} (C ε)ᵀ P2 C ε
 };
 
 /// Theorem 2, and its corollaries for a rate only and for a gain only.

@@ -336,6 +336,15 @@ void GuaranteedBound::error_ellipsoid(const double* state, double* workspace,
                                       Eigen::Ref<Eigen::MatrixXd> Q) const {
   if (bound_loss(state) != BoundLoss::kNone) {
     StateBound::error_ellipsoid(state, workspace, Q);
+  } else {
+    known_ellipsoid(state, workspace, Q);
+  }
+}
+
+void GuaranteedBound::known_ellipsoid(const double* state, double* workspace,
+                                      Eigen::Ref<Eigen::MatrixXd> Q) const {
+  if (now_.loss.of(state) != BoundLoss::kNone) {
+    StateBound::known_ellipsoid(state, workspace, Q);
     return;
   }
   bound_->ellipsoid(now_.bound.of(state), bound_workspace_.of(workspace), Q);
@@ -377,6 +386,13 @@ void GuaranteedBound::keep_bound(const PublishedBound& known, double* state) con
     then_.loss.set(loss, state);
     now_.loss.set(loss, state);
   }
+}
+
+void GuaranteedBound::narrow_bound(const Eigen::Ref<const Eigen::MatrixXd>& Q,
+                                   double* state) const {
+  if (then_.loss.of(state) != BoundLoss::kNone || !Q.allFinite()) return;
+  bound_->narrow(Q, then_.bound.of(state));
+  go_on_from_then(state);
 }
 
 BoundLoss GuaranteedBound::bound_loss(const double* state) const {

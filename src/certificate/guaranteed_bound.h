@@ -63,6 +63,9 @@ class GuaranteedBound : public LawDecorator, public StateBound {
                        Eigen::Ref<Eigen::MatrixXd> Q) const override;
   PublishedBound known_bound(const double* state) const override;
   void keep_bound(const PublishedBound& bound, double* state) const override;
+  void known_ellipsoid(const double* state, double* workspace,
+                       Eigen::Ref<Eigen::MatrixXd> Q) const override;
+  void narrow_bound(const Eigen::Ref<const Eigen::MatrixXd>& Q, double* state) const override;
   void give_up(double* state) const override;
   bool mode_is_open(const double* state) const override;
   void leave_mode_open(double* state) const override;

@@ -16,6 +16,16 @@ void IntervalBound::begin(double error, double* state) const {
   begin_numbers(error, numbers(state));
 }
 
+void IntervalBound::narrow(const Eigen::Ref<const Eigen::MatrixXd>& Q, double* state) const {
+  if (!is_lost(state)) narrow_numbers(Q, numbers(state));
+}
+
+void IntervalBound::narrow_numbers(const Eigen::Ref<const Eigen::MatrixXd>& Q,
+                                   double* numbers) const {
+  static_cast<void>(Q);
+  static_cast<void>(numbers);
+}
+
 void IntervalBound::flow(double duration, double* state) const {
   if (is_lost(state) || duration == 0.0) return;
   flow_numbers(duration, interval(state), numbers(state));

@@ -16,6 +16,7 @@ class IntervalBound : public ErrorBound {
   Eigen::Index state_size() const final { return kNumbers + numbers_; }
   void initialize(double* state) const final { begin(initial_error_, state); }
   void begin(double error, double* state) const final;
+  void narrow(const Eigen::Ref<const Eigen::MatrixXd>& Q, double* state) const override;
   void flow(double duration, double* state) const final;
   double bound(const double* state) const final;
   void state_bounds(const double* state, double* workspace,
@@ -43,6 +44,9 @@ class IntervalBound : public ErrorBound {
 
   /// The numbers where the estimate begins with |x − x̂| <= error.
   virtual void begin_numbers(double error, double* numbers) const = 0;
+
+  /// After that, where (x − x̂)(x − x̂)ᵀ <= Q is known, too. By default they stay.
+  virtual void narrow_numbers(const Eigen::Ref<const Eigen::MatrixXd>& Q, double* numbers) const;
 
   /// Carries the numbers over `duration` > 0 [s]; `from` is where that begins. By default they
   /// stay, for bounds that follow from them and τ.

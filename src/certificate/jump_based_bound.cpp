@@ -97,6 +97,9 @@ class JumpBasedBound : public IntervalBound {
     std::fill_n(numbers, kEntries, 0.0);
     numbers[kAfterJump] = per_error_ * error;
   }
+  void narrow_numbers(const Eigen::Ref<const Eigen::MatrixXd>& Q, double* numbers) const override {
+    numbers[kAfterJump] = std::min(numbers[kAfterJump], set_.radius_around(Q));
+  }
   void flow_numbers(double duration, const Interval& from, double* numbers) const override {
     numbers[kCausedSince] = caused(duration, from, numbers);
     HeldOutput::advance(duration, numbers + kHeld);

@@ -6,6 +6,7 @@
 
 #include "certificate/exponential_norm.h"
 #include "certificate/flown_errors.h"
+#include "certificate/form_maximum.h"
 #include "certificate/interval_bound.h"
 #include "certificate/linear_sampling.h"
 #include "certificate/outward.h"
@@ -46,6 +47,7 @@ class Theorem2Bound : public SampledErrorBound {
         backward_(-subject.plant.A(), Eigen::MatrixXd::Zero(n_, 0)),
         growth_(Eigen::MatrixXd::Identity(n_, n_), subject.plant.A(), inverse_R_, subject.T2,
                 flow_growth(subject.plant.A(), subject.T2)),
+        square_of_level_(R.transpose() * R, R.cwiseAbs().transpose() * R.cwiseAbs()),
         errors_(subject.plant.A(), flow_growth(subject.plant.A(), subject.T2),
                 {inverse_with_rounding(R)}) {}
 
@@ -58,6 +60,9 @@ class Theorem2Bound : public SampledErrorBound {
 
  protected:
   void begin_numbers(double error, double* level) const override { *level = per_error_ * error; }
+  void narrow_numbers(const Eigen::Ref<const Eigen::MatrixXd>& Q, double* level) const override {
+    *level = std::min(*level, raised(std::sqrt(square_of_level_.over(Q))));
+  }
   void sample_numbers(const Interval& at, double* level, double* workspace) const override {
     const Factors factors = factors_at(at.tau, workspace);
     const double kept = is_foreseen(at.tau) ? std::min(1.0, factors.kept) : factors.kept;
@@ -156,7 +161,8 @@ class Theorem2Bound : public SampledErrorBound {
   LinearFlow forward_;      ///< of ẋ = A x
   LinearFlow backward_;     ///< of ẋ = −A x, as the law has it
   ExponentialNorm growth_;  ///< ‖e^{Aτ} R⁻¹‖
-  FlownErrors errors_;      ///< e^{Aτ} R⁻¹ z level, |z| <= 1
+  FormMaximum square_of_level_;
+  FlownErrors errors_;  ///< e^{Aτ} R⁻¹ z level, |z| <= 1
 };
 
 /// The theorem as printed, or with a rate of convergence.

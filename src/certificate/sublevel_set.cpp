@@ -36,8 +36,13 @@ Eigen::MatrixXd inverse_above(const Eigen::MatrixXd& P, double least) {
 }
 
 SublevelSet::SublevelSet(const Eigen::MatrixXd& P, double least)
-    : inverse_(inverse_above(P, least)),
+    : form_(P, P.cwiseAbs()),
+      inverse_(inverse_above(P, least)),
       widths_(
           inverse_.diagonal().unaryExpr([](double entry) { return raised(std::sqrt(entry)); })) {}
+
+double SublevelSet::radius_around(const Eigen::Ref<const Eigen::MatrixXd>& Q) const {
+  return raised(std::sqrt(form_.over(Q)));
+}
 
 }  // namespace sampled_data_observers

@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 
+#include "certificate/form_maximum.h"
+
 namespace sampled_data_observers {
 
 /// An upper bound on P⁻¹ in the order of symmetric matrices: P⁻¹ <= X = Xᵀ, so that eᵀ P e <= W
@@ -22,10 +24,14 @@ class SublevelSet {
   /// |e_j| at most, for each j: r √(P⁻¹)_jj.
   void bounds(double r, Eigen::Ref<Eigen::VectorXd> bounds) const { bounds = r * widths_; }
 
+  /// r of the one that holds all e with e eᵀ <= Q.
+  double radius_around(const Eigen::Ref<const Eigen::MatrixXd>& Q) const;
+
   /// Q with e eᵀ <= Q: r² P⁻¹.
   void ellipsoid(double r, Eigen::Ref<Eigen::MatrixXd> Q) const { Q = (r * r) * inverse_; }
 
  private:
+  FormMaximum form_;
   Eigen::MatrixXd inverse_;
   Eigen::VectorXd widths_;
 };

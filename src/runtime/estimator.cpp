@@ -137,6 +137,7 @@ Estimator::Estimator(std::shared_ptr<const ObserverLaw> law, const Options& opti
   if (options_.jump_stamp_error < 0) {
     throw std::invalid_argument("Estimator: jump_stamp_error must not be negative");
   }
+  if (law_->has_bound()) ellipsoid_.resize(law_->estimate_size(), law_->estimate_size());
   if (options_.start && *options_.start <= 0) {
     throw std::invalid_argument("Estimator: start must be positive");
   }

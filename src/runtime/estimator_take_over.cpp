@@ -104,6 +104,10 @@ bool Estimator::prepare_take_over() {
   keep_records_of_jumps(law, before, *law_, restart_state_.data());
   keep_records_of_estimate(law, before, *law_, restart_state_.data());
   law_->keep_bound(law.known_bound(before), restart_state_.data());
+  if (law.has_bound() && law_->has_bound()) {
+    law.known_ellipsoid(before, earlier_->workspace_.data(), ellipsoid_);
+    law_->narrow_bound(ellipsoid_, restart_state_.data());
+  }
   return true;
 }
 

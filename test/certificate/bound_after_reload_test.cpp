@@ -60,5 +60,51 @@ TEST_F(BoundAfterReloadTest, WhatTheLawOfBeforeCanNotMarkIsMarkedAfterIt) {
   EXPECT_FALSE(has_bound(after, kReload + kSecond / 100));
 }
 
+/// Certified gains that are exchanged for themselves right after a sample, from which on their
+/// Lyapunov function is εᵀ P ε.
+struct SelfReload {
+  const char* gains;
+  const char* assumptions;
+  Duration interval;
+};
+
+const SelfReload kSelfReloads[] = {
+    {"config/examples/sferlazza2019_aircraft_1_3/gains.yaml", "{initial_error: 1, noise: 0.1}",
+     2 * kSecond},
+    {"config/examples/etienne2019_dc_drive/gains.yaml", "{initial_error: 1, noise: 0.1}",
+     kSecond / 4},
+};
+
+TEST(BoundAfterSelfReloadTest, StartsFromTheEllipsoidAndNotFromTheNorm) {
+  for (const SelfReload& reload : kSelfReloads) {
+    const ObserverConfig config =
+        CertifiedGains(reload.gains).assuming(reload.assumptions).config();
+    Estimator before(config.law, config.options);
+    Stamp stamp = kStart;
+    for (int i = 0; i < 20; ++i, stamp += reload.interval) {
+      const std::vector<double> y(static_cast<std::size_t>(config.plant->sensors()[0].outputs()));
+      before.submit(OwnedEvent{stamp, EventKind::kSample, 0, y}.view(), stamp);
+    }
+    stamp -= reload.interval;
+    Estimate estimate = before.make_estimate();
+    const Eigen::Index n = config.law->estimate_size();
+    Eigen::VectorXd known(n);
+    Eigen::VectorXd kept(n);
+    ASSERT_EQ(Timeline::Query::kOk, before.estimate_at(stamp, estimate));
+    before.state_bounds(estimate, stamp, known);
+    const double norm = before.bound(estimate, stamp).value;
+    Estimator after(config.law, config.options);
+    after.take_over(before, stamp);
+    ASSERT_EQ(Timeline::Query::kOk, after.estimate_at(stamp, estimate));
+    after.state_bounds(estimate, stamp, kept);
+    // tr(P W P⁻¹) = n W.
+    const double factor = std::sqrt(static_cast<double>(n));
+    for (Eigen::Index j = 0; j < n; ++j) {
+      EXPECT_GE(kept(j), known(j)) << reload.gains;
+      EXPECT_LE(kept(j), std::min(norm, known(j)) * factor * (1.0 + 1e-6)) << reload.gains;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace sampled_data_observers::test

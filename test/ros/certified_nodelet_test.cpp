@@ -1,5 +1,6 @@
 // The nodelet with a gain file: it publishes the bound that is proved, and does not start with
 // gains or a plant that the proof is not about.
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <gtest/gtest.h>
 #include <nodelet/loader.h>
 #include <ros/ros.h>
@@ -7,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -70,9 +72,16 @@ TEST_F(CertifiedNodeletTest, PublishesTheBoundWhileTheAssumptionsHold) {
   const ros::Subscriber subscriber = handle_.subscribe<StateEstimate>(
       "estimate", 1000,
       [&](const StateEstimate::ConstPtr& estimate) { estimates.push_back(*estimate); });
+  std::map<ros::Time, double> squares;
+  const ros::Subscriber poses = handle_.subscribe<geometry_msgs::PoseWithCovarianceStamped>(
+      "pose", 1000, [&](const geometry_msgs::PoseWithCovarianceStamped::ConstPtr& pose) {
+        squares[pose->header.stamp] = pose->pose.covariance[0];
+      });
   ros::Publisher publisher = handle_.advertise<Measurement>("position", 100);
-  ASSERT_TRUE(test::spin_until(
-      [&] { return publisher.getNumSubscribers() > 0 && subscriber.getNumPublishers() > 0; }));
+  ASSERT_TRUE(test::spin_until([&] {
+    return publisher.getNumSubscribers() > 0 && subscriber.getNumPublishers() > 0 &&
+           poses.getNumPublishers() > 0;
+  }));
   const ros::Time start = ros::Time::now() - ros::Duration(1.5);
   const ros::Time last = start + ros::Duration(1.35);
   for (int k = 0; k <= 9; ++k) {
@@ -91,6 +100,8 @@ TEST_F(CertifiedNodeletTest, PublishesTheBoundWhileTheAssumptionsHold) {
       at_T2 = estimate.error_bound;
       ASSERT_EQ(2u, estimate.error_bounds.size());
       for (const double bound : estimate.error_bounds) EXPECT_LE(bound, estimate.error_bound);
+      EXPECT_NEAR(1.0, std::sqrt(squares.at(estimate.header.stamp)) / estimate.error_bounds[0],
+                  1e-6);
       ++in_time;
     } else if (estimate.header.stamp > last + ros::Duration(0.3)) {
       // Then the error may grow as the plant does, and the bound with it.

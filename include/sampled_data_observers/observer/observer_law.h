@@ -52,6 +52,23 @@ class StateBound {
   /// Takes over what is known of the error of the estimate of a state that begins.
   virtual void keep_bound(const PublishedBound& bound, double* state) const = 0;
 
+  /// What narrow_bound() of another law is to know. By default the ball of known_bound(). Workspace
+  /// and Q as for error_ellipsoid().
+  virtual void known_ellipsoid(const double* state, double* workspace,
+                               Eigen::Ref<Eigen::MatrixXd> Q) const {
+    static_cast<void>(workspace);
+    const double radius = known_bound(state).value;
+    Q.setZero();
+    Q.diagonal().setConstant(radius * radius);
+  }
+
+  /// After keep_bound(), takes over what else is known: (x − x̂)(x − x̂)ᵀ <= Q, where that is finite.
+  /// By default nothing.
+  virtual void narrow_bound(const Eigen::Ref<const Eigen::MatrixXd>& Q, double* state) const {
+    static_cast<void>(Q);
+    static_cast<void>(state);
+  }
+
   /// Nobody vouches for the estimate any more: see HybridSystem::distrust().
   virtual void give_up(double* state) const = 0;
 
@@ -176,6 +193,19 @@ class ObserverLaw : public HybridSystem {
   /// give a bound on it.
   void keep_bound(const PublishedBound& bound, double* state) const {
     if (bound_ != nullptr) bound_->keep_bound(bound, state);
+  }
+
+  /// What else it is to know, for its narrow_bound(): see StateBound.
+  /// @pre has_bound()
+  void known_ellipsoid(const double* state, double* workspace,
+                       Eigen::Ref<Eigen::MatrixXd> Q) const {
+    bound_->known_ellipsoid(state, workspace, Q);
+  }
+
+  /// Takes that over, after keep_bound().
+  /// @pre has_bound()
+  void narrow_bound(const Eigen::Ref<const Eigen::MatrixXd>& Q, double* state) const {
+    bound_->narrow_bound(Q, state);
   }
 
   /// Whether it is open in a state in which mode a switched plant is; always where nobody looks.

@@ -217,6 +217,8 @@ class Estimator {
   Eigen::VectorXd restart_state_;
   Eigen::VectorXd workspace_;
   Eigen::VectorXd innovation_;
+  /// That of an error that is taken over; no rows where there is no bound.
+  Eigen::MatrixXd ellipsoid_;
   bool awaits_sample_ = false;
   /// Whether `sampling` is about jumps.
   bool is_sampled_;
