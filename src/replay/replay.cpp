@@ -141,11 +141,22 @@ class Replay {
         stamps[i].push_back(event.stamp);
       }
     }
+    const ReplayOptions::Thinning& thinning = *options_.thinning;
     for (std::size_t i = 0; i < channels_.size(); ++i) {
-      kept_[i] =
-          thin(stamps[i], from_seconds(options_.thinning->T1), from_seconds(options_.thinning->T2),
-               options_.thinning->seed + first_on_topic(i));
+      if (!is_thinned(i)) continue;
+      const SamplingBounds times = thinning.times ? *thinning.times : times_to_thin_to(i);
+      kept_[i] = thin(stamps[i], times.T1, times.T2,
+                      thinning.seed + (thinning.times ? first_on_topic(i) : i));
     }
+  }
+
+  SamplingBounds times_to_thin_to(std::size_t channel) const {
+    const EventChannel& own = channels_[channel].channel;
+    const SamplingBounds& times =
+        config_.options.sampling.of_sensor(static_cast<std::size_t>(own.sensor));
+    if (times.T1 > 0 && times.T2 < kNoLongestTime) return times;
+    throw ReplayError("--thin-to-sampling: expected T1 > 0 and a T2 in the sampling of " +
+                      own.name + ", found " + (times.T1 > 0 ? "no longest time" : "T1 = 0"));
   }
 
   /// Sensors that share a topic share its seed, so that they keep the same messages.

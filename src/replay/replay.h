@@ -22,8 +22,8 @@ struct ReplayOptions {
   /// State name to field path of the truth's messages.
   std::map<std::string, std::string> truth_fields;
   struct Thinning {
-    double T1 = 0.0;  ///< s
-    double T2 = 0.0;  ///< s
+    /// Of all sensors; nothing: those of each sensor, independently of the others.
+    std::optional<SamplingBounds> times;
     std::uint64_t seed = 0;
   };
   std::optional<Thinning> thinning;

@@ -31,7 +31,8 @@ struct Arguments {
   std::vector<std::string> config;
   std::vector<std::string> assignments;
   std::optional<std::array<double, 2>> thin;  // [s]
-  std::uint64_t seed = 0;
+  bool thin_to_sampling = false;
+  std::optional<std::uint64_t> seed;
   std::optional<double> from;  // [s]
   std::optional<double> to;    // [s]
   std::string json;
@@ -50,16 +51,28 @@ std::map<std::string, std::string> parse_fields(const std::vector<std::string>& 
   return fields;
 }
 
+std::optional<sdo::ReplayOptions::Thinning> thinning_of(const Arguments& arguments) {
+  const std::uint64_t seed = arguments.seed.value_or(0);
+  if (arguments.thin && arguments.thin_to_sampling) {
+    throw sdo::UsageError("--thin", "not beside --thin-to-sampling");
+  }
+  if (arguments.thin_to_sampling) return sdo::ReplayOptions::Thinning{std::nullopt, seed};
+  if (!arguments.thin) {
+    if (arguments.seed) throw sdo::UsageError("--seed", "needs --thin or --thin-to-sampling");
+    return std::nullopt;
+  }
+  const auto [T1, T2] = *arguments.thin;
+  if (T1 > T2) throw sdo::UsageError("--thin", "T1 <= T2 must hold");
+  return sdo::ReplayOptions::Thinning{
+      sdo::SamplingBounds{sdo::from_seconds(T1), sdo::from_seconds(T2)}, seed};
+}
+
 /// What all arguments together ask for.
 /// @throws UsageError where they contradict each other
 sdo::ReplayOptions options_of(const Arguments& arguments) {
   sdo::ReplayOptions options = arguments.options;
   options.truth_fields = parse_fields(arguments.assignments);
-  if (arguments.thin) {
-    const auto [T1, T2] = *arguments.thin;
-    if (T1 > T2) throw sdo::UsageError("--thin", "T1 <= T2 must hold");
-    options.thinning = sdo::ReplayOptions::Thinning{T1, T2, arguments.seed};
-  }
+  options.thinning = thinning_of(arguments);
   if (options.around_jumps && options.truth_topic.empty() && !options.thinning) {
     throw sdo::UsageError("--around-jumps", "needs a truth, by --truth or --thin");
   }
@@ -105,15 +118,14 @@ void declare(Arguments& arguments, sdo::CommandLine& tool) {
   tool.option("--compare STATE=FIELD...", arguments.assignments,
               "Which field of the truth is which state; may be given several times (default for a "
               "StateEstimate: every state by its name)");
-  const sdo::Option& thin =
-      tool.option(
-              "--thin T1 T2", arguments.thin,
+  tool.option("--thin T1 T2", arguments.thin,
               "Keep a random subset of the samples, T1 to T2 seconds apart; without --truth all "
               "samples serve as truth")
-          .check(sdo::number_between(1e-9, 1e6));
-  tool.option("--seed NUMBER", arguments.seed, "Seed of --thin")
-      .check(sdo::whole_number_at_least(0))
-      .needs(thin);
+      .check(sdo::number_between(1e-9, 1e6));
+  tool.flag("--thin-to-sampling", arguments.thin_to_sampling,
+            "Likewise, of each sensor T1 to T2 of its sampling apart, whatever the others do");
+  tool.option("--seed NUMBER", arguments.seed, "Seed of --thin and --thin-to-sampling (default 0)")
+      .check(sdo::whole_number_at_least(0));
   tool.option("--from SECONDS", arguments.from,
               "Compare from this time on [s after the first truth]")
       .check(sdo::number_at_least(0));

@@ -92,6 +92,9 @@ scenario:
   initial_state: {p: 1, v: 1}
   sensors: {gps: {schedule: {period: 0.5}}, wheel: {schedule: {file: times.txt}}}
 """
+DENSE = TWO_SENSORS.replace("0.5}}, wheel: {schedule: {file: times.txt}}}",
+                            "0.01}}, wheel: {schedule: {period: 0.01}}}").replace(
+                                "duration: 3", "duration: 20")
 FUSION = """
 observer: ConstantGainObserver
 rate: 50
@@ -228,6 +231,29 @@ class ToolsTest(FolderTest):
         self.assertEqual(sensors["wheel"]["intervals"]["count"], 4)
         self.assertEqual(sensors["wheel"]["samples_used"], 5)
         self.assertEqual((sensors["gps"]["T1"], sensors["gps"]["T2"]), (0.2, 1))
+
+    def test_each_sensor_is_thinned_to_its_own_times(self):
+        self.scenario = self.write("scenario.yaml", DENSE)
+        self.observer = self.write("observer.yaml", FUSION)
+        self.simulate()
+        text = self.succeed("replay", *self.replay("--thin-to-sampling", "--seed", "3", "--truth",
+                                                   "truth", "--json", self.path("summary.json")))
+        self.assertNotIn("intervals   of gps: 0.01", text)
+        with open(self.path("summary.json")) as summary:
+            found = json.load(summary)
+        for name, T1, T2 in (("gps", 0.2, 1), ("wheel", 0.05, 0.15)):
+            intervals = found["sensors"][name]["intervals"]
+            self.assertEqual((intervals["below_T1"], intervals["above_T2"]), (0, 0), name)
+            self.assertGreater(intervals["max"] - intervals["min"], 0.3 * (T2 - T1), name)
+        self.assertGreater(found["sensors"]["wheel"]["samples_used"],
+                           3 * found["sensors"]["gps"]["samples_used"])
+        self.assertIn("--seed: needs --thin",
+                      self.refuse("replay", *self.replay("--seed", "1")))
+        self.assertIn("--thin: not beside",
+                      self.refuse("replay", *self.replay("--thin-to-sampling", "--thin", "1", "2")))
+        self.write("scenario.yaml", DENSE.replace("T1: 0.2", "T1: 0"))
+        self.assertIn("expected T1 > 0 and a T2 in the sampling of gps, found T1 = 0",
+                      self.fault("replay", *self.replay("--thin-to-sampling", "--truth", "truth")))
 
     def test_errors_around_jumps_are_told_apart(self):
         self.scenario = self.write("scenario.yaml", BOUNCING)
