@@ -122,6 +122,10 @@ void require_linear_jumping_plant(const CertificateSubject& subject) {
     throw std::invalid_argument("it is about linear flows; design/A may state that of the error");
   }
   if (!subject.plant.jumps()) throw std::invalid_argument("it is about plants that jump");
+  if (!subject.plant.mode().A_d) {
+    throw std::invalid_argument(
+        "it is about jump maps by matrices; design/A_d may state that of the error");
+  }
 }
 
 std::vector<Condition> quadratic_conditions(const CertificateSubject& subject, FlowOfError kind,

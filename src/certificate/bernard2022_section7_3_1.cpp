@@ -1,6 +1,14 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <stdexcept>
 
+#include "certificate/modal_bound.h"
+#include "certificate/outward.h"
 #include "certificate/theorems.h"
+#include "certificate/weighted_norm.h"
+#include "linear_algebra/matrix_functions.h"
+#include "observer/switched_gains.h"
 
 namespace sampled_data_observers {
 namespace {
@@ -98,10 +106,38 @@ class Section731 : public Theorem {
     return all;
   }
 
-  std::unique_ptr<const ErrorBound> error_bound(const CertificateSubject&, const NamedMatrices&,
-                                                const ErrorAssumptions&) const override {
-    // y_c is taken as known at all times. It comes in messages and is held between them.
-    return nullptr;
+  std::unique_ptr<const ErrorBound> error_bound(
+      const CertificateSubject& subject, const NamedMatrices& values,
+      const ErrorAssumptions& assumptions) const override {
+    if (subject.plant.mode().C_d.rows() == 0) {
+      throw std::invalid_argument(
+          "no sensor that is `measured: at_jumps`: the estimate is projected on a continuous "
+          "output "
+          "that was measured before the switch");
+    }
+    // The P that are computed are not quite those of the proof: their own rates count.
+    std::vector<ModalProof> proofs;
+    double rate = -std::numeric_limits<double>::infinity();
+    for (const ModeMatrices& mode : subject.plant.modes) {
+      const Eigen::MatrixXd& H = mode.C_d;
+      const Eigen::MatrixXd& L_c = values.at(of_mode("L_c", mode));
+      const Eigen::MatrixXd gain = projection_gain(values.at(of_mode("projection", mode)), H,
+                                                   " of " + of_mode("mode", mode));
+      const Eigen::MatrixXd projector = Eigen::MatrixXd::Identity(H.cols(), H.cols()) - gain * H;
+      const Eigen::MatrixXd P = projector.transpose() * values.at("Q") * projector +
+                                H.transpose() * values.at(of_mode("S", mode)) * H;
+      proofs.push_back({0.5 * (P + P.transpose()), L_c, gain});
+      rate = std::max(rate, growth_under(proofs.back(), mode));
+    }
+    return held_output_bound(subject, proofs, -2.0 * rate, assumptions);
+  }
+
+ private:
+  /// Of |e|_P along ė = (A − L_c C_c) e at most.
+  static double growth_under(const ModalProof& proof, const ModeMatrices& mode) {
+    const double least = std::sqrt(positive_least_eigenvalue(proof.P, of_mode("P", mode)));
+    const double injected = norm_into(proof.P, proof.L_c) * norm2(mode.C_c) / least;
+    return growth_above(proof.P, mode.A - proof.L_c * mode.C_c) + 1e-13 * injected;
   }
 };
 

@@ -1,3 +1,4 @@
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -112,7 +113,10 @@ class RatesOfModes : public SwitchedCondition {
   std::unique_ptr<const ErrorBound> error_bound(
       const CertificateSubject& subject, const NamedMatrices& values,
       const ErrorAssumptions& assumptions) const override {
-    if (!in_flow()) return nullptr;
+    if (!in_flow()) {
+      return switch_bound(subject, proofs_of(subject, values, "", "L_d"), std::nullopt,
+                          assumptions);
+    }
     return held_output_bound(subject, proofs_of(subject, values, "L_c", ""),
                              scalar_value(values, "flow_decay"), assumptions);
   }

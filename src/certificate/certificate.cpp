@@ -98,6 +98,8 @@ void require_subject(const Theorem& theorem, const CertificateSubject& subject) 
 
 const std::vector<const Theorem*>& theorems() {
   static const std::vector<const Theorem*> all = {
+      &bernard2022_corollary4_1(),
+      &bernard2022_corollary4_1_average_dwell_time(),
       &bernard2022_corollary5_2(),
       &bernard2022_corollary5_2_metric(),
       &bernard2022_equation14(),

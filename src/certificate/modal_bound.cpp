@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
 #include "certificate/bound_flow.h"
@@ -173,10 +174,10 @@ class HeldOutputBound : public IntervalBound {
 class SwitchBound : public IntervalBound {
  public:
   SwitchBound(const CertificateSubject& subject, const std::vector<ModalProof>& modes,
-              double jump_decay, const ErrorAssumptions& assumptions)
-      : IntervalBound(subject, assumptions, kEntries),
-        norms_(subject, modes, assumptions),
-        contraction_(raised(std::exp(-jump_decay))) {}
+              std::optional<double> jump_decay, const ErrorAssumptions& assumptions)
+      : IntervalBound(subject, assumptions, kEntries), norms_(subject, modes, assumptions) {
+    if (jump_decay) contraction_ = raised(std::exp(-*jump_decay));
+  }
 
   bool follows_law() const override { return true; }
 
@@ -197,8 +198,8 @@ class SwitchBound : public IntervalBound {
     const double factor = norms.reset[motion.mode];
     double carried = factor * flowed_linearly(values[kAfterSwitch], norms.growth, 0.0, tau);
     const bool switches = values[kMode] != static_cast<double>(motion.mode);
-    if (!is_first && switches && is_foreseen(tau)) {
-      carried = std::min(carried, contraction_ * values[kAfterSwitch]);
+    if (contraction_ && !is_first && switches && is_foreseen(tau)) {
+      carried = std::min(carried, *contraction_ * values[kAfterSwitch]);
     }
     go_on(carried + factor * values[kCausedSince] + norms.noise, motion, state);
   }
@@ -263,7 +264,7 @@ class SwitchBound : public IntervalBound {
   }
 
   ModalNorms norms_;
-  double contraction_;
+  std::optional<double> contraction_;
 };
 
 }  // namespace
@@ -279,7 +280,7 @@ std::unique_ptr<const ErrorBound> held_output_bound(const CertificateSubject& su
 
 std::unique_ptr<const ErrorBound> switch_bound(const CertificateSubject& subject,
                                                const std::vector<ModalProof>& modes,
-                                               double jump_decay,
+                                               std::optional<double> jump_decay,
                                                const ErrorAssumptions& assumptions) {
   refuse_uncertain_stamps(assumptions);
   return std::make_unique<const SwitchBound>(subject, modes, jump_decay, assumptions);

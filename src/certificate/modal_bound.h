@@ -30,6 +30,9 @@ struct ModalProof {
 /// the error grows as the plant lets it grow at most. A jump from mode q into q' makes of |e|_{P_q}
 /// at most √λ_max(RᵀP_q'R, P_q) |e|_{P_q} + |L_d|_P' noise, R = A_d − L_d C_d.
 ///
+/// Where a Lipschitz constant k stands for the jump map, a jump makes of |e|_P at most
+/// √(λ_max(P)/λ_min(P)) k |e|_P.
+///
 /// Where the flow takes the output in place of a state x_s = C_c x, k bounding what f_i makes of it
 /// (ErrorAssumptions::injection_lipschitz), f(x) − f(x̂ with y_held) is A e + d with |d_i| <= k_i
 /// |h|, and k_i |x_s − x̂_s| where nothing is held: |d|_P <= √(kᵀ |P| k) |h|, |P| entry by entry.
@@ -48,10 +51,12 @@ std::unique_ptr<const ErrorBound> held_output_bound(const CertificateSubject& su
 /// e^{−2 jump_decay} from just after a switch to just after the next, τ in [T1, T2] later, into
 /// another mode. After other times, at the first switch and at one that stays in its mode it is
 /// what flow and reset make of it at most. Each switch must be told once.
+/// @param jump_decay  nothing where V need not fall from switch to switch: then each counts by what
+///                    its reset makes of V
 /// @throws std::invalid_argument where stamps of jumps may be off.
 std::unique_ptr<const ErrorBound> switch_bound(const CertificateSubject& subject,
                                                const std::vector<ModalProof>& modes,
-                                               double jump_decay,
+                                               std::optional<double> jump_decay,
                                                const ErrorAssumptions& assumptions);
 
 }  // namespace sampled_data_observers

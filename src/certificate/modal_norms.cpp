@@ -28,6 +28,13 @@ ModalNorms::ModalNorms(const CertificateSubject& subject, const std::vector<Moda
     norms.injection = norm_into(proof.P, proof.L_c) + injected;
     norms.free_injection = raised(injected / norms.least);
     norms.output = plant.C_c.rows() == 0 ? 0.0 : raised(norm2(plant.C_c));
+    if (subject.plant.lipschitz_jump && !plant.A_d) {
+      const LipschitzJump& jump = *subject.plant.lipschitz_jump;
+      const double into = norm_into(proof.P, inverse_of(jump.J));
+      norms.reset = {raised(into * jump.constant * norm2(jump.J) / norms.least)};
+      norms.uncorrected = norms.reset;
+      continue;
+    }
     const Eigen::MatrixXd A_d = jump_of(plant);
     MatrixExpression reset = A_d;
     if (proof.L_d.cols() > 0) reset = reset - MatrixExpression(proof.L_d) * plant.C_d;

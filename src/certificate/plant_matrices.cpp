@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "plant/bounded_slope_map.h"
 #include "plant/lipschitz_map.h"
 
 namespace sampled_data_observers {
@@ -70,8 +71,9 @@ const Eigen::MatrixXd& output_at_switches(const ModeMatrices& mode) {
 }
 
 bool PlantMatrices::jumps() const {
-  return std::any_of(modes.begin(), modes.end(),
-                     [](const ModeMatrices& mode) { return mode.A_d.has_value(); });
+  return lipschitz_jump || std::any_of(modes.begin(), modes.end(), [](const ModeMatrices& mode) {
+           return mode.A_d.has_value();
+         });
 }
 
 PlantMatrices matrices_of(const Plant& plant, const StatedErrorMaps& stated) {
@@ -106,10 +108,15 @@ PlantMatrices matrices_of(const Plant& plant, const StatedErrorMaps& stated) {
     } else {
       matrices.A = affine(*mode.flow, "the flow").M();
     }
+    const auto* bounded = dynamic_cast<const BoundedSlopeMap*>(mode.jump.get());
+    const bool is_lipschitz = bounded != nullptr && !plant.switches();
     if (stated.A_d) {
       matrices.A_d = *stated.A_d;
-    } else if (mode.jump) {
+    } else if (mode.jump && (mode.jump->affine() != nullptr || !is_lipschitz)) {
       matrices.A_d = affine(*mode.jump, "the jump map").M();
+    }
+    if (is_lipschitz) {
+      result.lipschitz_jump = LipschitzJump{bounded->constant(), Eigen::MatrixXd::Identity(n, n)};
     }
     matrices.C = stacked_outputs(plant, mode, SensorTiming::kSampled);
     matrices.C_c = stacked_outputs(plant, mode, SensorTiming::kContinuous);

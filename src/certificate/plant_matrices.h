@@ -47,6 +47,12 @@ struct SampledOutputs {
   Eigen::Index rows = 0;
 };
 
+/// What is stated of a jump map g: |J (g(x) − g(x̂))| <= constant |J (x − x̂)|.
+struct LipschitzJump {
+  double constant = 0.0;
+  Eigen::MatrixXd J;  ///< n x n: the identity, in the units of the plant's file
+};
+
 /// The plant as the papers' conditions see it:
 ///   ẋ = A x + B u + G ψ(S x) + N w between jumps, y = C x at samples, y_p = C_p (x − x̂).
 struct PlantMatrices {
@@ -56,6 +62,8 @@ struct PlantMatrices {
   Eigen::MatrixXd G;                     ///< n x s; no columns for a linear flow
   Eigen::MatrixXd S;                     ///< q x n
   std::optional<double> lipschitz_constant;
+  /// Of a plant that does not switch; without A_d where the jump map is no matrix.
+  std::optional<LipschitzJump> lipschitz_jump;
   std::vector<Eigen::MatrixXd> vertices;  ///< n x n each
   Eigen::MatrixXd N;                      ///< n x n_w; no columns without disturbance
   Eigen::MatrixXd C_p;                    ///< n_p x n; no rows without performance output
@@ -72,7 +80,8 @@ struct PlantMatrices {
 /// The matrices of a plant without disturbance and performance output.
 /// @param stated  instead of the plant's own maps, for a plant that does not switch
 /// @throws std::invalid_argument for a plant that the conditions of the papers are not about: a
-/// flow, jump or output map by formulas, or several sensors that measure continuously, or at jumps.
+/// flow, output map or, without Lipschitz constant, jump map by formulas, or several sensors that
+/// measure continuously, or at jumps.
 PlantMatrices matrices_of(const Plant& plant, const StatedErrorMaps& stated = {});
 
 }  // namespace sampled_data_observers

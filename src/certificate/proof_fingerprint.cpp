@@ -66,6 +66,10 @@ std::string proof_fingerprint(const Certificate& certificate) {
   text.add("G", plant.G);
   text.add("S", plant.S);
   if (plant.lipschitz_constant) text.add("lipschitz_constant", *plant.lipschitz_constant);
+  if (const auto& jump = plant.lipschitz_jump) {
+    text.add("jump_map/lipschitz_constant", jump->constant);
+    text.add("J", jump->J);
+  }
   for (const Eigen::MatrixXd& vertex : plant.vertices) text.add("vertex", vertex);
   text.add("N", plant.N);
   text.add("C_p", plant.C_p);

@@ -5,6 +5,8 @@
 namespace sampled_data_observers {
 
 // One source file each, or each family.
+const Theorem& bernard2022_corollary4_1();
+const Theorem& bernard2022_corollary4_1_average_dwell_time();
 const Theorem& bernard2022_corollary5_2();
 const Theorem& bernard2022_corollary5_2_metric();
 const Theorem& bernard2022_equation14();

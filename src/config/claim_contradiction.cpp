@@ -6,6 +6,7 @@
 #include <random>
 
 #include "config/number_text.h"
+#include "plant/bounded_slope_map.h"
 #include "plant/lipschitz_map.h"
 
 namespace sampled_data_observers {
@@ -76,23 +77,25 @@ Vector value_of(const VectorMap& map, const Vector& x, const Vector& u) {
   return out;
 }
 
-std::optional<Contradiction> refute_constant(const LipschitzDescription& map, const Vector& centre,
-                                             Eigen::Index inputs) {
-  const double constant = *map.lipschitz_constant;
+/// @param key   that states the constant
+/// @param name  of the map
+std::optional<Contradiction> refute_constant(const VectorMap& map, double constant,
+                                             const std::string& key, const std::string& name,
+                                             const Vector& centre, Eigen::Index inputs) {
   std::optional<Contradiction> found;
   double largest = 0.0;
   visit_pairs(centre, inputs, [&](const Pair& pair) {
-    const Vector psi_a = value_of(*map.psi, pair.a, pair.u);
-    const Vector psi_b = value_of(*map.psi, pair.b, pair.u);
+    const Vector at_a = value_of(map, pair.a, pair.u);
+    const Vector at_b = value_of(map, pair.b, pair.u);
     const double distance = (pair.a - pair.b).norm();
-    const double change = (psi_a - psi_b).norm();
+    const double change = (at_a - at_b).norm();
     const double blurred =
-        kRounding * (psi_a.norm() + psi_b.norm() + constant * (pair.a.norm() + pair.b.norm()));
+        kRounding * (at_a.norm() + at_b.norm() + constant * (pair.a.norm() + pair.b.norm()));
     const bool refutes = change > constant * distance * (1.0 + kTolerance) + blurred;
     if (!std::isfinite(change) || !refutes || change / distance <= largest) return false;
     largest = change / distance;
-    found = Contradiction{"lipschitz_constant",
-                          "at least |psi(a) - psi(b)| / |a - b|, which is " +
+    found = Contradiction{key,
+                          "at least |" + name + "(a) - " + name + "(b)| / |a - b|, which is " +
                               number_text(largest, 9) + " at a = " + in_digits(pair.a) +
                               ", b = " + in_digits(pair.b) + with_input(pair.u) + kEverywhere,
                           number_text(constant, 9)};
@@ -194,13 +197,21 @@ std::optional<Contradiction> refute_map(const Plant& plant, const VectorMap* map
 
 }  // namespace
 
+std::optional<Contradiction> refute_jump_constant(const Plant& plant, const Vector& centre) {
+  const auto* map = dynamic_cast<const BoundedSlopeMap*>(plant.modes().front().jump.get());
+  if (map == nullptr) return std::nullopt;
+  return refute_constant(*map, map->constant(), "jump_map/lipschitz_constant", "g", centre,
+                         plant.inputs());
+}
+
 std::optional<Contradiction> refute_lipschitz_claims(const Plant& plant, const Vector& centre) {
   const auto* map = dynamic_cast<const LipschitzMap*>(plant.modes().front().flow.get());
   if (map == nullptr) return std::nullopt;
   const LipschitzDescription& description = map->description();
   std::optional<Contradiction> found;
   if (description.lipschitz_constant) {
-    found = refute_constant(description, description.S * centre, plant.inputs());
+    found = refute_constant(*description.psi, *description.lipschitz_constant, "lipschitz_constant",
+                            "psi", description.S * centre, plant.inputs());
   }
   if (!found && !description.vertices.empty()) {
     found = refute_vertices(description, centre, plant.inputs());
@@ -290,6 +301,9 @@ std::string in_words(const Plant& plant, const std::vector<OutputInjection>& inj
 void require_no_contradiction(const Plant& plant, const StatedErrorMaps& stated,
                               ConfigSection& plant_section, ConfigSection& stated_section) {
   const Vector centre = Vector::Zero(plant.states());
+  if (const auto found = refute_jump_constant(plant, centre)) {
+    throw plant_section.error(found->key, found->expected, found->found);
+  }
   if (!stated.A) {
     if (const auto found = refute_lipschitz_claims(plant, centre)) {
       throw plant_section.error(found->key, found->expected, found->found);

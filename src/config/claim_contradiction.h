@@ -14,7 +14,8 @@ namespace sampled_data_observers {
 
 /// Something that a file states of a plant and that the plant's own maps refute at a point.
 struct Contradiction {
-  /// That states it: "lipschitz_constant", "vertices", "A", "A_d" or "injection_lipschitz".
+  /// That states it: "lipschitz_constant", "vertices", "jump_map/lipschitz_constant", "A", "A_d" or
+  /// "injection_lipschitz".
   std::string key;
   std::string expected;  ///< what the plant's maps ask of it, with the point
   std::string found;
@@ -29,6 +30,11 @@ struct Contradiction {
 /// Nothing for a plant of another kind.
 std::optional<Contradiction> refute_lipschitz_claims(const Plant& plant,
                                                      const Eigen::VectorXd& centre);
+
+/// Compares `lipschitz_constant` of a jump map with it: |g(a) − g(b)| <= k |a − b|. Nothing where
+/// none is stated.
+std::optional<Contradiction> refute_jump_constant(const Plant& plant,
+                                                  const Eigen::VectorXd& centre);
 
 /// Compares stated maps of the error with those of the plant and of an observer that takes states
 /// from outputs:

@@ -36,6 +36,9 @@ std::optional<ConfigError> objection_to_statements(ConfigSection& root,
   const Plant& plant = *config.plant;
   const Eigen::VectorXd centre = initial_estimate_of(*config.law, plant);
   const StatedErrorMaps& stated = certificate.subject.plant.stated;
+  if (const auto found = refute_jump_constant(plant, centre)) {
+    return root.section("plant").error(found->key, found->expected + kGainsRemedy, found->found);
+  }
   if (!stated.A) {
     if (const auto found = refute_lipschitz_claims(plant, centre)) {
       return root.section("plant").error(found->key, found->expected + kGainsRemedy, found->found);

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "config/expression_config.h"
+#include "plant/bounded_slope_map.h"
 #include "plant/lipschitz_map.h"
 
 namespace sampled_data_observers {
@@ -67,6 +68,10 @@ std::shared_ptr<const VectorMap> read_jump_map(ConfigSection& mode, const Expres
     Eigen::VectorXd b_d = section.has("b_d") ? section.vector("b_d", n) : Eigen::VectorXd::Zero(n);
     map = std::make_shared<const AffineMap>(std::move(A_d), Eigen::MatrixXd::Zero(n, 0),
                                             std::move(b_d));
+  }
+  if (section.has("lipschitz_constant")) {
+    const double constant = section.number_in("lipschitz_constant", 0.0, 1e50, std::nullopt);
+    map = std::make_shared<const BoundedSlopeMap>(std::move(map), constant);
   }
   section.finish();
   return map;

@@ -98,6 +98,8 @@ const std::vector<const DesignMethod*>& design_methods() {
       &bernard2022_metric_design(),
       &bernard2022_high_gain_design(),
       &bernard2022_high_gain_average_design(),
+      &bernard2022_high_gain_lipschitz_design(),
+      &bernard2022_high_gain_lipschitz_average_design(),
       &bernard2022_switched_flow_based_design(),
       &bernard2022_switched_flow_based_average_design(),
       &bernard2022_switched_jump_based_average_design(),

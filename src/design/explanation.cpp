@@ -54,6 +54,12 @@ class Explanation {
         say_dwell_times(c_, mode);
       }
     }
+    if (c_.plant.lipschitz_jump && !c_.plant.mode().A_d) {
+      c_.out.heading("JUMPS");
+      c_.out.paragraph("By formulas, Lipschitz constant " +
+                       brief(c_.plant.lipschitz_jump->constant) +
+                       ": the methods of bernard2022_corollary4_1 need no more.");
+    }
     if (!c_.plant.is_linear()) say_nonlinearity();
     say_methods();
     if (c_.obstacles.empty()) say_least_gain(c_);

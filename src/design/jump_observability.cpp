@@ -59,10 +59,10 @@ class SequenceSearch {
 JumpObservability jump_observability(const CertificateSubject& subject, std::size_t jumps,
                                      std::size_t points) {
   const PlantMatrices& plant = subject.plant;
-  if (plant.modes.size() > 1 || !plant.jumps() || plant.mode().C_d.rows() == 0) {
+  if (plant.modes.size() > 1 || !plant.mode().A_d || plant.mode().C_d.rows() == 0) {
     throw std::invalid_argument(
-        "observability from jumps is about a plant that does not switch, jumps, and has an output "
-        "measured at jumps");
+        "observability from jumps is about a plant that does not switch, jumps by a matrix, and "
+        "has an output measured at jumps");
   }
   if (std::pow(static_cast<double>(points), static_cast<double>(jumps)) > kMostSequences) {
     throw std::invalid_argument(std::to_string(points) + " lengths of " + std::to_string(jumps) +

@@ -158,6 +158,7 @@ CertificateSubject scaled(const CertificateSubject& subject, const PlantScaling&
   plant.G = scaling.time * scaling.nonlinearity * in_units(x, plant.G, ones(plant.G.cols()));
   plant.S = in_units(ones(plant.S.rows()), plant.S, x);
   if (plant.lipschitz_constant) *plant.lipschitz_constant /= scaling.nonlinearity;
+  if (auto& jump = plant.lipschitz_jump) jump->J = in_units(ones(jump->J.rows()), jump->J, x);
   plant.C_p = in_units(ones(plant.C_p.rows()), plant.C_p, x) / scaling.performance;
   return result;
 }

@@ -38,6 +38,7 @@ class Unscaling {
     if (base == "P" || base == "P1" || base == "Q" || base == "metric" || base == "projection") {
       return form_of_state(level_, value);
     }
+    if (base == "P_largest") return level_ * value;
     if (base == "S") return form_of_output_at_switches(value);
     if (base == "P2") return level_ * (from_y_.asDiagonal() * value * from_y_.asDiagonal());
     if (base == "L") return gain(acts_at_samples ? 1.0 : time, value, scaling_.output);
@@ -121,7 +122,8 @@ bool has_norm_of_state(const Theorem& theorem) {
 }
 
 bool has_conditions_for_units(const Theorem& theorem) {
-  return has_norm_of_state(theorem) || theorem.name().rfind("bernard2022_example4_2", 0) == 0;
+  return has_norm_of_state(theorem) || theorem.name().rfind("bernard2022_example4_2", 0) == 0 ||
+         theorem.name().rfind("bernard2022_corollary4_1", 0) == 0;
 }
 
 Parameters scaled(const Theorem& theorem, const Parameters& parameters,

@@ -17,17 +17,6 @@ bool is_identity(const VectorMap& map) {
   return affine.M().isIdentity(0.0) && affine.N().isZero(0.0) && affine.c().isZero(0.0);
 }
 
-/// P⁻¹ Hᵀ (H P⁻¹ Hᵀ)⁻¹; empty where H has no rows.
-Eigen::MatrixXd projection_gain(const Eigen::MatrixXd& P, const Eigen::MatrixXd& H,
-                                const std::string& where) {
-  if (H.rows() == 0) return {};
-  const Eigen::MatrixXd lifted = solve_definite(P, H.transpose());
-  const std::optional<Eigen::MatrixXd> gram_inverse = inverse_where_regular(H * lifted);
-  require_of_gains(gram_inverse.has_value(),
-                   "projection" + where + ": the outputs of the mode are dependent");
-  return lifted * *gram_inverse;
-}
-
 Projection make_projection(const SwitchedGains& gains, const Plant& plant, std::size_t mode) {
   if (!gains.P[mode]) return {};
   const Eigen::MatrixXd& P = *gains.P[mode];
@@ -44,6 +33,16 @@ Projection make_projection(const SwitchedGains& gains, const Plant& plant, std::
 }
 
 }  // namespace
+
+Eigen::MatrixXd projection_gain(const Eigen::MatrixXd& P, const Eigen::MatrixXd& H,
+                                const std::string& where) {
+  if (H.rows() == 0) return {};
+  const Eigen::MatrixXd lifted = solve_definite(P, H.transpose());
+  const std::optional<Eigen::MatrixXd> gram_inverse = inverse_where_regular(H * lifted);
+  require_of_gains(gram_inverse.has_value(),
+                   "projection" + where + ": the outputs of the mode are dependent");
+  return lifted * *gram_inverse;
+}
 
 void check_switched_gains(const SwitchedGains& gains, const Plant& plant) {
   require_of_gains(plant.switches(), "the plant must have several modes (plant/modes)");

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "observer/metric_gain.h"
@@ -34,7 +35,13 @@ void check_switched_gains(const SwitchedGains& gains, const Plant& plant);
 /// of a mode at jumps that are dependent.
 std::vector<MetricGain> make_metric_gains(SwitchedGains& gains, const Plant& plant);
 
-/// P⁻¹ Hᵀ (H P⁻¹ Hᵀ)⁻¹ for the outputs H of one timing; empty where there are none or no metric.
+/// P⁻¹ Hᵀ (H P⁻¹ Hᵀ)⁻¹, the gain that projects x̂ on the outputs H of a mode; empty without outputs.
+/// @param where  " of mode …", for messages
+/// @throws std::invalid_argument for outputs that depend on each other
+Eigen::MatrixXd projection_gain(const Eigen::MatrixXd& P, const Eigen::MatrixXd& H,
+                                const std::string& where);
+
+/// Those for the outputs of each timing; empty where there are none or no metric.
 struct Projection {
   Eigen::MatrixXd at_jumps;
   Eigen::MatrixXd continuous;

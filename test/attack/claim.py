@@ -49,6 +49,7 @@ class Claim:
     S: list = None
     psi: list = None
     lipschitz: object = None
+    jump_lipschitz: object = None
     vertices: list = field(default_factory=list)
     N: list = None
     C_p: list = None
@@ -188,6 +189,8 @@ def read_claim(path, gain_file, certificate, plant_path):
         claim.lipschitz = plant.get("lipschitz_constant")
         claim.vertices = [extended(numbers(rows), total)
                           for _, rows in sorted(plant.get("vertices", {}).items())]
+    if "lipschitz_constant" in (plant.get("jump_map") or {}):
+        claim.jump_lipschitz = number(plant["jump_map"]["lipschitz_constant"])
     if certificate.get("N") is not None:
         claim.N = numbers(certificate["N"])
     if certificate.get("C_p") is not None:

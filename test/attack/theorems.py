@@ -361,8 +361,8 @@ def bernard2022_equation26_reverse_average_dwell_time(claim):
     yield from bernard2022_equation26(claim)
 
 
-def bernard2022_example4_2(claim):
-    """(22) with the gain that gives A - L_c H the eigenvalues ell times those of K (Ackermann)."""
+def high_gain_flow(claim):
+    """A - L_c H with the gain that gives it the eigenvalues ell times those of K (Ackermann)."""
     n = claim.states
     K, ell = claim.gains["K"], claim.value("ell")
     K = claim.value("K")[0] if isinstance(K[0], list) else [mpf(float(value)) for value in K]
@@ -376,12 +376,37 @@ def bernard2022_example4_2(claim):
     value = plus(value, power)
     last = [[mpf(int(i == n - 1))] for i in range(n)]
     L_c = product(value, solved(rows, last))
-    yield Number("ell > 0", ell)
-    yield from lyapunov(claim, minus(claim.A, product(L_c, claim.C_c)), claim.A_d, decays=True)
+    return minus(claim.A, product(L_c, claim.C_c))
+
+
+def bernard2022_example4_2(claim):
+    """(22) with a high gain."""
+    yield Number("ell > 0", claim.value("ell"))
+    yield from lyapunov(claim, high_gain_flow(claim), claim.A_d, decays=True)
 
 
 def bernard2022_example4_2_average_dwell_time(claim):
     yield from bernard2022_example4_2(claim)
+
+
+def bernard2022_corollary4_1(claim):
+    """The same for every jump map with a Lipschitz constant: P <= p I and k^2 p I <= e^{a_d} P."""
+    P, largest = claim.value("P"), claim.value("P_largest")
+    a_c, a_d = lyapunov_rates(claim, True)
+    flow = high_gain_flow(claim)
+    one = identity(claim.states)
+    yield Number("ell > 0", claim.value("ell"))
+    yield from lyapunov_domains(claim, True)
+    yield Fixed("P > 0", P)
+    yield Fixed("flow", minus(times(a_c, P), symmetrized(product(P, flow))))
+    yield Number("P_largest > 0", largest)
+    yield Fixed("largest eigenvalue of P", minus(times(largest, one), P))
+    yield Fixed("jump", minus(times(mpmath.exp(a_d), P),
+                              times(claim.jump_lipschitz ** 2 * largest, one)))
+
+
+def bernard2022_corollary4_1_average_dwell_time(claim):
+    yield from bernard2022_corollary4_1(claim)
 
 
 def bernard2022_corollary5_2(claim):
@@ -537,6 +562,8 @@ OBSERVERS = {
     bernard2022_equation26_reverse_average_dwell_time: "SynchronizedObserver",
     bernard2022_corollary5_2_metric: "SynchronizedObserver",
     bernard2022_corollary5_2: "SynchronizedObserver",
+    bernard2022_corollary4_1: "HighGainObserver",
+    bernard2022_corollary4_1_average_dwell_time: "HighGainObserver",
     bernard2022_example4_2: "HighGainObserver",
     bernard2022_example4_2_average_dwell_time: "HighGainObserver",
     bernard2022_example7_1: "SwitchedObserver",

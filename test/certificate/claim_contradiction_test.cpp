@@ -172,6 +172,17 @@ TEST(ClaimTest, AProofForAnObserverWithoutSaturationsIsForNoOther) {
                  {"gains/T: expected only gains that bernard2022_example4_2 is about"});
 }
 
+TEST(ClaimTest, AConstantThatIsSmallerThanAJumpMakesOfDistancesIsRefused) {
+  const char kLipschitzJump[] = "test/certificate/attack/kicked/bernard2022_corollary4_1.yaml";
+  EXPECT_EQ("no fault", refusal(kLipschitzJump, "{}"));
+  const ConfigNode tree = CertifiedGains(kLipschitzJump)
+                              .with("plant: {jump_map: {lipschitz_constant: 1.0}}")
+                              .with_own_hash()
+                              .tree();
+  expect_message(refusal(tree),
+                 {"plant/jump_map/lipschitz_constant", "|g(a) - g(b)| / |a - b|", "found 1"});
+}
+
 TEST(ClaimTest, DelayedJumpsLoseTheGuarantee) {
   const ObserverConfig config =
       CertifiedGains("config/examples/bernard2022_bouncing_ball/gains.yaml")

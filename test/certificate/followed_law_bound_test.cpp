@@ -45,8 +45,13 @@ const FollowedClaim kFollowedClaims[] = {
     {"test/certificate/attack/held/bernard2022_equation22.yaml", 0.0, 0.0},
     {"test/certificate/attack/held/bernard2022_equation14.yaml", 0.02, 0.1},
     {"test/certificate/attack/kicked/bernard2022_example4_2.yaml", 0.02, 0.1},
+    {"test/certificate/attack/kicked/bernard2022_corollary4_1.yaml", 0.02, 0.1},
     {"test/certificate/attack/switched/bernard2022_example7_1.yaml", 0.02, 0.1},
     {"config/examples/bernard2022_switched/gains.yaml", 0.02, 0.0},
+    {"test/certificate/attack/switched/bernard2022_equation49_reverse_average_dwell_time.yaml",
+     0.02, 0.1},
+    {"test/certificate/attack/switched/bernard2022_section7_3_1.yaml", 0.02, 0.1},
+    {"test/certificate/attack/switched/bernard2022_section7_3_1.yaml", 0.0, 0.0},
     {"test/certificate/attack/held/bernard2022_equation22.yaml", 0.02, 0.1, kDelayed},
     {"test/certificate/attack/held/bernard2022_equation14.yaml", 0.02, 0.1, kDelayed},
     {"test/certificate/attack/kicked/bernard2022_example4_2.yaml", 0.0, 0.0, kDelayed},
@@ -84,6 +89,8 @@ class FollowedRun {
         flow_(plant_, disturbance_of(subject), kNanosecondsPerSecond),
         shares_(law_),
         generator_(seed),
+        // Other times than those that are watched lose the bound.
+        longest_(subject.dwell_time ? subject.dwell_time->tau : subject.T2),
         strays_(seed % 4 == 3),
         restarts_(seed % 4 == 2),
         state_(law_.state_size()),
@@ -96,7 +103,7 @@ class FollowedRun {
   RunOutcome play() {
     const bool has_messages = plant_.outputs(SensorTiming::kContinuous) > 0;
     double next_message = uniform(0.0, 0.2);
-    double next_jump = uniform(0.0, subject_.T2);
+    double next_jump = uniform(0.0, longest_);
     double restart = restarts_ ? uniform(0.3, 0.7) * kFollowedDuration : kFollowedDuration;
     compare();
     for (double now = 0.0; now < kFollowedDuration; now += kFollowedStep) {  // NOLINT(cert-flp30-c)
@@ -108,9 +115,9 @@ class FollowedRun {
       if (now >= next_jump) {
         jump();
         // A step late where it is drawn so.
-        next_jump =
-            now + (strays_ && in_one_of(4) ? uniform(0.02, 2.0 * subject_.T2)
-                                           : uniform(subject_.T1, subject_.T2 - kFollowedStep));
+        next_jump = now + (strays_ && !subject_.dwell_time && in_one_of(4)
+                               ? uniform(0.02, 2.0 * longest_)
+                               : uniform(subject_.T1, longest_ - kFollowedStep));
       } else if (strays_ && in_one_of(300)) {
         tell_again();
       }
@@ -277,6 +284,7 @@ class FollowedRun {
   DisturbedFlow flow_;
   StateShares shares_;
   std::mt19937_64 generator_;
+  double longest_;  ///< time between jumps [s]
   bool strays_;
   bool restarts_;
   Eigen::VectorXd state_;

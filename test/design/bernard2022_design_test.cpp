@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "design/bernard2022_plants.h"
 #include "design/certified.h"
@@ -121,6 +122,75 @@ TEST(Bernard2022, TheLeastHighGainFallsWithTheDwellTime) {
   }
 }
 
+CertificateSubject with_lipschitz_jump(double constant, double T1) {
+  CertificateSubject subject = bouncing_ball();
+  ModeMatrices& mode = subject.plant.modes.front();
+  mode.C_c = Eigen::MatrixXd::Identity(1, 2);
+  mode.A_d.reset();
+  subject.plant.lipschitz_jump = LipschitzJump{constant, Eigen::MatrixXd::Identity(2, 2)};
+  subject.T1 = T1;
+  return subject;
+}
+
+TEST(Bernard2022, TheHighGainOfCorollary41TakesTheLipschitzConstantOfTheJumpMapOnly) {
+  constexpr double kConstant = 1.5;
+  constexpr double kShortest = 2.0;
+  const CertificateSubject subject = with_lipschitz_jump(kConstant, kShortest);
+  const Design design = designed("bernard2022_corollary4_1", subject);
+  const NamedMatrices& values = design.certificate.values;
+  const double ell = scalar_value(values, "ell");
+  // The condition at the end of its proof, with these P and rates.
+  const Eigen::VectorXd of_P = symmetric_eigenvalues(values.at("P"));
+  const double growth = std::log(kConstant * kConstant * of_P(1) / of_P(0));
+  EXPECT_LT(-scalar_value(values, "flow_decay") * kShortest + growth, 0.0);
+  // A matrix of the same norm is one such map.
+  CertificateSubject linear = subject;
+  linear.plant.modes.front().A_d = Eigen::MatrixXd(2, 2);
+  *linear.plant.modes.front().A_d << 0.0, kConstant, -kConstant, 0.0;
+  EXPECT_NEAR(ell,
+              scalar_value(designed("bernard2022_corollary4_1", linear).certificate.values, "ell"),
+              2e-3 * ell);
+  EXPECT_LE(scalar_value(designed("bernard2022_example4_2", linear).certificate.values, "ell"),
+            1.01 * ell);
+  // A nonlinear one: its Jacobian has the norm max(|cos x2|, |sin x1|) kConstant.
+  const ModeMatrices& mode = subject.plant.mode();
+  const Eigen::MatrixXd L_c = high_gain(mode.A, mode.C_c, observable_form(mode.A, mode.C_c), ell,
+                                        {values.at("K").row(0).transpose()});
+  const Eigen::MatrixXd flow = exponential_of(kShortest * (mode.A - L_c * mode.C_c));
+  const auto jumped = [&](const Eigen::Vector2d& x) {
+    return Eigen::Vector2d(kConstant * std::sin(x(1)), kConstant * std::cos(x(0)));
+  };
+  const Eigen::MatrixXd& P = values.at("P");
+  const double factor = std::exp(-scalar_value(values, "jump_decay"));
+  double largest = 0.0;
+  Eigen::Vector2d x(0.3, -1.0);
+  for (int k = 0; k < 500; ++k) {
+    const double angle = 0.7 * k;
+    const Eigen::Vector2d error = 0.1 * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+    const Eigen::Vector2d flowed = flow * error;
+    x = jumped(x + Eigen::Vector2d(0.01 * k, 0.02 * k));
+    const Eigen::Vector2d next = jumped(x) - jumped(x - flowed);
+    largest = std::max(largest, std::sqrt(next.dot(P * next) / error.dot(P * error)));
+  }
+  EXPECT_LE(largest, factor);
+  EXPECT_GT(largest, 0.01);
+}
+
+TEST(Bernard2022, Corollary41HoldsForAnAverageDwellTime) {
+  CertificateSubject subject = with_lipschitz_jump(1.2, 0.0);
+  subject.T2 = std::numeric_limits<double>::infinity();
+  subject.dwell_time = DwellTime{DwellTime::Kind::kAverage, 1.0, 2.0};
+  const Design design = designed("bernard2022_corollary4_1_average_dwell_time", subject);
+  EXPECT_GT(scalar_value(design.certificate.values, "flow_decay"), std::log(1.2 * 1.2));
+}
+
+TEST(Bernard2022, JumpMapsByFormulasAreForNoTheoremAboutMatrices) {
+  const CertificateSubject subject = with_lipschitz_jump(1.2, 1.0);
+  for (const char* method : {"bernard2022_equation22", "bernard2022_example4_2"}) {
+    EXPECT_THROW(designed(method, subject), DesignError) << method;
+  }
+}
+
 TEST(Bernard2022, ConstantGainsForTheSwitchedPlantWhoseModesShowTheStateOnlyTogether) {
   const CertificateSubject subject = switched();
   const Design design = designed("bernard2022_section7_3_2", subject);
@@ -222,17 +292,20 @@ TEST(Bernard2022, ABoundWithoutNoiseGoesToZero) {
   EXPECT_NEAR(bound.value(), first * std::exp(-0.05 * 100), 1e-9 * first);
 }
 
-TEST(Bernard2022, StatedMapsGiveNoBound) {
+TEST(Bernard2022, StatedMapsGiveTheBoundOfAPlantThatHasThem) {
   CertificateSubject subject = neuron();
-  subject.plant.stated.A = subject.plant.A();
   const DesignCandidate proof = certified(kCorollary52, subject, with_L_d({0.0, 0.0028, -0.0063}));
   ASSERT_TRUE(proof.is_verified());
-  EXPECT_EQ(
-      find_theorem(kCorollary52)->error_bound(subject, proof.values, assumptions(1.0, 0.0, 0.0)),
-      nullptr);
-  EXPECT_EQ(
-      find_theorem("bernard2022_equation22")->error_bound(subject, {}, assumptions(1.0, 0.0, 0.0)),
-      nullptr);
+  const auto value = [&] {
+    DrivenBound bound(
+        find_theorem(kCorollary52)->error_bound(subject, proof.values, assumptions(1.0, 0.1, 0.0)));
+    bound.jump();
+    bound.flow_to(35.0);
+    return bound.value();
+  };
+  const double own = value();
+  subject.plant.stated.A = subject.plant.A();
+  EXPECT_EQ(own, value());
 }
 
 TEST(Bernard2022, JumpObservabilityFindsTheIntervalThatHidesTheState) {

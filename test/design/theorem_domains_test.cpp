@@ -44,6 +44,7 @@ CertificateSubject subject_of(const Theorem& theorem) {
     mode.C_c = row;
     mode.C_d = row;
     mode.A_d = Eigen::MatrixXd::Identity(2, 2);
+    plant.lipschitz_jump = LipschitzJump{1.0, Eigen::MatrixXd::Identity(2, 2)};
     if (is_of("bernard2022_example7_1") || is_of("bernard2022_equation49") ||
         is_of("bernard2022_section7_3")) {
       plant.modes.push_back(mode);

@@ -36,6 +36,7 @@ CertificateSubject rewritten(CertificateSubject subject, const Rewriting& units)
     }
     if (mode.A_d) *mode.A_d = to_z * *mode.A_d * D.asDiagonal();
   }
+  if (plant.lipschitz_jump) plant.lipschitz_jump->J *= D.asDiagonal();
   for (Eigen::MatrixXd& vertex : plant.vertices) vertex = units.c * to_z * vertex * D.asDiagonal();
   plant.N = units.c * to_z * plant.N;
   plant.G = units.c * to_z * plant.G;
@@ -219,6 +220,11 @@ TEST(UnitIndependence, OfGainsAtJumps) {
   expect_same("bernard2022_equation26", often, {}, fastest);
   expect_same("bernard2022_equation36", bouncing(), {}, fastest);
   expect_same("bernard2022_example4_2", bouncing(), {{"ell", 4.0}, {"decay_per_ell", 1.0}},
+              fastest);
+  CertificateSubject by_formulas = bouncing();
+  by_formulas.plant.modes.front().A_d.reset();
+  by_formulas.plant.lipschitz_jump = LipschitzJump{0.5, Eigen::MatrixXd::Identity(2, 2)};
+  expect_same("bernard2022_corollary4_1", by_formulas, {{"ell", 6.0}, {"decay_per_ell", 1.0}},
               fastest);
   expect_same("bernard2022_example7_1", switched(), {{"flow_decay", 0.5}}, fastest);
   CertificateSubject only_at_jumps = switched();

@@ -10,7 +10,8 @@
 namespace sampled_data_observers {
 namespace {
 
-/// bernard2022, example 4.2: the least ℓ for which its high gain satisfies (22).
+/// bernard2022, example 4.2: the least ℓ for which its high gain satisfies (22), or Corollary 4.1
+/// for a jump map of which a Lipschitz constant is known.
 class HighGainDesign : public DesignMethod {
  public:
   HighGainDesign(std::string summary, const Theorem& theorem)
@@ -99,6 +100,20 @@ const DesignMethod& bernard2022_high_gain_average_design() {
   static const HighGainDesign method(
       "least high gain ell for an average dwell time, with all zeros of K at -1",
       bernard2022_example4_2_average_dwell_time());
+  return method;
+}
+
+const DesignMethod& bernard2022_high_gain_lipschitz_design() {
+  static const HighGainDesign method(
+      "least high gain ell for the time between jumps by a map with a Lipschitz constant",
+      bernard2022_corollary4_1());
+  return method;
+}
+
+const DesignMethod& bernard2022_high_gain_lipschitz_average_design() {
+  static const HighGainDesign method(
+      "least high gain ell for an average dwell time of jumps by a map with a Lipschitz constant",
+      bernard2022_corollary4_1_average_dwell_time());
   return method;
 }
 

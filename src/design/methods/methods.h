@@ -10,6 +10,8 @@ const DesignMethod& bernard2022_coupled_average_design();
 const DesignMethod& bernard2022_flow_based_average_design();
 const DesignMethod& bernard2022_flow_based_design();
 const DesignMethod& bernard2022_high_gain_average_design();
+const DesignMethod& bernard2022_high_gain_lipschitz_design();
+const DesignMethod& bernard2022_high_gain_lipschitz_average_design();
 const DesignMethod& bernard2022_high_gain_design();
 const DesignMethod& bernard2022_jump_based_average_design();
 const DesignMethod& bernard2022_jump_based_design();
