@@ -86,6 +86,12 @@ void say_together(ExplanationContext& c, const ModeMatrices& mode) {
   const std::vector<PathologicalTimes> all =
       pathological_times_of_sensors(mode.A, sensors_of(c, mode));
   const std::string where = c.has_times_of_sensors() ? "inside of their times" : "at all";
+  if (longest_beat(mode.A) == 0.0) {
+    c.out.paragraph(
+        "There are no pathological intervals: no two eigenvalues of A differ in their imaginary "
+        "part only.");
+    return;
+  }
   if (all.empty()) {
     c.out.paragraph("There are no pathological intervals " + where +
                     ": sampled each at any constant interval, the sensors together tell all "

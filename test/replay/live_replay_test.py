@@ -19,6 +19,7 @@ MASS_SPRING = [os.path.join(EXAMPLE, name)
                for name in ("scenario.yaml", "observer.yaml", "gains.yaml")]
 HUSKY = os.path.join(ROOT, "config", "husky_unicycle.yaml")
 CRAZYFLIE = os.path.join(ROOT, "config", "crazyflie_position.yaml")
+TWO_SENSORS = os.path.join(ROOT, "config", "crazyflie_two_sensors.yaml")
 CRASH = [os.path.join(ROOT, "config", name)
          for name in ("crazyflie_position.yaml", "crazyflie_crash.yaml",
                       "crazyflie_crash_detector.yaml")]
@@ -186,6 +187,21 @@ class CrazyflieTest(ReplayTestCase):
         self.assertGreater(summary["compared_stamps"], 2300)
         self.assertGreater(summary["samples_used"], 150)
         self.assertEqual(0, summary["samples_rejected"])
+        self.assertLess(summary["rmse_norm"], 0.5 * summary["hold_rmse_norm"])
+
+    def test_two_sensors_at_times_of_their_own_beat_holding_their_last_samples_twice(self):
+        truth = "/vrpn_client_node/Drone1/pose"
+        summary = self.replay(self.bag, [TWO_SENSORS], "thinned.bag", "--thin-to-sampling",
+                              "--seed", "1", "--from", "3", "--to", "23", "--truth", truth,
+                              "--compare", *("%s=pose.position.%s" % (axis, axis)
+                                             for axis in "xyz"))
+        for name in ("height", "mocap"):
+            intervals = summary["sensors"][name]["intervals"]
+            self.assertGreater(intervals["count"], 100)
+            self.assertEqual(0, intervals["below_T1"])
+            self.assertLess(intervals["above_T2"], 2)  # the recording has a gap
+        self.assertGreater(summary["sensors"]["height"]["samples_used"],
+                           1.5 * summary["sensors"]["mocap"]["samples_used"])
         self.assertLess(summary["rmse_norm"], 0.5 * summary["hold_rmse_norm"])
 
     def test_the_crash_is_detected_and_nothing_before(self):
