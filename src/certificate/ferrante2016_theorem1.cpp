@@ -4,8 +4,10 @@
 #include "certificate/exponential_norm.h"
 #include "certificate/ferrante2016_bounds.h"
 #include "certificate/flown_errors.h"
+#include "certificate/form_maximum.h"
 #include "certificate/interval_bound.h"
 #include "certificate/linear_sampling.h"
+#include "certificate/outward.h"
 #include "certificate/theorems.h"
 #include "linear_algebra/matrix_functions.h"
 
@@ -21,14 +23,71 @@ Eigen::MatrixXd unit(const CertificateSubject& subject) {
 ///   ‖R e^{Aτ} (I − LC) R⁻¹‖ level + ‖R e^{Aτ} L‖ |η|,
 /// where by (12) the first factor is less than 1 for τ in [T1, T2]. This is how V changes in (19)
 /// and (29), with the τ that came rather than the worst one, whether it lies in [T1, T2] or not.
-/// Until the next sample the error is e^{Aτ} ((I − LC) R⁻¹ z level − L η) with |z| <= 1.
+/// Until the next sample the error is e^{Aτ} ((I − LC) R⁻¹ z level − L η) with |z| <= 1. Before the
+/// first sample the level is |ε| where the estimate began, and |R ε| may be known there, too.
 class Theorem1Bound : public SampledErrorBound {
  public:
+  Theorem1Bound(const CertificateSubject& subject, const ErrorAssumptions& assumptions,
+                const Eigen::MatrixXd& R, const Eigen::MatrixXd& L, const FlowGrowth& growth)
+      : Theorem1Bound(subject, assumptions, R, inverse_of(R), L, growth) {}
+
+  Eigen::Index workspace_size() const override { return errors_.workspace_size(); }
+
+ protected:
+  void begin_numbers(double error, double* numbers) const override {
+    numbers[kLevel] = error;
+    numbers[kWeighted] = kUnknown;
+  }
+  void narrow_numbers(const Eigen::Ref<const Eigen::MatrixXd>& Q, double* numbers) const override {
+    numbers[kWeighted] = raised(std::sqrt(square_of_weighted_.over(Q)));
+  }
+  void sample_numbers(const Interval& at, double* numbers, double*) const override {
+    double& level = numbers[kLevel];
+    if (at.is_first) {
+      level = first_weight_.at(at.tau) * level;
+      const double weighted = numbers[kWeighted];
+      if (weighted != kUnknown) {
+        level = std::min(level, weighted_weight_.at(at.tau) * weighted);
+      }
+      return;
+    }
+    const double weight = weight_.at(at.tau);
+    const double kept = is_foreseen(at.tau) ? std::min(1.0, weight) : weight;
+    level = kept * level + noise_weight_.at(at.tau) * noise_;
+  }
+  double error(const Interval& at, const double* numbers) const override {
+    const double level = numbers[kLevel];
+    if (!at.is_first) return growth_.at(at.tau) * level + noise_growth_.at(at.tau) * noise_;
+    const double error = first_growth_.at(at.tau) * level;
+    const double weighted = numbers[kWeighted];
+    if (weighted == kUnknown) return error;
+    return std::min(error, weighted_growth_.at(at.tau) * weighted);
+  }
+  void errors(const Interval& at, const double* numbers, double* workspace,
+              Eigen::Ref<Eigen::VectorXd> bounds) const override {
+    errors_.bounds(at.tau, balls(at, numbers), workspace, bounds);
+  }
+  void error_ellipsoid(const Interval& at, const double* numbers, double* workspace,
+                       Eigen::Ref<Eigen::MatrixXd> Q) const override {
+    errors_.ellipsoid(at.tau, balls(at, numbers), workspace, Q);
+  }
+
+ private:
+  enum Entry : Eigen::Index { kLevel, kWeighted, kEntries };
+  enum Shape : std::size_t { kAny, kWeightedBall, kKept, kNoise };
+  static constexpr double kUnknown = -1.0;
+
+  Theorem1Bound(const CertificateSubject& subject, const ErrorAssumptions& assumptions,
+                const Eigen::MatrixXd& R, const Eigen::MatrixXd& inverse_R,
+                const Eigen::MatrixXd& L, const FlowGrowth& growth)
+      : Theorem1Bound(subject, assumptions, R, inverse_R,
+                      (unit(subject) - L * subject.plant.C()) * inverse_R, L, growth) {}
+
   /// @param kept  (I − LC) R⁻¹
   Theorem1Bound(const CertificateSubject& subject, const ErrorAssumptions& assumptions,
-                const Eigen::MatrixXd& R, const Eigen::MatrixXd& kept, const Eigen::MatrixXd& L,
-                const FlowGrowth& growth)
-      : SampledErrorBound(subject, assumptions, 1),
+                const Eigen::MatrixXd& R, const Eigen::MatrixXd& inverse_R,
+                const Eigen::MatrixXd& kept, const Eigen::MatrixXd& L, const FlowGrowth& growth)
+      : SampledErrorBound(subject, assumptions, kEntries),
         noise_(assumptions.noise),
         first_growth_(unit(subject), subject.plant.A(), unit(subject), subject.T2, growth),
         first_weight_(R, subject.plant.A(), unit(subject), subject.T2, growth),
@@ -36,36 +95,10 @@ class Theorem1Bound : public SampledErrorBound {
         weight_(R, subject.plant.A(), kept, subject.T2, growth),
         noise_growth_(unit(subject), subject.plant.A(), L, subject.T2, growth),
         noise_weight_(R, subject.plant.A(), L, subject.T2, growth),
+        weighted_growth_(unit(subject), subject.plant.A(), inverse_R, subject.T2, growth),
+        weighted_weight_(R, subject.plant.A(), inverse_R, subject.T2, growth),
+        square_of_weighted_(R.transpose() * R, R.cwiseAbs().transpose() * R.cwiseAbs()),
         errors_(subject.plant.A(), growth, shapes(subject, R, L)) {}
-
-  Eigen::Index workspace_size() const override { return errors_.workspace_size(); }
-
- protected:
-  void begin_numbers(double error, double* level) const override { *level = error; }
-  void sample_numbers(const Interval& at, double* level, double*) const override {
-    if (at.is_first) {
-      *level = first_weight_.at(at.tau) * *level;
-      return;
-    }
-    const double weight = weight_.at(at.tau);
-    const double kept = is_foreseen(at.tau) ? std::min(1.0, weight) : weight;
-    *level = kept * *level + noise_weight_.at(at.tau) * noise_;
-  }
-  double error(const Interval& at, const double* level) const override {
-    if (at.is_first) return first_growth_.at(at.tau) * *level;
-    return growth_.at(at.tau) * *level + noise_growth_.at(at.tau) * noise_;
-  }
-  void errors(const Interval& at, const double* level, double* workspace,
-              Eigen::Ref<Eigen::VectorXd> bounds) const override {
-    errors_.bounds(at.tau, balls(at, *level), workspace, bounds);
-  }
-  void error_ellipsoid(const Interval& at, const double* level, double* workspace,
-                       Eigen::Ref<Eigen::MatrixXd> Q) const override {
-    errors_.ellipsoid(at.tau, balls(at, *level), workspace, Q);
-  }
-
- private:
-  enum Shape : std::size_t { kAny, kKept, kNoise };
 
   static std::vector<FlownErrors::Shape> shapes(const CertificateSubject& subject,
                                                 const Eigen::MatrixXd& R,
@@ -75,14 +108,17 @@ class Theorem1Bound : public SampledErrorBound {
     const FlownErrors::Shape LC =
         product_with_rounding(L, 0.0 * L, {C, Eigen::MatrixXd::Zero(C.rows(), C.cols())});
     const Eigen::MatrixXd rounding = LC.rounding + 1e-15 * (I + LC.X.cwiseAbs());
+    const FlownErrors::Shape inverse_R = inverse_with_rounding(R);
     return {{I, 0.0 * I},
-            product_with_rounding(I - LC.X, rounding, inverse_with_rounding(R)),
+            inverse_R,
+            product_with_rounding(I - LC.X, rounding, inverse_R),
             {L, 0.0 * L}};
   }
 
-  FlownErrors::Balls balls(const Interval& at, double level) const {
-    if (at.is_first) return {{kAny, level}};
-    return {{kKept, level}, {kNoise, noise_}};
+  FlownErrors::Balls balls(const Interval& at, const double* numbers) const {
+    if (!at.is_first) return {{kKept, numbers[kLevel]}, {kNoise, noise_}};
+    if (numbers[kWeighted] == kUnknown) return {{kAny, numbers[kLevel]}};
+    return {{kWeightedBall, numbers[kWeighted]}};
   }
 
   double noise_;
@@ -92,6 +128,9 @@ class Theorem1Bound : public SampledErrorBound {
   ExponentialNorm weight_;
   ExponentialNorm noise_growth_;
   ExponentialNorm noise_weight_;
+  ExponentialNorm weighted_growth_;
+  ExponentialNorm weighted_weight_;
+  FormMaximum square_of_weighted_;
   FlownErrors errors_;
 };
 
@@ -159,8 +198,7 @@ class Ferrante2016Theorem1 : public Theorem {
     require_no_disturbance("ferrante2016", assumptions);
     const Eigen::MatrixXd& L = values.at("L");
     const Eigen::MatrixXd R = cholesky_root(values.at("P"));
-    const Eigen::MatrixXd kept = (unit(subject) - L * subject.plant.C()) * inverse_of(R);
-    return std::make_unique<const Theorem1Bound>(subject, assumptions, R, kept, L,
+    return std::make_unique<const Theorem1Bound>(subject, assumptions, R, L,
                                                  flow_growth(subject.plant.A(), subject.T2));
   }
 };

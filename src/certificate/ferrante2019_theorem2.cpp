@@ -65,8 +65,8 @@ class LyapunovErrorBound : public SampledErrorBound {
     const Eigen::MatrixXd& C = subject.plant.C();
     const Eigen::MatrixXd& P2 = values.at("P2");
     const double e = std::exp(scalar_value(values, "delta") * subject.T2);
-    of_injection_ = {e * C.transpose() * P2 * C,
-                     e * C.cwiseAbs().transpose() * P2.cwiseAbs() * C.cwiseAbs()};
+    const Eigen::MatrixXd size = e * C.cwiseAbs().transpose() * P2.cwiseAbs() * C.cwiseAbs();
+    initial_V_ = {values.at("P1") + e * C.transpose() * P2 * C, values.at("P1").cwiseAbs() + size};
   }
 
   bool injects_between_samples() const override { return true; }
@@ -78,10 +78,10 @@ class LyapunovErrorBound : public SampledErrorBound {
     numbers[kOfEstimate] = of_estimate_ * error * error;
   }
   void narrow_numbers(const Eigen::Ref<const Eigen::MatrixXd>& Q, double* numbers) const override {
-    const double of_estimate = std::pow(set_.radius_around(Q), 2);
-    const double root = std::sqrt(of_estimate + of_injection_.over(Q)) + root_of_injection_;
+    const double root = std::sqrt(initial_V_.over(Q)) + root_of_injection_;
     numbers[kW] = std::min(numbers[kW], raised(root * root));
-    numbers[kOfEstimate] = std::min(numbers[kOfEstimate], raised(of_estimate));
+    const double of_estimate = raised(std::pow(set_.radius_around(Q), 2));
+    numbers[kOfEstimate] = std::min(numbers[kOfEstimate], of_estimate);
   }
   void flow_numbers(double duration, const Interval& from, double* numbers) const override {
     double& W = numbers[kW];
@@ -121,7 +121,7 @@ class LyapunovErrorBound : public SampledErrorBound {
   double root_of_injection_ = 0.0;  // and of θ
   double least_ = 0.0;              // λ_min(P1)
   SublevelSet set_;                 // of εᵀ P1 ε
-  FormMaximum of_injection_;        // of e^{δ T2} (C ε)ᵀ P2 C ε
+  FormMaximum initial_V_;           // V at first, of ε without θ
 };
 
 /// Theorem 2, and its corollaries for a rate only and for a gain only.

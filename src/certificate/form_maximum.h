@@ -4,8 +4,9 @@
 
 namespace sampled_data_observers {
 
-/// The largest of eᵀ M e, M >= 0, of all e with e eᵀ <= Q, at most: tr(M Q). Allocates nothing once
-/// it is built, and sums in a fixed order.
+/// The largest of eᵀ M e, M >= 0, of all e with e eᵀ <= Q, at most. It is the largest eigenvalue of
+/// M^½ Q M^½, of which the trace tr(M Q) and the norm √tr(M Q M Q) are not less: the smaller one,
+/// with its rounding. Allocates nothing once it is built, and sums in a fixed order.
 class FormMaximum {
  public:
   FormMaximum() = default;
@@ -17,6 +18,9 @@ class FormMaximum {
   double over(const Eigen::Ref<const Eigen::MatrixXd>& Q) const;
 
  private:
+  double trace(const Eigen::Ref<const Eigen::MatrixXd>& Q) const;
+  double norm(const Eigen::Ref<const Eigen::MatrixXd>& Q) const;
+
   Eigen::MatrixXd M_;
   Eigen::MatrixXd size_;
 };

@@ -97,13 +97,45 @@ TEST(BoundAfterSelfReloadTest, StartsFromTheEllipsoidAndNotFromTheNorm) {
     after.take_over(before, stamp);
     ASSERT_EQ(Timeline::Query::kOk, after.estimate_at(stamp, estimate));
     after.state_bounds(estimate, stamp, kept);
-    // tr(P W P⁻¹) = n W.
-    const double factor = std::sqrt(static_cast<double>(n));
+    // √tr(P W P⁻¹ P W P⁻¹) = √n W.
+    const double factor = std::pow(static_cast<double>(n), 0.25);
     for (Eigen::Index j = 0; j < n; ++j) {
       EXPECT_GE(kept(j), known(j)) << reload.gains;
       EXPECT_LE(kept(j), std::min(norm, known(j)) * factor * (1.0 + 1e-6)) << reload.gains;
     }
   }
+}
+
+TEST(BoundAfterSelfReloadTest, OfAConstantGainFallsFromTheEllipsoidAtTheNextSample) {
+  const ObserverConfig config =
+      CertifiedGains("config/examples/ferrante2016_mass_spring/gains.yaml")
+          .assuming("{initial_error: 1, noise: 0, disturbance: 0}")
+          .config();
+  const ObserverLaw& law = *config.law;
+  const Eigen::Index n = law.estimate_size();
+  Eigen::VectorXd workspace(law.workspace_size());
+  Eigen::VectorXd state(law.state_size());
+  law.initialize(state.data());
+  const double y = 0.0;
+  const auto sample = [&](Eigen::VectorXd& at) {
+    law.flow(kSecond, at.data(), workspace.data());
+    law.reset({0, EventKind::kSample, 0, &y, 1}, at.data(), workspace.data());
+  };
+  for (int i = 0; i < 10; ++i) sample(state);
+  Eigen::VectorXd by_norm(law.state_size());
+  law.initialize(by_norm.data());
+  law.keep_bound(law.known_bound(state.data()), by_norm.data());
+  Eigen::VectorXd by_ellipsoid = by_norm;
+  Eigen::MatrixXd Q(n, n);
+  law.known_ellipsoid(state.data(), workspace.data(), Q);
+  law.narrow_bound(Q, by_ellipsoid.data());
+  const auto bound = [&law](const Eigen::VectorXd& at) { return law.error_bound(at.data()); };
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_LE(bound(state), bound(by_ellipsoid) * (1.0 + 1e-9)) << i;
+    EXPECT_LE(bound(by_ellipsoid), bound(by_norm)) << i;
+    for (Eigen::VectorXd* each : {&state, &by_norm, &by_ellipsoid}) sample(*each);
+  }
+  EXPECT_LT(bound(by_ellipsoid), 0.8 * bound(by_norm));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "certificate/flown_errors.h"
+#include "certificate/form_maximum.h"
 #include "linear_algebra/matrix_functions.h"
 
 namespace sampled_data_observers::test {
@@ -95,6 +96,23 @@ TEST(SublevelSetTest, IsABallWhereTheInverseIsLost) {
   EXPECT_EQ(0.0, X(0, 1));
   EXPECT_GE(X(0, 0), 0x1p54);
   EXPECT_LE(X(1, 1), 0x1.00001p54);
+}
+
+TEST(FormMaximumTest, IsThatOfOneVectorAndLittleMoreOverAnEllipsoid) {
+  const Eigen::MatrixXd M = inverse_hilbert_matrix(4);
+  const FormMaximum maximum(M, M.cwiseAbs());
+  const Eigen::Vector4d e(1.0, -2.0, 3.0, 0.5);
+  const double of_e = e.dot(M * e);
+  EXPECT_GE(maximum.over(e * e.transpose()), of_e);
+  EXPECT_NEAR(maximum.over(e * e.transpose()), of_e, 1e-6 * of_e);
+  // The largest of e' M e with e' M e <= 9.
+  const Eigen::MatrixXd Q = 9.0 * inverse_above(M, 0.1);
+  EXPECT_GE(maximum.over(Q), 9.0);
+  EXPECT_LE(maximum.over(Q), 1.001 * 9.0 * 2.0);  // √n of it
+  const Eigen::MatrixXd ball = Eigen::MatrixXd::Identity(4, 4);
+  EXPECT_GE(maximum.over(ball), max_eigenvalue(M));
+  EXPECT_LE(maximum.over(ball), (1.0 + 1e-6) * M.norm());
+  EXPECT_EQ(0.0, maximum.over(0.0 * ball));
 }
 
 /// x' = v, v' = 0, in any coordinates.
