@@ -127,6 +127,10 @@ const std::vector<const Theorem*>& theorems() {
       &sferlazza2019_theorem2(),
       &sferlazza2019_theorem2_rate(),
       &sferlazza2019_equation17(),
+      &timer_dependent_constant_gain(),
+      &timer_dependent_intersample_injection(),
+      &timer_dependent_sample_and_hold(),
+      &timer_dependent_scheduled_gain(),
   };
   return all;
 }

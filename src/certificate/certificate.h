@@ -136,6 +136,11 @@ class Theorem {
   /// Scalars that are chosen: rates, levels, and those searched for.
   virtual std::vector<NamedShape> parameters(const CertificateSubject& subject) const = 0;
 
+  /// Multipliers of which only a least size matters, so that a search for them needs an end.
+  virtual std::vector<std::string> unlimited_multipliers(const CertificateSubject&) const {
+    return {};
+  }
+
   /// The parameter that is the guaranteed rate of convergence; empty where there is none. What
   /// holds for a rate holds for smaller ones.
   virtual std::string decay_parameter() const { return ""; }

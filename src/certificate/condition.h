@@ -29,6 +29,8 @@ struct Condition {
   };
   std::optional<Range> tau;
   Kind kind = Kind::kDefinite;
+  /// Of a condition at a corner of a cell of a grid: which cell.
+  std::optional<std::size_t> cell = std::nullopt;
 
   bool is_domain() const { return kind != Kind::kDefinite; }
 };

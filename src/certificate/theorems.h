@@ -34,5 +34,9 @@ const Theorem& ferrante2019_corollary2();
 const Theorem& sferlazza2019_equation17();
 const Theorem& sferlazza2019_theorem2();
 const Theorem& sferlazza2019_theorem2_rate();
+const Theorem& timer_dependent_constant_gain();
+const Theorem& timer_dependent_intersample_injection();
+const Theorem& timer_dependent_sample_and_hold();
+const Theorem& timer_dependent_scheduled_gain();
 
 }  // namespace sampled_data_observers

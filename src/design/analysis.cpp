@@ -10,6 +10,7 @@
 #include "design/plant_scaling.h"
 #include "design/request_error.h"
 #include "design/run_time_figures.h"
+#include "design/timer_cells.h"
 
 namespace sampled_data_observers {
 namespace {
@@ -151,28 +152,9 @@ bool is_as_good(const Design& analysis, const Design& design, const std::string&
   return false;
 }
 
-}  // namespace
-
-std::vector<Objective> analysis_objectives(const Theorem& theorem,
-                                           const CertificateSubject& subject) {
-  std::vector<Objective> all = GivenGains(theorem, {}).objectives(subject);
-  // The final error needs assumptions on noise and disturbance.
-  all.erase(std::remove(all.begin(), all.end(), Objective::kMinFinalError), all.end());
-  // A proof of a gain is one.
-  if (all.front() == Objective::kMinGamma) {
-    all.erase(std::find(all.begin(), all.end(), Objective::kFeasible));
-  }
-  return all;
-}
-
-Design analyze(const AnalysisProblem& problem, const SynthesisOptions& options) {
+Design analyze_on_grid(const AnalysisProblem& problem, const SynthesisOptions& options) {
   const Theorem& theorem = *problem.theorem;
   const GivenGains method(theorem, problem.gains);
-  try {
-    require_subject(theorem, problem.subject);
-  } catch (const std::invalid_argument& fault) {
-    throw RequestError(theorem.name() + " is not for this plant: " + fault.what());
-  }
   for (const DesignParameter& parameter : method.parameters(problem.subject)) {
     const bool is_found = parameter.search || parameter.default_value ||
                           parameter.name == "gamma" ||
@@ -210,6 +192,35 @@ Design analyze(const AnalysisProblem& problem, const SynthesisOptions& options) 
     // At the edge the proof at hand may be the only one.
   }
   return found;
+}
+
+}  // namespace
+
+std::vector<Objective> analysis_objectives(const Theorem& theorem,
+                                           const CertificateSubject& subject) {
+  std::vector<Objective> all = GivenGains(theorem, {}).objectives(subject);
+  // The final error needs assumptions on noise and disturbance.
+  all.erase(std::remove(all.begin(), all.end(), Objective::kMinFinalError), all.end());
+  // A proof of a gain is one.
+  if (all.front() == Objective::kMinGamma) {
+    all.erase(std::find(all.begin(), all.end(), Objective::kFeasible));
+  }
+  return all;
+}
+
+Design analyze(const AnalysisProblem& problem, const SynthesisOptions& options) {
+  const Theorem& theorem = *problem.theorem;
+  try {
+    require_subject(theorem, problem.subject);
+  } catch (const std::invalid_argument& fault) {
+    throw RequestError(theorem.name() + " is not for this plant: " + fault.what());
+  }
+  return solve_on_refined_cells(theorem, problem.subject, problem.objective, problem.assumptions,
+                                [&](const CertificateSubject& subject) {
+                                  AnalysisProblem on_grid = problem;
+                                  on_grid.subject = subject;
+                                  return analyze_on_grid(on_grid, options);
+                                });
 }
 
 Design prove_final_error(const Design& design, const ErrorAssumptions& assumptions,

@@ -102,6 +102,7 @@ PlantScaling units_for(const DesignMethod& method, const CertificateSubject& sub
   // Noise is as large as the norm of what it adds to all outputs.
   kept.of_outputs =
       keeps_gains || has_norm_of_state(theorem) || objective == Objective::kMinFinalError;
+  kept.of_each_sensor = has_norm_of_noise(theorem);
   PlantScaling scaling = scaling_of(theorem, subject, kept);
   if (has_norm_of_state(theorem)) measure_by_noise(parameters, scaling);
   return scaling;

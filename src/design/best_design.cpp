@@ -17,10 +17,14 @@ namespace {
 
 /// Of a method that is tried: they find much the same gains, in several times its time. With a held
 /// innovation, H = 0, the law is that of etienne2019.
-constexpr const char* kVariants[] = {
-    "ferrante2019_proposition3",      "ferrante2019_proposition4",
-    "ferrante2019_proposition5",      "ferrante2019_alternating",
-    "ferrante2019_proposition3_hold", "ferrante2019_proposition4_hold"};
+constexpr const char* kVariants[] = {"ferrante2019_proposition3",
+                                     "ferrante2019_proposition4",
+                                     "ferrante2019_proposition5",
+                                     "ferrante2019_alternating",
+                                     "ferrante2019_proposition3_hold",
+                                     "ferrante2019_proposition4_hold",
+                                     "timer_dependent_alternating_injection",
+                                     "timer_dependent_alternating_hold"};
 
 bool applies(const DesignMethod& method, const DesignProblem& problem) {
   try {
@@ -63,7 +67,10 @@ std::vector<const DesignMethod*> methods_that_apply(const DesignProblem& problem
   for (const DesignMethod* method : design_methods()) {
     const bool is_variant = std::find(std::begin(kVariants), std::end(kVariants), method->name()) !=
                             std::end(kVariants);
-    if (!is_variant && applies(*method, problem)) all.push_back(method);
+    // For one sensor, gains that depend on its timer are hardly better than constant ones.
+    const bool is_for_several = method->name() == "timer_dependent_scheduled_gain";
+    if (is_variant || (is_for_several && problem.subject.plant.sampled.size() == 1)) continue;
+    if (applies(*method, problem)) all.push_back(method);
   }
   return all;
 }

@@ -10,8 +10,10 @@ constexpr double kMostUnlike = 65536.0;
 
 /// Those of a file, but for powers of two. Times stay in seconds.
 PlantScaling balanced_units(const Certificate& certificate) {
+  KeptNorms kept;
+  kept.of_each_sensor = has_norm_of_noise(*certificate.theorem);
   PlantScaling units =
-      rounded_to_powers_of_two(scaling_of(*certificate.theorem, certificate.subject, KeptNorms()));
+      rounded_to_powers_of_two(scaling_of(*certificate.theorem, certificate.subject, kept));
   units.time = 1.0;
   return units;
 }

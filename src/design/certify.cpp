@@ -12,6 +12,8 @@ namespace {
 
 constexpr std::size_t kTauPoints = 25;
 constexpr int kMaxRounds = 10;
+/// Of those of which only a least size matters, in the units of the attempt.
+constexpr double kLargestMultiplier = 1e6;
 
 bool names(const std::vector<NamedShape>& shapes, const std::string& name) {
   return std::any_of(shapes.begin(), shapes.end(),
@@ -42,6 +44,14 @@ LmiProgram analysis_program(const Theorem& theorem, const CertificateSubject& su
     } else {
       program.matrix(shape.name, shape.rows, shape.cols);
     }
+  }
+  const std::vector<std::string> unlimited = theorem.unlimited_multipliers(subject);
+  for (const NamedShape& shape : theorem.multipliers(subject)) {
+    const bool is_limited =
+        std::find(unlimited.begin(), unlimited.end(), shape.name) == unlimited.end();
+    if (is_limited || fixed.count(shape.name) > 0) continue;
+    program.bound_above(shape.name + " <= limit", symbol(shape.name, shape.rows, shape.cols),
+                        MatrixExpression(kLargestMultiplier) * identity(shape.rows));
   }
   if (minimizes_gamma) {
     program.minimize(program.squared("gamma"));

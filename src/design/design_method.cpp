@@ -122,6 +122,11 @@ const std::vector<const DesignMethod*>& design_methods() {
       &ferrante2019_alternating_hold(),
       &sferlazza2019_algorithm1(),
       &sferlazza2019_equation17_design(),
+      &timer_dependent_constant_gain_design(),
+      &timer_dependent_scheduled_gain_design(),
+      &timer_dependent_alternating_gain(),
+      &timer_dependent_alternating_injection(),
+      &timer_dependent_alternating_hold(),
   };
   return all;
 }

@@ -8,6 +8,7 @@
 #include <optional>
 #include <sstream>
 
+#include "certificate/timer_grid.h"
 #include "design/attempts.h"
 #include "design/final_error.h"
 #include "design/methods/sampled_plant.h"
@@ -81,9 +82,7 @@ class DesignSearch {
         break;
       case Objective::kMaxT2:
         maximize(problem_.subject.T2, !problem_.accepts_less, "T2", [this](double T2) {
-          CertificateSubject subject = problem_.subject;
-          subject.T2 = T2;
-          return Trial{subject, problem_.given};
+          return Trial{with_longest_time(problem_.subject, T2), problem_.given};
         });
         break;
       case Objective::kMaxDecay: {
@@ -110,11 +109,7 @@ class DesignSearch {
 
  private:
   void require_sense() const {
-    try {
-      method_.require_applicable(problem_.subject);
-    } catch (const std::invalid_argument& fault) {
-      throw RequestError(method_.name() + " is not for this plant: " + fault.what());
-    }
+    sampled_data_observers::require_sense(method_, problem_);
     require_detectable(balanced(problem_.subject).plant);
     const std::vector<DesignParameter> known = method_.parameters(problem_.subject);
     for (const auto& [name, value] : problem_.given) {
@@ -354,6 +349,14 @@ class DesignSearch {
 };
 
 }  // namespace
+
+void require_sense(const DesignMethod& method, const DesignProblem& problem) {
+  try {
+    method.require_applicable(problem.subject);
+  } catch (const std::invalid_argument& fault) {
+    throw RequestError(method.name() + " is not for this plant: " + fault.what());
+  }
+}
 
 Design search_design(const DesignMethod& method, const DesignProblem& problem,
                      const SynthesisOptions& options) {

@@ -42,6 +42,9 @@ struct Design {
   std::shared_ptr<const Design> for_run_time;
 };
 
+/// @throws RequestError when the method is not about the plant or its times.
+void require_sense(const DesignMethod& method, const DesignProblem& problem);
+
 /// Finds gains by a method: chooses what the user left open, searches for the parameters with a
 /// range, and for max-T2 and max-decay by bisection for the largest value (to 0.1 %; it begins with
 /// the T2 or the rate of the problem, less than which is no answer, or with a rate of 0.1/T2, and

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "certificate/timer_dependent.h"
 #include "design/run_time_figures.h"
 #include "linear_algebra/matrix_functions.h"
 
@@ -84,19 +85,56 @@ bool bounds_disturbances(const Theorem& theorem) {
 }
 
 bool has_final_error_level(const Theorem& theorem) {
-  return theorem.name() == "ferrante2019_theorem2" || theorem.name() == "ferrante2016_theorem1";
+  return theorem.name() == "ferrante2019_theorem2" || theorem.name() == "ferrante2016_theorem1" ||
+         theorem.name().rfind("timer_dependent", 0) == 0;
 }
 
 void minimize_final_error(LmiProgram& program, const Theorem& theorem,
                           const CertificateSubject& subject, const NamedMatrices& fixed,
                           const Eigen::VectorXd& weights, const Parameters& parameters) {
-  if (theorem.name() == "ferrante2016_theorem1") {
+  if (const auto function = timer_dependent_function(theorem, subject)) {
+    Parameters all = parameters;
+    all["lambda_t"] = scalar_value(fixed, "lambda_t");
+    minimize_timer_dependent_level(program, *function, subject, weights, all,
+                                   fixed.count("P/0") == 0);
+  } else if (theorem.name() == "ferrante2016_theorem1") {
     minimize_ferrante2016_level(program, subject, fixed.at("L"), weights, parameters);
   } else if (theorem.name() == "ferrante2019_theorem2") {
     Parameters all = parameters;
     for (const char* name : {"delta", "lambda_t"}) all[name] = scalar_value(fixed, name);
     minimize_ferrante2019_level(program, subject, weights, all);
   }
+}
+
+void minimize_timer_dependent_level(LmiProgram& program, const TimerDependentFunction& function,
+                                    const CertificateSubject& subject,
+                                    const Eigen::VectorXd& weights, const Parameters& parameters,
+                                    bool has_free_P) {
+  const ErrorAssumptions assumptions = final_error_assumptions(parameters);
+  const ErrorSystem& system = function.system();
+  if (has_free_P) {
+    Eigen::MatrixXd least = Eigen::MatrixXd::Zero(system.size, system.size);
+    least.topLeftCorner(system.states, system.states) = weights.cwiseAbs2().asDiagonal();
+    for (std::size_t node = 0; node < function.grid().size(); ++node) {
+      program.bound_above("least P", least, function.P(node));
+    }
+  }
+  // W of the bound ends at Σ ν_i |η_i|² / (1 − e^{−2 λ T1_i}) + γ² |w|² / (2 λ); here over |η|² or
+  // |w|².
+  const double unit = assumptions.noise > 0.0 ? assumptions.noise : assumptions.disturbance;
+  const auto squared = [](double x) { return x * x; };
+  const double rate = 2.0 * parameters.at("lambda_t");
+  const std::vector<SamplingTimes> times = times_of_timers(subject);
+  MatrixExpression level = 0.0;
+  for (std::size_t timer = 0; timer < system.resets.size(); ++timer) {
+    const double shortest = times[timer].T1 > 0.0 ? times[timer].T1 : times[timer].T2;
+    const double weight = squared(assumptions.noise / unit) / -std::expm1(-rate * shortest);
+    level = level + weight * symbol("nu/" + system.resets[timer].name);
+  }
+  if (system.N.cols() > 0) {
+    level = level + (squared(assumptions.disturbance / unit) / rate) * square("gamma");
+  }
+  add_level(program, level, parameters);
 }
 
 void minimize_ferrante2019_level(LmiProgram& program, const CertificateSubject& subject,

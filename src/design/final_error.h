@@ -1,5 +1,6 @@
 #pragma once
 
+#include "certificate/timer_dependent_conditions.h"
 #include "design/design_method.h"
 
 namespace sampled_data_observers {
@@ -43,6 +44,13 @@ bool has_final_error_level(const Theorem& theorem);
 void minimize_final_error(LmiProgram& program, const Theorem& theorem,
                           const CertificateSubject& subject, const NamedMatrices& fixed,
                           const Eigen::VectorXd& weights, const Parameters& parameters);
+
+/// The same for any program that has the symbols of such a function as variables, or P fixed.
+/// @param parameters  with lambda_t
+void minimize_timer_dependent_level(LmiProgram& program, const TimerDependentFunction& function,
+                                    const CertificateSubject& subject,
+                                    const Eigen::VectorXd& weights, const Parameters& parameters,
+                                    bool has_free_P);
 
 /// The same for any program that has P1, P2 and gamma of ferrante2019 as variables.
 void minimize_ferrante2019_level(LmiProgram& program, const CertificateSubject& subject,

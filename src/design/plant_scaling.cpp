@@ -92,6 +92,7 @@ PlantScaling units_of_file(const CertificateSubject& subject) {
   scaling.output = Eigen::VectorXd::Ones(mode.C.rows());
   scaling.continuous_output = Eigen::VectorXd::Ones(mode.C_c.rows());
   scaling.jump_output = Eigen::VectorXd::Ones(mode.C_d.rows());
+  scaling.sampled = subject.plant.sampled;
   return scaling;
 }
 
@@ -101,6 +102,12 @@ PlantScaling scaling_of(const Theorem& theorem, const CertificateSubject& subjec
   // G of Proposition 1 stands for two slack matrices of different units of time.
   scaling.time = theorem.name() == "etienne2019_proposition1" ? 1.0 : time_scale(subject);
   if (kept.of_state) make_uniform(scaling.state);
+  if (kept.of_each_sensor) {
+    for (const SampledOutputs& outputs : scaling.sampled) {
+      auto unit = scaling.output.segment(outputs.first, outputs.rows);
+      unit.setConstant(geometric_mean(unit));
+    }
+  }
   if (kept.of_outputs) {
     make_uniform(scaling.output);
     make_uniform(scaling.continuous_output);
@@ -128,6 +135,7 @@ PlantScaling inverse_of(const PlantScaling& scaling) {
   back.disturbance = 1.0 / scaling.disturbance;
   back.nonlinearity = 1.0 / scaling.nonlinearity;
   back.performance = 1.0 / scaling.performance;
+  back.sampled = scaling.sampled;
   return back;
 }
 

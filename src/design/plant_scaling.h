@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <string>
+#include <vector>
 
 #include "design/design_method.h"
 
@@ -20,6 +21,7 @@ struct PlantScaling {
   double disturbance = 1.0;
   double nonlinearity = 1.0;
   double performance = 1.0;
+  std::vector<SampledOutputs> sampled;  ///< whose entries of `output` are whose
 };
 
 /// Those in which nothing changes.
@@ -29,6 +31,7 @@ PlantScaling units_of_file(const CertificateSubject& subject);
 struct KeptNorms {
   bool of_state = false;
   bool of_outputs = false;
+  bool of_each_sensor = false;  ///< of the outputs of each by itself
 };
 
 /// The units in which each state moves the outputs by about 1 within time_scale(), and each row of
@@ -46,6 +49,9 @@ bool is_rate(const std::string& name);
 
 /// Whether gamma is for the Euclidean norm of the state, by P > I.
 bool has_norm_of_state(const Theorem& theorem);
+
+/// Whether it speaks of the Euclidean norm of the noise of each sensor.
+bool has_norm_of_noise(const Theorem& theorem);
 
 /// Whether conditions in other units are other ones: by P > I, or by a basis of the state that is
 /// computed in floating point.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 #include <vector>
 
@@ -11,34 +12,48 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// A bound that samples, or jumps of the plant, drive at intervals in turn.
+/// Events of one sensor, or jumps of the plant, at intervals in turn [s].
+struct EventSource {
+  std::size_t sensor = 0;  ///< its position among the sensors of the plant
+  std::vector<double> intervals;
+};
+using EventSources = std::vector<EventSource>;
+
+/// A bound that the events of some sources drive.
 class Run {
  public:
-  Run(const ErrorBound& bound, bool jumps, std::vector<double> intervals)
+  Run(const ErrorBound& bound, bool jumps, EventSources sources)
       : bound_(bound),
         jumps_(jumps),
-        intervals_(std::move(intervals)),
+        sources_(std::move(sources)),
+        taken_(sources_.size(), 0),
         then_(static_cast<std::size_t>(bound.state_size())),
         workspace_(static_cast<std::size_t>(bound.workspace_size())) {
+    for (const EventSource& source : sources_) left_.push_back(source.intervals.front());
     bound.initialize(then_.data());
   }
 
-  /// Over one interval and its sample. @return the largest bound
+  /// Up to the next event and over it. @return the largest bound
   double advance() {
-    const double interval = intervals_[next_++ % intervals_.size()];
+    const auto next =
+        static_cast<std::size_t>(std::min_element(left_.begin(), left_.end()) - left_.begin());
+    const double interval = left_[next];
     double largest = bound(then_);
     for (const double fraction : {0.25, 0.5, 0.75, 1.0}) {
       now_ = then_;
       bound_.flow(fraction == 1.0 ? interval : fraction * interval, now_.data());
       largest = std::max(largest, bound(now_));
     }
+    const EventSource& source = sources_[next];
     if (jumps_) {
       bound_.jump({}, now_.data());  // none is told twice, or at a wrong time
     } else {
-      bound_.sample(0, now_.data(), workspace_.data());
+      bound_.sample(source.sensor, now_.data(), workspace_.data());
     }
     then_ = now_;
     time_ += interval;
+    for (double& left : left_) left -= interval;
+    left_[next] = source.intervals[++taken_[next] % source.intervals.size()];
     return std::max(largest, bound(then_));
   }
 
@@ -54,32 +69,49 @@ class Run {
 
   const ErrorBound& bound_;
   bool jumps_;
-  std::vector<double> intervals_;
+  EventSources sources_;
+  std::vector<std::size_t> taken_;  // of each source
+  std::vector<double> left_;        // until the next of each source [s]
   std::vector<double> then_;
   std::vector<double> now_;
   std::vector<double> workspace_;
-  std::size_t next_ = 0;
   double time_ = 0.0;
 };
 
-double final_bound(const ErrorBound& bound, bool jumps, const std::vector<double>& intervals) {
+/// Events until each source has gone through its intervals once.
+std::size_t events_of_cycle(const EventSources& sources) {
+  const auto sum = [](const EventSource& source) {
+    return std::accumulate(source.intervals.begin(), source.intervals.end(), 0.0);
+  };
+  double longest = 0.0;
+  for (const EventSource& source : sources) longest = std::max(longest, sum(source));
+  std::size_t events = 0;
+  for (const EventSource& source : sources) {
+    const double cycles = std::ceil(longest / sum(source));
+    events += source.intervals.size() * static_cast<std::size_t>(cycles);
+  }
+  return events;
+}
+
+double final_bound(const ErrorBound& bound, bool jumps, const EventSources& sources) {
   constexpr int kMaxCycles = 200000;
   constexpr double kSettled = 1e-9;
-  Run run(bound, jumps, intervals);
+  Run run(bound, jumps, sources);
+  const std::size_t events = events_of_cycle(sources);
   double before = 0.0;
   for (int cycle = 0; cycle < kMaxCycles; ++cycle) {
     double largest = 0.0;
-    for (std::size_t i = 0; i < intervals.size(); ++i) largest = std::max(largest, run.advance());
+    for (std::size_t i = 0; i < events; ++i) largest = std::max(largest, run.advance());
     if (!(largest < kInfinity) || std::abs(largest - before) <= kSettled * largest) return largest;
     before = largest;
   }
   return before;
 }
 
-void add_start(const ErrorBound& bound, bool jumps, const std::vector<double>& intervals,
+void add_start(const ErrorBound& bound, bool jumps, const EventSources& sources,
                RunTimeFigures& figures) {
   constexpr int kMaxSamples = 1000000;
-  Run run(bound, jumps, intervals);
+  Run run(bound, jumps, sources);
   for (int i = 0; i < kMaxSamples; ++i) {
     const double largest = run.advance();
     if (std::isinf(largest)) break;
@@ -91,18 +123,33 @@ void add_start(const ErrorBound& bound, bool jumps, const std::vector<double>& i
   figures.time_to_hundredth = kInfinity;
 }
 
-std::vector<std::vector<double>> worst_intervals(const CertificateSubject& subject) {
+std::vector<EventSources> worst_sources(const CertificateSubject& subject) {
+  const auto of_one = [&](std::vector<double> intervals) {
+    const auto& sampled = subject.plant.sampled;
+    return EventSources{{sampled.empty() ? 0 : sampled.front().position, std::move(intervals)}};
+  };
   const auto& dwell_time = subject.dwell_time;
   if (dwell_time && dwell_time->kind == DwellTime::Kind::kReverseAverage) {
     // As many jumps as there must be: evenly, or after the longest pause all that it left out.
     std::vector<double> pause(static_cast<std::size_t>(dwell_time->N0) + 1, 0.0);
     pause.front() = (dwell_time->N0 + 1.0) * dwell_time->tau;
-    return {{dwell_time->tau}, pause};
+    return {of_one({dwell_time->tau}), of_one(pause)};
+  }
+  if (!subject.sensor_times.empty()) {
+    EventSources soon;
+    EventSources late;
+    for (std::size_t i = 0; i < subject.sensor_times.size(); ++i) {
+      const SamplingTimes& times = subject.sensor_times[i];
+      const std::size_t sensor = subject.plant.sampled[i].position;
+      soon.push_back({sensor, {times.T1 > 0.0 ? times.T1 : times.T2}});
+      late.push_back({sensor, {times.T2}});
+    }
+    return {soon, late};
   }
   const double T1 = shortest_interval(subject);
   const double T2 = time_scale(subject);
-  if (T1 == T2) return {{T1}};
-  return {{T1}, {T2}, {T1, T2}};
+  if (T1 == T2) return {of_one({T1})};
+  return {of_one({T1}), of_one({T2}), of_one({T1, T2})};
 }
 
 }  // namespace
@@ -118,8 +165,9 @@ RunTimeFigures run_time_figures(const Theorem& theorem, const CertificateSubject
   ErrorAssumptions start;
   start.initial_error = 1.0;
   const auto bound = theorem.error_bound(subject, values, start);
-  for (const auto& intervals : worst_intervals(subject))
-    add_start(*bound, subject.plant.jumps(), intervals, figures);
+  for (const EventSources& sources : worst_sources(subject)) {
+    add_start(*bound, subject.plant.jumps(), sources, figures);
+  }
   return figures;
 }
 
@@ -132,8 +180,8 @@ double final_error(const Theorem& theorem, const CertificateSubject& subject,
     throw std::invalid_argument(theorem.name() + " gives no bound on the error before a run");
   }
   double largest = 0.0;
-  for (const auto& intervals : worst_intervals(subject)) {
-    largest = std::max(largest, final_bound(*bound, subject.plant.jumps(), intervals));
+  for (const EventSources& sources : worst_sources(subject)) {
+    largest = std::max(largest, final_bound(*bound, subject.plant.jumps(), sources));
   }
   return largest;
 }

@@ -25,7 +25,8 @@ class Unscaling {
         from_y_(scaling.output.cwiseInverse()),
         level_(level(values)) {}
 
-  Eigen::MatrixXd unscaled(const std::string& base, const Eigen::MatrixXd& value) const {
+  Eigen::MatrixXd unscaled(const std::string& name, const Eigen::MatrixXd& value) const {
+    const std::string base = base_of(name);
     const double time = scaling_.time;
     const bool acts_at_samples = theorem_.observer_types().front() == "ConstantGainObserver";
     if (is_rate(base)) return value / time;
@@ -39,12 +40,22 @@ class Unscaling {
       return form_of_state(level_, value);
     }
     if (base == "P_largest") return level_ * value;
+    if (base == "P_rest") return form_of_state(level_, value);
+    if (base == "P_measured") {
+      return level_ * (from_y_.asDiagonal() * value * from_y_.asDiagonal());
+    }
+    if (base == "nu") return level_ * value / std::pow(output_of(name)(0), 2);
+    if (base == "timers") return time * value;
+    if (base == "K") return gain(1.0, value, output_of(name));
     if (base == "S") return form_of_output_at_switches(value);
     if (base == "P2") return level_ * (from_y_.asDiagonal() * value * from_y_.asDiagonal());
-    if (base == "L") return gain(acts_at_samples ? 1.0 : time, value, scaling_.output);
+    if (base == "L") return gain(acts_at_samples ? 1.0 : time, value, output_of(name));
     if (base == "L_c") return gain(time, value, scaling_.continuous_output);
     if (base == "L_d") return gain(1.0, value, scaling_.jump_output);
-    if (base == "H") return (scaling_.output.asDiagonal() * value * from_y_.asDiagonal()) / time;
+    if (base == "H") {
+      const Eigen::VectorXd y = output_of(name);
+      return (y.asDiagonal() * value * y.cwiseInverse().asDiagonal()) / time;
+    }
     return is_etienne2019(theorem_) ? multiplier_of_etienne2019(base, value) : value;
   }
 
@@ -63,8 +74,26 @@ class Unscaling {
     return min_eigenvalue(P->second) / min_eigenvalue(form_of_state(1.0, P->second));
   }
 
+  /// Of the state, or of the state and all outputs.
   Eigen::MatrixXd form_of_state(double factor, const Eigen::MatrixXd& value) const {
-    return factor * (from_x_.asDiagonal() * value * from_x_.asDiagonal());
+    if (value.rows() == from_x_.size()) {
+      return factor * (from_x_.asDiagonal() * value * from_x_.asDiagonal());
+    }
+    Eigen::VectorXd from(from_x_.size() + from_y_.size());
+    from << from_x_, from_y_;
+    return factor * (from.asDiagonal() * value * from.asDiagonal());
+  }
+
+  /// The units of the outputs of the sensor that a name "L/gps" ends in, or has in its middle; of
+  /// all where it has none.
+  Eigen::VectorXd output_of(const std::string& name) const {
+    const std::size_t slash = name.find('/');
+    if (slash == std::string::npos) return scaling_.output;
+    const std::string sensor = name.substr(slash + 1, name.find('/', slash + 1) - slash - 1);
+    for (const SampledOutputs& outputs : scaling_.sampled) {
+      if (outputs.sensor == sensor) return scaling_.output.segment(outputs.first, outputs.rows);
+    }
+    return scaling_.output;
   }
 
   Eigen::MatrixXd form_of_output_at_switches(const Eigen::MatrixXd& value) const {
@@ -121,6 +150,10 @@ bool has_norm_of_state(const Theorem& theorem) {
   return theorem.name().rfind("etienne2019_proposition2", 0) == 0;
 }
 
+bool has_norm_of_noise(const Theorem& theorem) {
+  return theorem.name().rfind("timer_dependent", 0) == 0;
+}
+
 bool has_conditions_for_units(const Theorem& theorem) {
   return has_norm_of_state(theorem) || theorem.name().rfind("bernard2022_example4_2", 0) == 0 ||
          theorem.name().rfind("bernard2022_corollary4_1", 0) == 0;
@@ -150,7 +183,7 @@ NamedMatrices unscaled(const Theorem& theorem, const NamedMatrices& values,
                        const PlantScaling& scaling) {
   const Unscaling units(theorem, values, scaling);
   NamedMatrices result;
-  for (const auto& [name, value] : values) result[name] = units.unscaled(base_of(name), value);
+  for (const auto& [name, value] : values) result[name] = units.unscaled(name, value);
   return result;
 }
 

@@ -39,5 +39,10 @@ const DesignMethod& ferrante2019_alternating_predictor();
 const DesignMethod& ferrante2019_alternating_hold();
 const DesignMethod& sferlazza2019_algorithm1();
 const DesignMethod& sferlazza2019_equation17_design();
+const DesignMethod& timer_dependent_alternating_gain();
+const DesignMethod& timer_dependent_alternating_hold();
+const DesignMethod& timer_dependent_alternating_injection();
+const DesignMethod& timer_dependent_constant_gain_design();
+const DesignMethod& timer_dependent_scheduled_gain_design();
 
 }  // namespace sampled_data_observers

@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "certificate/timer_grid.h"
 #include "console/option_checks.h"
 #include "design/request_error.h"
 
@@ -46,6 +47,11 @@ void add_event_times(CommandLine& command, const std::string& source,
               "Longest time between events, instead of " + source + "'s [s]; inf for none")
       .check(number_above_or_infinite(0));
   command
+      .option("--cells NUMBER", arguments.cells,
+              "Of a proof that depends on timers: cells of each of them (default: refined until "
+              "that gains less than 1 %)")
+      .check(whole_number_at_least(1));
+  command
       .option("--average-dwell-time TAU N0", arguments.average_dwell_time,
               "Instead of both: at most t / TAU + N0 jumps within any time t [s]")
       .check(any_number());
@@ -71,7 +77,13 @@ void take_event_times(const EventTimeArguments& arguments, CertificateSubject& s
   if (has_bounds) require_common_times(subject);
   if (arguments.T1) subject.T1 = *arguments.T1;
   if (!arguments.T2.empty()) subject.T2 = std::strtod(arguments.T2.c_str(), nullptr);
-  if (has_bounds) give_to_all_sensors(subject);
+  if (has_bounds) {
+    give_to_all_sensors(subject);
+    subject.timer_nodes.clear();
+  }
+  if (arguments.cells && subject.T2 > 0.0 && std::isfinite(subject.T2)) {
+    subject = with_cells(subject, static_cast<int>(*arguments.cells));
+  }
   if (has_dwell_time) {
     subject.T1 = 0.0;
     subject.T2 = std::numeric_limits<double>::infinity();

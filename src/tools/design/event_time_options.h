@@ -15,6 +15,7 @@ struct EventTimeArguments {
   std::string T2;                                           // [s], or inf; empty where not given
   std::optional<std::array<double, 2>> average_dwell_time;  // tau [s], N0
   std::optional<std::array<double, 2>> reverse_average_dwell_time;
+  std::optional<unsigned> cells;  // of each timer
 };
 
 /// @param source  where they are taken from without these options, for the help

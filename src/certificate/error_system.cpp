@@ -1,0 +1,164 @@
+#include "certificate/error_system.h"
+
+namespace sampled_data_observers {
+namespace {
+
+Eigen::MatrixXd widened(const Eigen::MatrixXd& rows, Eigen::Index size) {
+  Eigen::MatrixXd wide = Eigen::MatrixXd::Zero(rows.rows(), size);
+  wide.leftCols(rows.cols()) = rows;
+  return wide;
+}
+
+Eigen::MatrixXd heightened(const Eigen::MatrixXd& columns, Eigen::Index size) {
+  return widened(columns.transpose(), size).transpose();
+}
+
+/// All but flow and resets, for an error of `size` entries.
+ErrorSystem without_observer(const CertificateSubject& subject, Eigen::Index size) {
+  const PlantMatrices& plant = subject.plant;
+  ErrorSystem system;
+  system.states = plant.states();
+  system.size = size;
+  const bool has_vertices = !plant.vertices.empty();
+  system.G = has_vertices ? Eigen::MatrixXd(size, 0) : heightened(plant.G, size);
+  system.S = has_vertices ? Eigen::MatrixXd(0, size) : widened(plant.S, size);
+  system.lipschitz_constant = plant.lipschitz_constant.value_or(0.0);
+  system.N = heightened(plant.N, size);
+  // Without the row of w, C_pᵀ C_p says nothing: the other terms may outweigh it.
+  const bool has_gain = plant.N.cols() > 0;
+  system.C_p = has_gain ? widened(plant.C_p, size) : Eigen::MatrixXd(0, size);
+  return system;
+}
+
+/// A, or A + Ψ_v with each vertex.
+std::vector<Eigen::MatrixXd> flows_of(const PlantMatrices& plant) {
+  if (plant.vertices.empty()) return {plant.A()};
+  std::vector<Eigen::MatrixXd> flows;
+  for (const Eigen::MatrixXd& vertex : plant.vertices) flows.emplace_back(plant.A() + vertex);
+  return flows;
+}
+
+Eigen::MatrixXd rows_of(const SampledOutputs& outputs, const Eigen::MatrixXd& C) {
+  return C.middleRows(outputs.first, outputs.rows);
+}
+
+ErrorSystem corrected_at_samples(
+    const CertificateSubject& subject,
+    const std::function<MatrixExpression(std::size_t sensor, std::size_t node)>& gain,
+    bool is_constant) {
+  const PlantMatrices& plant = subject.plant;
+  const Eigen::Index n = plant.states();
+  ErrorSystem system = without_observer(subject, n);
+  for (const Eigen::MatrixXd& flow : flows_of(plant)) system.F.emplace_back(flow);
+  for (std::size_t i = 0; i < plant.sampled.size(); ++i) {
+    ErrorReset reset;
+    reset.name = plant.sampled[i].sensor;
+    reset.position = plant.sampled[i].position;
+    reset.J = Eigen::MatrixXd::Identity(n, n);
+    reset.C = rows_of(plant.sampled[i], plant.C());
+    reset.K = [gain, i](std::size_t node) { return gain(i, node); };
+    reset.is_constant = is_constant;
+    system.resets.push_back(std::move(reset));
+  }
+  return system;
+}
+
+/// @param sign  1 or −1, of L in x̂' = f + sign L θ
+ErrorSystem corrected_by_injection(const CertificateSubject& subject, double sign, bool has_H) {
+  const PlantMatrices& plant = subject.plant;
+  const Eigen::Index n = plant.states();
+  const Eigen::Index m = plant.C().rows();
+  ErrorSystem system = without_observer(subject, n + m);
+  std::vector<MatrixExpression> L;
+  std::vector<std::vector<MatrixExpression>> H;
+  for (std::size_t i = 0; i < plant.sampled.size(); ++i) {
+    const Eigen::Index rows = plant.sampled[i].rows;
+    L.push_back(MatrixExpression(-sign) * symbol(gain_of_sensor("L", subject, i), n, rows));
+    H.emplace_back();
+    for (std::size_t j = 0; j < plant.sampled.size(); ++j) {
+      H.back().push_back(i == j && has_H ? symbol(gain_of_sensor("H", subject, i), rows, rows)
+                                         : zeros(rows, plant.sampled[j].rows));
+    }
+  }
+  const MatrixExpression all_L = blocks({L});
+  const MatrixExpression all_H = blocks(H);
+  for (const Eigen::MatrixXd& flow : flows_of(plant)) {
+    system.F.push_back(blocks({{flow, all_L}, {zeros(m, n), all_H}}));
+  }
+  for (const SampledOutputs& outputs : plant.sampled) {
+    // θ⁺ = C (x − x̂) + η, as e⁺ = (I − K (C, −I)) e − K η with K = (0, −I).
+    ErrorReset reset;
+    reset.name = outputs.sensor;
+    reset.position = outputs.position;
+    reset.J = Eigen::MatrixXd::Identity(n + m, n + m);
+    reset.C = widened(rows_of(outputs, plant.C()), n + m);
+    Eigen::MatrixXd K = Eigen::MatrixXd::Zero(n + m, outputs.rows);
+    for (Eigen::Index row = 0; row < outputs.rows; ++row) {
+      reset.C(row, n + outputs.first + row) = -1.0;
+      K(n + outputs.first + row, row) = -1.0;
+    }
+    reset.K = [K](std::size_t) { return MatrixExpression(K); };
+    system.resets.push_back(std::move(reset));
+  }
+  return system;
+}
+
+}  // namespace
+
+std::string gain_of_sensor(const std::string& symbol, const CertificateSubject& subject,
+                           std::size_t sensor) {
+  const auto& sampled = subject.plant.sampled;
+  return sampled.size() == 1 ? symbol : symbol + "/" + sampled[sensor].sensor;
+}
+
+ErrorSystem constant_gain_error(const CertificateSubject& subject) {
+  const auto gain = [&subject](std::size_t sensor, std::size_t) {
+    return symbol(gain_of_sensor("L", subject, sensor), subject.plant.states(),
+                  subject.plant.sampled[sensor].rows);
+  };
+  ErrorSystem system = corrected_at_samples(subject, gain, true);
+  // The subject need not outlive the system.
+  for (ErrorReset& reset : system.resets) {
+    reset.K = [K = reset.K(0)](std::size_t) { return K; };
+  }
+  return system;
+}
+
+ErrorSystem scheduled_gain_error(const CertificateSubject& subject) {
+  const auto gain = [sampled = subject.plant.sampled, n = subject.plant.states()](
+                        std::size_t sensor, std::size_t node) {
+    return symbol("K/" + sampled[sensor].sensor + "/" + std::to_string(node), n,
+                  sampled[sensor].rows);
+  };
+  return corrected_at_samples(subject, gain, false);
+}
+
+ErrorSystem injection_error(const CertificateSubject& subject) {
+  return corrected_by_injection(subject, 1.0, true);
+}
+
+ErrorSystem held_injection_error(const CertificateSubject& subject) {
+  return corrected_by_injection(subject, -1.0, false);
+}
+
+ErrorSystem synchronized_error(const CertificateSubject& subject) {
+  const PlantMatrices& plant = subject.plant;
+  const ModeMatrices& mode = plant.mode();
+  const Eigen::Index n = plant.states();
+  ErrorSystem system = without_observer(subject, n);
+  for (const Eigen::MatrixXd& flow : flows_of(plant)) {
+    MatrixExpression F = flow;
+    if (mode.C_c.rows() > 0) F = F - symbol("L_c", n, mode.C_c.rows()) * MatrixExpression(mode.C_c);
+    system.F.push_back(F);
+  }
+  ErrorReset reset;
+  reset.name = "jumps";
+  reset.J = jump_of(mode);
+  reset.C = mode.C_d;
+  const MatrixExpression K = mode.C_d.rows() > 0 ? symbol("L_d", n, mode.C_d.rows()) : zeros(n, 0);
+  reset.K = [K](std::size_t) { return K; };
+  system.resets.push_back(std::move(reset));
+  return system;
+}
+
+}  // namespace sampled_data_observers

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <optional>
+
+#include "certificate/timer_dependent_conditions.h"
+
+namespace sampled_data_observers {
+
+/// The Lyapunov function of a theorem whose name begins with timer_dependent; nothing for others.
+/// @pre the theorem is about the subject
+std::optional<TimerDependentFunction> timer_dependent_function(const Theorem& theorem,
+                                                               const CertificateSubject& subject);
+
+}  // namespace sampled_data_observers

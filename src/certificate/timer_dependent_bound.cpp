@@ -1,0 +1,298 @@
+#include "certificate/timer_dependent_bound.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "certificate/bound_flow.h"
+#include "certificate/outward.h"
+#include "certificate/rounded_matrix.h"
+#include "certificate/sublevel_set.h"
+#include "certificate/timer_grid.h"
+#include "linear_algebra/matrix_functions.h"
+
+namespace sampled_data_observers {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNanoseconds = 1e9;  // in a second
+constexpr std::size_t kNoTimer = std::numeric_limits<std::size_t>::max();
+/// What rounding may take from a weight between nodes.
+constexpr double kWeightRounding = 1e-12;
+
+double squared(double value) { return value * value; }
+
+/// A matrix with a bound on the size of what it was summed from, entry by entry.
+struct Sized {
+  Eigen::MatrixXd value;
+  Eigen::MatrixXd size;
+
+  void add(const Eigen::MatrixXd& term) { add(term, term.cwiseAbs()); }
+  void add(const Eigen::MatrixXd& term, const Eigen::MatrixXd& size_of_term) {
+    value += term;
+    size += size_of_term;
+  }
+};
+
+/// Not less than the least c with M <= c P, for a symmetric M.
+double quotient_above(const Sized& M, const Eigen::MatrixXd& P) {
+  const Eigen::MatrixXd inverse_R = inverse_of(cholesky_root(P));
+  const Eigen::MatrixXd scaled = inverse_R.transpose() * M.value * inverse_R;
+  const Eigen::MatrixXd size = inverse_R.cwiseAbs().transpose() * M.size * inverse_R.cwiseAbs();
+  return max_eigenvalue(scaled) + 1e3 * eigenvalue_rounding(P.rows(), size.norm());
+}
+
+/// The same for M = aᵀ b a with b > 0, not less than 0.
+double quotient_above(const Sized& a, const Eigen::MatrixXd& b, const Eigen::MatrixXd& P) {
+  const Eigen::MatrixXd size = a.size.transpose() * b.cwiseAbs() * a.size;
+  return std::max(0.0, quotient_above({a.value.transpose() * b * a.value, size}, P));
+}
+
+/// Not less than P⁻¹, whatever rounding has done to the value of P.
+Eigen::MatrixXd inverse_of_exact(const MatrixExpression& P, const NamedMatrices& values,
+                                 const std::string& name) {
+  const RoundedMatrix rounded = evaluate_with_rounding(P, values);
+  Eigen::MatrixXd below = (rounded.value + rounded.value.transpose()) / 2.0;
+  // |Σ E_ij x_i x_j| <= Σ_i x_i² Σ_j |E_ij| d_i / d_j for any d > 0.
+  const Eigen::VectorXd d = below.diagonal().cwiseAbs().cwiseSqrt();
+  const Eigen::MatrixXd weighted =
+      d.asDiagonal() * (rounded.error + rounded.error.transpose()) * d.cwiseInverse().asDiagonal();
+  below.diagonal() -= std::numeric_limits<double>::epsilon() * weighted.rowwise().sum();
+  return inverse_above(below, positive_least_eigenvalue(below, name));
+}
+
+}  // namespace
+
+TimerDependentBound::TimerDependentBound(const TimerDependentFunction& function,
+                                         std::vector<double> longest, const NamedMatrices& values,
+                                         const ErrorAssumptions& assumptions)
+    : grid_(function.grid()),
+      shortest_(function.shortest()),
+      longest_(std::move(longest)),
+      rate_(2.0 * scalar_value(values, "lambda_t")),
+      noise_(assumptions.noise),
+      initial_error_(assumptions.initial_error),
+      initial_injection_(assumptions.initial_injection),
+      injects_(function.system().size > function.system().states) {
+  const ErrorSystem& system = function.system();
+  if (assumptions.disturbance > 0.0) {
+    if (system.N.cols() == 0) {
+      throw std::invalid_argument("it is about plants without disturbance: give design/N");
+    }
+    push_ = squared(scalar_value(values, "gamma") * assumptions.disturbance);
+  }
+  for (std::size_t timer = 0; timer < system.resets.size(); ++timer) {
+    const ErrorReset& reset = system.resets[timer];
+    if (reset.position >= timer_of_.size()) timer_of_.resize(reset.position + 1, kNoTimer);
+    timer_of_[reset.position] = timer;
+    nu_.push_back(reset.C.rows() > 0 ? scalar_value(values, "nu/" + reset.name) : 0.0);
+  }
+  compute_nodes(function, values);
+  compute_late_growth(function, values);
+}
+
+void TimerDependentBound::compute_nodes(const TimerDependentFunction& function,
+                                        const NamedMatrices& values) {
+  const ErrorSystem& system = function.system();
+  const Eigen::Index n = system.states;
+  const Eigen::Index rest = system.size - n;
+  std::vector<Eigen::MatrixXd> P;
+  for (std::size_t k = 0; k < grid_.size(); ++k) P.push_back(evaluate(function.P(k), values));
+  for (std::size_t k = 0; k < grid_.size(); ++k) {
+    Node node;
+    node.inverse =
+        inverse_of_exact(function.P(k), values, "P/" + std::to_string(k)).topLeftCorner(n, n);
+    node.inverse_norm = largest_eigenvalue_above(node.inverse);
+    node.of_state = largest_eigenvalue_above(P[k].topLeftCorner(n, n));
+    if (rest > 0) node.of_injection = largest_eigenvalue_above(P[k].bottomRightCorner(rest, rest));
+    for (std::size_t timer = 0; timer < system.resets.size(); ++timer) {
+      const Eigen::MatrixXd& after = P[grid_.with_first(k, timer)];
+      const ErrorReset& reset = system.resets[timer];
+      const Eigen::MatrixXd K = evaluate(reset.K(k), values);
+      Sized map{reset.J, reset.J.cwiseAbs()};
+      map.add(-(K * reset.C), K.cwiseAbs() * reset.C.cwiseAbs());
+      node.mu.push_back(quotient_above(map, after, P[k]));
+      node.rho.push_back(K.cols() == 0 ? 0.0 : largest_eigenvalue_above(K.transpose() * after * K));
+    }
+    nodes_.push_back(std::move(node));
+  }
+}
+
+void TimerDependentBound::compute_late_growth(const TimerDependentFunction& function,
+                                              const NamedMatrices& values) {
+  const ErrorSystem& system = function.system();
+  const std::size_t timers = grid_.dimensions();
+  const double gain = system.N.cols() > 0 ? squared(scalar_value(values, "gamma")) : 0.0;
+  std::vector<Eigen::MatrixXd> P;
+  for (std::size_t k = 0; k < grid_.size(); ++k) P.push_back(evaluate(function.P(k), values));
+  std::vector<Eigen::MatrixXd> F;
+  for (const MatrixExpression& flow : system.F) F.push_back(evaluate(flow, values));
+  late_growth_.assign(std::size_t{1} << timers, -rate_ / 2.0);
+  const auto cells = cells_of(grid_);
+  for (std::size_t late = 1; late < late_growth_.size(); ++late) {
+    for (const std::vector<CellCorner>& corners : cells) {
+      for (const CellCorner& corner : corners) {
+        bool is_on_face = true;
+        for (std::size_t timer = 0; timer < timers; ++timer) {
+          const bool is_last = grid_.position(corner.node, timer) + 1 == grid_.nodes(timer).size();
+          is_on_face &= (late >> timer & 1U) == 0 || is_last;
+        }
+        if (!is_on_face) continue;
+        const Eigen::MatrixXd& P_k = P[corner.node];
+        for (const Eigen::MatrixXd& flow : F) {
+          const Eigen::MatrixXd product = P_k * flow;
+          const Eigen::MatrixXd size = P_k.cwiseAbs() * flow.cwiseAbs();
+          Sized growth{product + product.transpose(), size + size.transpose()};
+          for (std::size_t timer = 0; timer < timers; ++timer) {
+            if ((late >> timer & 1U) != 0) continue;
+            const CellCorner::Edge& edge = corner.edges[timer];
+            growth.add((P[edge.high] - P[edge.low]) / edge.length,
+                       (P[edge.high].cwiseAbs() + P[edge.low].cwiseAbs()) / edge.length);
+          }
+          if (!system.is_linear()) {
+            const double chi = scalar_value(values, "chi/" + std::to_string(corner.node));
+            const double ell = system.lipschitz_constant;
+            const Eigen::MatrixXd P_G = P_k * system.G;
+            growth.add(chi * ell * ell * system.S.transpose() * system.S);
+            growth.add(P_G * P_G.transpose() / chi);
+          }
+          if (push_ > 0.0) {
+            const Eigen::MatrixXd P_N = P_k * system.N;
+            growth.add(P_N * P_N.transpose() / gain);
+          }
+          late_growth_[late] = std::max(late_growth_[late], quotient_above(growth, P_k) / 2.0);
+        }
+      }
+    }
+  }
+}
+
+double TimerDependentBound::time_of(std::size_t timer, const double* state) const {
+  return state[kTimers + static_cast<Eigen::Index>(timer)] / kNanoseconds;
+}
+
+TensorGrid::Interpolation TimerDependentBound::interpolation(const double* state) const {
+  std::array<double, TensorGrid::kMaxDimensions> times = {};
+  for (std::size_t timer = 0; timer < grid_.dimensions(); ++timer) {
+    times[timer] = time_of(timer, state);
+  }
+  return grid_.locate(times.data());
+}
+
+void TimerDependentBound::initialize(double* state) const {
+  std::fill(state, state + state_size(), 0.0);
+  begin(initial_error_, state);
+}
+
+void TimerDependentBound::begin(double error, double* state) const {
+  const TensorGrid::Interpolation here = interpolation(state);
+  double of_state = 0.0;
+  double of_injection = 0.0;
+  for (std::size_t i = 0; i < here.size; ++i) {
+    const Node& node = nodes_[here.vertices[i]];
+    of_state += (here.weights[i] + kWeightRounding) * node.of_state;
+    of_injection += (here.weights[i] + kWeightRounding) * node.of_injection;
+  }
+  state[kW] = squared(std::sqrt(of_state) * error + std::sqrt(of_injection) * initial_injection_);
+}
+
+void TimerDependentBound::begin_at_sample(std::size_t sensor, double error, double* state) const {
+  state[kTimers + static_cast<Eigen::Index>(timer_of_[sensor])] = 0.0;
+  begin(error, state);
+}
+
+void TimerDependentBound::flow(double duration, double* state) const {
+  double left = duration;
+  double passed = 0.0;
+  double& W = state[kW];
+  while (left > 0.0 && W < kInfinity) {
+    std::size_t late = 0;
+    double piece = left;
+    for (std::size_t timer = 0; timer < grid_.dimensions(); ++timer) {
+      const double before_late = longest_[timer] - (time_of(timer, state) + passed);
+      if (before_late <= 0.0) {
+        late |= std::size_t{1} << timer;
+      } else {
+        piece = std::min(piece, before_late);
+      }
+    }
+    W = late == 0 ? decayed(W, push_ / rate_, rate_, piece)
+                  : flowed_linearly(W, 2.0 * late_growth_[late], push_, piece);
+    passed = piece == left ? duration : passed + piece;
+    left -= piece;
+  }
+  const double nanoseconds = std::round(duration * kNanoseconds);
+  for (std::size_t timer = 0; timer < grid_.dimensions(); ++timer) {
+    state[kTimers + static_cast<Eigen::Index>(timer)] += nanoseconds;
+  }
+}
+
+void TimerDependentBound::reset(std::size_t timer, double* state) const {
+  const TensorGrid::Interpolation here = interpolation(state);
+  double mu = 0.0;
+  double rho = 0.0;
+  for (std::size_t i = 0; i < here.size; ++i) {
+    mu = std::max(mu, nodes_[here.vertices[i]].mu[timer]);
+    rho = std::max(rho, nodes_[here.vertices[i]].rho[timer]);
+  }
+  double after = squared(std::sqrt(mu * state[kW]) + std::sqrt(rho) * noise_);
+  if (time_of(timer, state) >= shortest_[timer]) {
+    after = std::min(after, state[kW] + nu_[timer] * squared(noise_));
+  }
+  state[kW] = after;
+  state[kTimers + static_cast<Eigen::Index>(timer)] = 0.0;
+}
+
+void TimerDependentBound::sample(std::size_t sensor, double* state, double*) const {
+  if (state[kW] == kInfinity) return;
+  reset(timer_of_[sensor], state);
+}
+
+void TimerDependentBound::jump(const JumpMotion&, double* state) const { state[kW] = kInfinity; }
+
+double TimerDependentBound::bound(const double* state) const {
+  if (state[kW] == kInfinity) return kInfinity;
+  const TensorGrid::Interpolation here = interpolation(state);
+  double norm = 0.0;
+  for (std::size_t i = 0; i < here.size; ++i) {
+    norm += (here.weights[i] + kWeightRounding) * nodes_[here.vertices[i]].inverse_norm;
+  }
+  return std::sqrt(raised(state[kW] * norm));
+}
+
+void TimerDependentBound::state_bounds(const double* state, double*,
+                                       Eigen::Ref<Eigen::VectorXd> bounds) const {
+  if (state[kW] == kInfinity) {
+    bounds.setConstant(kInfinity);
+    return;
+  }
+  const TensorGrid::Interpolation here = interpolation(state);
+  for (Eigen::Index j = 0; j < bounds.size(); ++j) {
+    double entry = 0.0;
+    for (std::size_t i = 0; i < here.size; ++i) {
+      entry += (here.weights[i] + kWeightRounding) * nodes_[here.vertices[i]].inverse(j, j);
+    }
+    bounds(j) = std::sqrt(raised(state[kW] * entry));
+  }
+}
+
+void TimerDependentBound::ellipsoid(const double* state, double*,
+                                    Eigen::Ref<Eigen::MatrixXd> Q) const {
+  if (state[kW] == kInfinity) {
+    Q.setConstant(kInfinity);
+    return;
+  }
+  const TensorGrid::Interpolation here = interpolation(state);
+  Q.setZero();
+  for (std::size_t i = 0; i < here.size; ++i) {
+    const Node& node = nodes_[here.vertices[i]];
+    Q += (here.weights[i] + kWeightRounding) * node.inverse;
+  }
+  // With room for the rounding of the sum.
+  Q.diagonal() += Q.diagonal() * 1e-9;
+  Q *= state[kW];
+}
+
+}  // namespace sampled_data_observers

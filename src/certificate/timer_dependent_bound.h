@@ -1,0 +1,82 @@
+#pragma once
+
+#include <vector>
+
+#include "certificate/error_bound.h"
+#include "certificate/timer_dependent_conditions.h"
+
+namespace sampled_data_observers {
+
+/// The bound that a Lyapunov function V = eᵀ P(τ) e gives: W >= V with
+///   Ẇ = −2 λ W + γ² |w|² between events, W⁺ = W + ν_i |η_i|² at those of the timer i,
+/// as the theorem has it, so that (x − x̂)(x − x̂)ᵀ <= W P(τ)⁻¹ in the entries of the state.
+///
+/// Between nodes P(τ)⁻¹ is at most the mean of the inverses at the corners of the cell by the
+/// weights of the interpolation, since the inverse is convex. Where a timer is beyond its longest
+/// time it stands still: then V̇ <= 2 c V + γ² |w|² by the flow conditions without its slope, which
+/// a c satisfies that is computed here. An event sooner than the shortest time, such as the first
+/// one after the estimate began, takes W to (√(μ W) + √ρ |η|)², with the least μ and ρ for which
+/// that holds at the corners of the cell; the same is used at all events, where it is less.
+///
+/// State: W, infinite where nothing is known any more | the timers [ns].
+class TimerDependentBound : public ErrorBound {
+ public:
+  /// @param function  whose conditions hold for the values
+  /// @throws std::invalid_argument for a disturbance without N, and where rounding hides a bound
+  TimerDependentBound(const TimerDependentFunction& function, std::vector<double> longest,
+                      const NamedMatrices& values, const ErrorAssumptions& assumptions);
+
+  Eigen::Index state_size() const override {
+    return kTimers + static_cast<Eigen::Index>(grid_.dimensions());
+  }
+  void initialize(double* state) const override;
+  void begin(double error, double* state) const override;
+  void begin_at_sample(std::size_t sensor, double error, double* state) const override;
+  void flow(double duration, double* state) const override;
+  void sample(std::size_t sensor, double* state, double* workspace) const override;
+  bool injects_between_samples() const override { return injects_; }
+  void jump(const JumpMotion& motion, double* state) const override;
+  double bound(const double* state) const override;
+  void state_bounds(const double* state, double* workspace,
+                    Eigen::Ref<Eigen::VectorXd> bounds) const override;
+  void ellipsoid(const double* state, double* workspace,
+                 Eigen::Ref<Eigen::MatrixXd> Q) const override;
+
+ private:
+  enum Entry { kW, kTimers };
+
+  /// What is known at a node.
+  struct Node {
+    Eigen::MatrixXd inverse;    ///< n x n: not less than the block of P_k⁻¹ of the state
+    double inverse_norm = 0.0;  ///< not less than its largest eigenvalue
+    double of_state = 0.0;      ///< not less than |P_k| on the state
+    double of_injection = 0.0;  ///< and on what is injected
+    std::vector<double> mu;     ///< of each timer
+    std::vector<double> rho;    ///< of each timer
+  };
+
+  TensorGrid::Interpolation interpolation(const double* state) const;
+  double time_of(std::size_t timer, const double* state) const;
+  bool is_late(std::size_t timer, double time) const;
+  void advance(double duration, double* state) const;
+  void reset(std::size_t timer, double* state) const;
+  void compute_late_growth(const TimerDependentFunction& function, const NamedMatrices& values);
+  void compute_nodes(const TimerDependentFunction& function, const NamedMatrices& values);
+
+  TensorGrid grid_;
+  std::vector<Node> nodes_;
+  std::vector<double> shortest_;       // [s]
+  std::vector<double> longest_;        // [s]
+  std::vector<std::size_t> timer_of_;  // of each sensor of the plant, kNone where it has none
+  std::vector<double> nu_;             // ν_i
+  /// c of each set of timers that are late, a bit for each.
+  std::vector<double> late_growth_;
+  double rate_ = 0.0;  // 2 λ
+  double push_ = 0.0;  // γ² |w|²
+  double noise_ = 0.0;
+  double initial_error_ = 0.0;
+  double initial_injection_ = 0.0;
+  bool injects_ = false;
+};
+
+}  // namespace sampled_data_observers

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "certificate/condition.h"
+#include "certificate/error_system.h"
+#include "certificate/timer_grid.h"
+#include "linear_algebra/tensor_grid.h"
+
+namespace sampled_data_observers {
+
+/// Products in which a design is linear in place of the gains K of resets; see
+/// TimerDependentFunction.
+struct GainProducts {
+  /// P⁺ K, N x m, at a node of the grid, P⁺ being P after the reset of the timer.
+  std::function<MatrixExpression(std::size_t timer, std::size_t node)> P_K;
+  /// Z of P_0 K = Cᵀ Z, m x m, which is all that a coinciding event leaves to choose.
+  std::optional<MatrixExpression> Z;
+};
+
+/// A Lyapunov function V(e, τ) = eᵀ P(τ) e of an error, multi-affine in the timers τ between the
+/// nodes of a grid, and what must hold of it: doc/timer_dependent.md has the theorem and its proof.
+///
+/// At the node k, P_k is the symbol P/k. Where the only timer may be 0 at an event (T1 = 0), the
+/// jump condition there is an equality in the directions that are not measured. So that rounding
+/// does not decide it, P_0 is what makes it one for any numbers,
+///   P_0 = Cᵀ X C + Πᵀ Y Π, Π = I − K (C K)⁻¹ C,
+/// with the symbols P_measured for X (m x m) and P_rest for Y (N x N): then K does not show in
+/// Π e⁺ = Π e, and C e⁺ = (I − C K) C e.
+class TimerDependentFunction {
+ public:
+  /// @param shortest  of each timer [s]
+  /// @param products  in place of the gains, where those are to be found; P_0 is P/0 then
+  TimerDependentFunction(ErrorSystem system, TensorGrid grid, std::vector<double> shortest,
+                         std::optional<GainProducts> products = std::nullopt);
+
+  const ErrorSystem& system() const { return system_; }
+  const TensorGrid& grid() const { return grid_; }
+  /// Of each timer [s].
+  const std::vector<double>& shortest() const { return shortest_; }
+
+  /// Whether a reset may take place at a node.
+  bool is_foreseen(std::size_t timer, std::size_t node) const;
+
+  /// N x N: P_k.
+  MatrixExpression P(std::size_t node) const;
+  /// Whether P/k is a symbol of its own.
+  bool is_free(std::size_t node) const {
+    return products_ || !(has_coinciding_events_ && node == 0);
+  }
+  /// Whether the only timer may be 0 at an event.
+  bool has_coinciding_events() const { return has_coinciding_events_; }
+
+  /// P/k, P_measured, P_rest, a noise level nu/NAME of each reset with outputs, and chi/k where the
+  /// error has a nonlinearity.
+  std::vector<NamedShape> shapes() const;
+
+  /// P_k > 0, the flow at all corners of all cells, and the jumps at all nodes where they may be;
+  /// in the symbols of shapes(), of the gains, lambda_t, and gamma where there is a disturbance.
+  std::vector<Condition> conditions() const;
+
+ private:
+  MatrixExpression derivative(const CellCorner& corner, const MatrixExpression& F) const;
+  MatrixExpression flow(const CellCorner& corner, const MatrixExpression& F) const;
+  MatrixExpression jump(std::size_t timer, std::size_t node) const;
+  MatrixExpression jump_condition(std::size_t timer, std::size_t node) const;
+  MatrixExpression coinciding_jump() const;
+  MatrixExpression coinciding_jump(const MatrixExpression& Z) const;
+
+  ErrorSystem system_;
+  TensorGrid grid_;
+  std::vector<double> shortest_;
+  std::optional<GainProducts> products_;
+  bool has_coinciding_events_;
+};
+
+}  // namespace sampled_data_observers
