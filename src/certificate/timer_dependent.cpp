@@ -144,11 +144,14 @@ class TimerDependentTheorem : public Theorem {
 
   std::vector<Condition> conditions(const CertificateSubject& subject) const override {
     std::vector<Condition> all;
+    bool has_grid = true;
     for (const SamplingTimes& times : times_of_timers(subject)) {
+      has_grid &= 0.0 <= times.T1 && times.T1 <= times.T2 && times.T2 > 0.0;
       for (Condition& domain : domain_of_times(times.T1, times.T2)) {
         all.push_back(std::move(domain));
       }
     }
+    if (!has_grid) return all;
     for (const NamedShape& parameter : parameters(subject)) all.push_back(positive(parameter.name));
     if (!subject.plant.is_linear() && subject.plant.vertices.empty()) {
       all.push_back({"lipschitz_constant >= 0", *subject.plant.lipschitz_constant, std::nullopt,

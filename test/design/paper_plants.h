@@ -24,6 +24,7 @@ inline CertificateSubject linear_subject(const Eigen::MatrixXd& A, const Eigen::
   for (Eigen::Index i = 1; i <= n; ++i) {
     subject.plant.state_names.push_back("x" + std::to_string(i));
   }
+  if (C.rows() > 0) subject.plant.sampled = {{"output", 0, 0, C.rows()}};
   subject.plant.G.resize(n, 0);
   subject.plant.S.resize(0, n);
   subject.plant.N.resize(n, 0);

@@ -28,11 +28,11 @@ CertificateSubject subject_of(const Theorem& theorem) {
   CertificateSubject subject = linear_subject(two_by_two(0, 1, -4, 0), row, 0.2, 0.4);
   const auto is_of = [&](const char* name) { return theorem.name().rfind(name, 0) == 0; };
   PlantMatrices& plant = subject.plant;
-  if (is_of("ferrante2019") || is_of("etienne2019")) {
+  if (is_of("ferrante2019") || is_of("etienne2019") || is_of("timer_dependent")) {
     plant.G = Eigen::MatrixXd::Identity(2, 1);
     plant.S = row;
     plant.lipschitz_constant = 0.1;
-    plant.vertices.emplace_back(Eigen::MatrixXd::Zero(2, 2));
+    if (is_of("etienne2019")) plant.vertices.emplace_back(Eigen::MatrixXd::Zero(2, 2));
     plant.N = Eigen::MatrixXd::Identity(2, 1);
     plant.C_p = row;
   }

@@ -16,19 +16,6 @@
 namespace sampled_data_observers {
 namespace {
 
-constexpr int kMaxSteps = 30;
-/// A step that gains less ends the alternation.
-constexpr double kLeastProgress = 1e-3;
-/// Gains are sought for a gamma or a level larger than the least one, so that they are not at the
-/// edge, where the next Lyapunov matrices could not move.
-constexpr double kRoom = 1.01;
-
-bool is_better(const DesignCandidate& a, const DesignCandidate& b) {
-  if (a.values.empty()) return false;
-  if (a.is_verified() != b.is_verified()) return a.is_verified();
-  return a.is_verified() ? a.cost < b.cost : a.margin > b.margin;
-}
-
 /// Gains in which the conditions are linear where P is fixed, as they are linear in P where the
 /// gains are: from gains of another design, the two are improved in turn.
 class AlternatingDesign : public DesignMethod {
@@ -154,7 +141,20 @@ class AlternatingDesign : public DesignMethod {
     return program;
   }
 
+  static bool is_better(const DesignCandidate& a, const DesignCandidate& b) {
+    if (a.values.empty()) return false;
+    if (a.is_verified() != b.is_verified()) return a.is_verified();
+    return a.is_verified() ? a.cost < b.cost : a.margin > b.margin;
+  }
+
+  /// Of noise levels, in the units of the attempt.
   static constexpr double kLargest = 1e6;
+  static constexpr int kMaxSteps = 30;
+  /// A step that gains less ends the alternation.
+  static constexpr double kLeastProgress = 1e-3;
+  /// Gains are sought for a gamma or a level larger than the least one, so that they are not at the
+  /// edge, where the next Lyapunov matrices could not move.
+  static constexpr double kRoom = 1.01;
 };
 
 /// Constant gains of several sensors.
