@@ -143,9 +143,8 @@ class ScheduledJumpGain : public JumpGainDesign {
         // Sooner than T1 the gain is the one at T1.
         std::size_t from = node;
         while (!is_foreseen(subject, grid, i, from)) from += grid.stride(i);
-        values["K/" + sensor + "/" + std::to_string(node)] =
-            solve_definite(solution.at(P(grid.with_first(node, i))),
-                           solution.at(product_name(sensor, from)));
+        values["K/" + sensor + "/" + std::to_string(node)] = solve_definite(
+            solution.at(P(grid.with_first(node, i))), solution.at(product_name(sensor, from)));
       }
     }
     return values;
