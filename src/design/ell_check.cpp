@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
+#include "design/high_gain_error.h"
 #include "design/mode_coordinates.h"
 #include "linear_algebra/matrix_functions.h"
 
@@ -20,54 +22,6 @@ constexpr int kDecades = 5;
 constexpr int kPerDecade = 12;
 constexpr double kLargestFactor = 1000.0;
 constexpr double kScanFactor = 1.25;
-
-/// A − K H, companion.
-Eigen::MatrixXd closed_loop_of(const Vector& K) {
-  const Eigen::Index d = K.size();
-  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(d, d);
-  result.col(0) = -K;
-  for (Eigen::Index i = 0; i + 1 < d; ++i) result(i, i + 1) = 1.0;
-  return result;
-}
-
-/// P with Fᵀ P + P F = −I
-Eigen::MatrixXd lyapunov_matrix(const Eigen::MatrixXd& F) {
-  const Eigen::Index d = F.rows();
-  Eigen::MatrixXd system = Eigen::MatrixXd::Zero(d * d, d * d);
-  for (Eigen::Index i = 0; i < d; ++i) {
-    for (Eigen::Index j = 0; j < d; ++j) {
-      for (Eigen::Index k = 0; k < d; ++k) {
-        system(i + d * j, k + d * j) += F(k, i);
-        system(i + d * j, i + d * k) += F(k, j);
-      }
-    }
-  }
-  const Eigen::MatrixXd minus_identity = -Eigen::MatrixXd::Identity(d, d);
-  const Eigen::MatrixXd P =
-      solve_linear(system, Eigen::Map<const Vector>(minus_identity.data(), d * d));
-  return Eigen::Map<const Eigen::MatrixXd>(P.data(), d, d);
-}
-
-double sufficient_ell_for(const Vector& slopes, const Vector& K) {
-  if (!slopes.allFinite()) return kInfinity;
-  const Eigen::Index d = K.size();
-  const double of_P = lyapunov_matrix(closed_loop_of(K)).col(d - 1).norm();
-  const auto suffices = [&](double ell) {
-    Vector weighted = slopes;
-    for (Eigen::Index i = 0; i < d; ++i)
-      weighted(i) *= std::pow(ell, static_cast<double>(i + 1 - d));
-    return ell > 2.0 * of_P * weighted.norm();
-  };
-  double low = 1e-9;
-  double high = 1.0;
-  if (suffices(low)) return 0.0;
-  while (!suffices(high)) high *= 2.0;
-  for (int k = 0; k < 60; ++k) {
-    const double middle = 0.5 * (low + high);
-    (suffices(middle) ? high : low) = middle;
-  }
-  return high;
-}
 
 class EllSearch {
  public:
@@ -94,8 +48,10 @@ class EllSearch {
     scales_of_z_ = (0.5 * (high - low)).cwiseMax(1e-12);
   }
 
-  EllCheck run() {
+  /// @param dwell_time  [s]; nothing where jumps are not asked for
+  EllCheck run(std::optional<double> dwell_time) {
     find_slopes();
+    if (dwell_time && !regular_.empty()) find_ell_for_jumps(*dwell_time);
     const auto found = second_equilibria(check_.ell);
     check_.points_with_second = found.size();
     double farthest = -1.0;
@@ -132,7 +88,18 @@ class EllSearch {
       sizes(d) = std::max(sizes(d), std::abs(coordinates_.phi(x)));
     }
     check_.derivative_errors = errors.cwiseQuotient(sizes);
-    check_.sufficient_ell = sufficient_ell_for(check_.slopes, coordinates_.K());
+    check_.sufficient_ell = HighGainError(coordinates_.K(), check_.slopes).sufficient_ell();
+  }
+
+  void find_ell_for_jumps(double dwell_time) {
+    std::vector<Eigen::MatrixXd> jumps;
+    for (const Vector& x : regular_) {
+      jumps.push_back(coordinates_.jump_gradient(coordinates_.T(x), scales_of_z_));
+    }
+    const HighGainError error(coordinates_.K(), check_.slopes);
+    check_.dwell_time = dwell_time;
+    check_.ell_for_jumps = error.ell_for_jumps(jumps, dwell_time);
+    check_.jump_growth = error.growth(jumps, check_.ell);
   }
 
   std::vector<SecondEquilibrium> second_equilibria(double ell) const {
@@ -247,8 +214,13 @@ class EllSearch {
 
 }  // namespace
 
-EllCheck check_ell(const TransformedHighGainObserver& law, std::size_t mode, std::size_t points) {
-  return EllSearch(law, mode, points).run();
+EllCheck check_ell(const TransformedHighGainObserver& law, std::size_t mode, std::size_t points,
+                   std::optional<double> dwell_time) {
+  const bool is_alone = law.plant().jumps() && !law.plant().switches();
+  if (dwell_time && !is_alone) {
+    throw std::invalid_argument("a dwell time is for plants that jump and do not switch");
+  }
+  return EllSearch(law, mode, points).run(dwell_time);
 }
 
 }  // namespace sampled_data_observers

@@ -35,6 +35,13 @@ struct EllCheck {
   /// ℓ > 2 |P B| |(c_i ℓ^(i−d))_i|. Infinite where slopes are.
   double sufficient_ell = 0.0;
 
+  // Where a dwell time is given:
+  std::optional<double> dwell_time;  ///< [s]
+  /// ℓ* of Corollary 4.1 for jumps that far apart, with these slopes of Φ and those of the jump map
+  /// in z that were met; infinite where there is none.
+  double ell_for_jumps = 0.0;
+  double jump_growth = 0.0;  ///< by how much a jump multiplies V at `ell`
+
   /// The points that have a second equilibrium, and the one of them with ẑ farthest from z, in
   /// units of the box.
   std::size_t points_with_second = 0;
@@ -47,8 +54,11 @@ struct EllCheck {
 /// Second equilibria are looked for with the plant at rest at x, or slow against ℓ: the error
 /// e = ẑ − T(x) stays where (A − ℓ 𝓛 K H) e + B δ = 0, δ = Φ(sat Θ(T(x) + e)) − Φ(x), which is one
 /// equation in δ. Those count that hold ẑ: where the linearization is stable.
-/// @throws std::invalid_argument as points_of_box()
-EllCheck check_ell(const TransformedHighGainObserver& law, std::size_t mode, std::size_t points);
+/// @param dwell_time  shortest time between jumps, or an average one [s]
+/// @throws std::invalid_argument as points_of_box(), and for a dwell time of a plant that switches
+/// or does not jump.
+EllCheck check_ell(const TransformedHighGainObserver& law, std::size_t mode, std::size_t points,
+                   std::optional<double> dwell_time = std::nullopt);
 
 /// What they say in words, of at most 96 columns.
 std::string ell_report(const TransformedHighGainObserver& law, const std::vector<EllCheck>& checks);

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <string>
 
 #include "design/ell_check.h"
@@ -53,6 +54,23 @@ void say_formulas(Paragraphs& out, const EllCheck& check) {
   }
 }
 
+void say_jumps(Paragraphs& out, const EllCheck& check) {
+  const std::string times = brief(*check.dwell_time) + " s between jumps, or so much on average";
+  if (!std::isfinite(check.ell_for_jumps)) {
+    out.bullet("no ell of corollary 4.1 for " + times +
+               ": the jump map is too steep, or a slope "
+               "has no value");
+    return;
+  }
+  out.bullet("ell of corollary 4.1 for " + times +
+             ", with these slopes and those of the jump map: " + brief(check.ell_for_jumps) +
+             (check.ell >= check.ell_for_jumps
+                  ? "; ell is above it: what flow takes of the error outweighs what jumps add"
+                  : "; ell is below it: that the error falls from jump to jump is not shown"));
+  out.bullet("a jump multiplies V = |error|^2 in its norm by up to " + brief(check.jump_growth) +
+             " at this ell");
+}
+
 void say_second(Paragraphs& out, const TransformedHighGainObserver& law, const EllCheck& check) {
   if (!check.second) {
     out.bullet("no second equilibrium was found" +
@@ -99,6 +117,7 @@ std::string ell_report(const TransformedHighGainObserver& law,
                     ? "; ell is above it, which suffices where the slopes are right"
                     : "; ell is below it: convergence from everywhere in the box is not shown by "
                       "example 4.3, which is far from sharp"));
+    if (check.dwell_time) say_jumps(out, check);
     say_second(out, law, check);
   }
   return out.text();

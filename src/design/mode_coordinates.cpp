@@ -53,6 +53,29 @@ double ModeCoordinates::phi(const Eigen::VectorXd& x) const {
   return value;
 }
 
+Eigen::VectorXd ModeCoordinates::jumped(const Eigen::VectorXd& z) const {
+  const Eigen::VectorXd before = state_of(z);
+  Eigen::VectorXd x(n());
+  law_.plant().modes()[mode_].jump->evaluate(before.data(), u_.data(), x.data());
+  law_.saturation().apply(x.data());
+  return T(x);
+}
+
+Eigen::MatrixXd ModeCoordinates::jump_gradient(const Eigen::VectorXd& z,
+                                               const Eigen::VectorXd& scales) const {
+  Eigen::MatrixXd result(d(), z.size());
+  Eigen::VectorXd point = z;
+  for (Eigen::Index i = 0; i < z.size(); ++i) {
+    const double step = std::ldexp(std::max(std::abs(z(i)), scales(i)), -17);
+    point(i) = z(i) + step;
+    const Eigen::VectorXd above = jumped(point);
+    point(i) = z(i) - step;
+    result.col(i) = (above - jumped(point)) / (2.0 * step);
+    point(i) = z(i);
+  }
+  return result;
+}
+
 Eigen::VectorXd ModeCoordinates::gradient(const Eigen::VectorXd& z,
                                           const Eigen::VectorXd& scales) const {
   Eigen::VectorXd result(z.size());

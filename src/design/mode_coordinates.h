@@ -30,11 +30,17 @@ class ModeCoordinates {
   /// @param scales  d entries > 0: sizes of usual changes of z
   Eigen::VectorXd gradient(const Eigen::VectorXd& z, const Eigen::VectorXd& scales) const;
 
+  /// The Jacobian in z of what a jump makes of it, T(sat(g(sat(Θ(z))))), likewise: d x d.
+  /// @pre the plant jumps and does not switch
+  Eigen::MatrixXd jump_gradient(const Eigen::VectorXd& z, const Eigen::VectorXd& scales) const;
+
   /// (h, T_1, …, T_d, Φ) as the formulas give them, less what they are: h, and the derivative along
   /// the flow of the one before. d + 1 entries, the first T_1 − h.
   Eigen::VectorXd derivative_errors(const Eigen::VectorXd& x) const;
 
  private:
+  Eigen::VectorXd jumped(const Eigen::VectorXd& z) const;
+
   const TransformedHighGainObserver& law_;
   std::size_t mode_;
   const TransformedHighGainObserver::Maps& maps_;

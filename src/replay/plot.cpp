@@ -19,6 +19,7 @@ void draw_plot(const ReplaySummary& summary, const std::string& path) {
   json["title"] = summary.observer + " on " + summary.bag.substr(summary.bag.rfind('/') + 1) +
                   ": " + std::to_string(summary.samples_used) + " samples used";
   json["sample_times"] = summary.sample_times;
+  json["jump_times"] = summary.jump_times;
   for (const QuantityPlot& plot : summary.plots) {
     json["quantities"].push_back({{"name", plot.name},
                                   {"truth", to_json(plot.truth)},

@@ -141,6 +141,8 @@ struct ReplaySummary {
   std::vector<QuantityPlot> plots;
   /// Of the samples used, as in the plots.
   std::vector<double> sample_times;
+  /// Of the jumps used and not taken back, likewise.
+  std::vector<double> jump_times;
 };
 
 /// The summary as a table for people.

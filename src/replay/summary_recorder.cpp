@@ -19,8 +19,19 @@ void SummaryRecorder::add_missing_topic(const std::string& name, const std::stri
 void SummaryRecorder::add_event(const Event& event, const EventReport& report,
                                 const std::string& reason) {
   count(event, report, reason);
-  if (report.used() && event.kind == EventKind::kSample) {
-    plot_sample(static_cast<std::size_t>(event.sensor), event);
+  if (!report.used()) return;
+  if (event.kind == EventKind::kSample) plot_sample(static_cast<std::size_t>(event.sensor), event);
+  if (event.kind == EventKind::kJump) {
+    Event jump = event;
+    jump.values = nullptr;
+    jump.size = 0;
+    plotted_jumps_.push_back(jump);
+  }
+  if (event.kind == EventKind::kWithdrawal) {
+    const auto is_taken_back = [&](const Event& jump) { return withdraws(event, jump); };
+    plotted_jumps_.erase(
+        std::remove_if(plotted_jumps_.begin(), plotted_jumps_.end(), is_taken_back),
+        plotted_jumps_.end());
   }
 }
 
@@ -123,6 +134,9 @@ void SummaryRecorder::plot(Series& series, Stamp stamp, double value) {
 
 ReplaySummary SummaryRecorder::summary() {
   summarize_sensors();
+  for (const Event& jump : plotted_jumps_) {
+    summary_.jump_times.push_back(plot_time(jump.stamp));
+  }
   return std::move(summary_);
 }
 

@@ -44,6 +44,7 @@ class SummaryRecorder {
   std::vector<Quantity> plotted_;
   std::optional<Stamp> plot_origin_;
   std::vector<std::vector<Stamp>> used_stamps_;  ///< of the samples of each sensor
+  std::vector<Event> plotted_jumps_;             ///< used and not taken back, without their values
   std::optional<BoundLoss> bound_loss_;
   ReplaySummary summary_;
 };

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <string>
 
 #include "design/mode_coordinates.h"
@@ -70,6 +72,63 @@ TEST(EllCheck, NamesTheSecondEquilibrium) {
   const std::string report = ell_report(low.law, {check});
   EXPECT_NE(std::string::npos, report.find("SECOND EQUILIBRIUM at")) << report;
   EXPECT_NE(std::string::npos, report.find("at its bounds: x")) << report;
+}
+
+/// Jumps of it multiply the error of v and mix it into x.
+std::string kicked(const std::string& jump) {
+  return R"(
+observer: HighGainObserver
+plant:
+  states: [x, v]
+  flow: {x: v, v: -v}
+  jump_map: {formulas: {)" +
+         jump + R"(}}
+sensors: {y: {h: [x], measured: continuous, source: {topic: y}}}
+sampling: {T1: 0.01, T2: 0.01}
+gains:
+  form: transformed
+  K: [2, 1]
+  T: [x, v]
+  Theta: {x: z1, v: z2}
+  Phi: -v
+  saturations: {x: [-10, 10], v: [-10, 10]}
+  ell: 5
+)";
+}
+
+TEST(EllCheck, FindsTheGainOfCorollary41ForJumps) {
+  const Subject linear(kicked("x: 0.5*x + 0.2*v, v: 3*v"));
+  const EllCheck check = check_ell(linear.law, 0, 400, 0.5);
+  // By the definition: P = [0.5, -0.5; -0.5, 1.5] of (A - K H)' P + P (A - K H) = -I, and Phi has
+  // the slopes 0 and 1.
+  const double of_Phi = 2.0 * std::sqrt(0.5 * 0.5 + 1.5 * 1.5);
+  EXPECT_NEAR(of_Phi, check.sufficient_ell, 1e-4);
+  Eigen::Matrix2d P;
+  P << 0.5, -0.5, -0.5, 1.5;
+  const auto worst = [&](double ell) {
+    Eigen::Matrix2d J;
+    J << 0.5, 0.2 * ell, 0.0, 3.0;
+    double largest = 0.0;
+    for (int k = 0; k < 10000; ++k) {
+      const Eigen::Vector2d e(std::cos(k * 3.1416e-4), std::sin(k * 3.1416e-4));
+      largest = std::max(largest, (J * e).dot(P * (J * e)) / e.dot(P * e));
+    }
+    return std::log(largest) - 0.5 * (ell - of_Phi) / (1.0 + std::sqrt(0.5));
+  };
+  EXPECT_LT(worst(check.ell_for_jumps), 0.0);
+  EXPECT_GT(worst(check.ell_for_jumps / 1.06), 0.0);
+  // A nonlinear map with these slopes at most needs no more, and nearly as much.
+  const Subject turned(kicked("x: 0.5*x + 0.2*v, v: -3*v"));
+  const double of_both =
+      std::max(check.ell_for_jumps, check_ell(turned.law, 0, 400, 0.5).ell_for_jumps);
+  const Subject nonlinear(kicked("x: 0.5*x + 0.2*v, v: 3*sin(v)"));
+  const double of_sine = check_ell(nonlinear.law, 0, 400, 0.5).ell_for_jumps;
+  EXPECT_LE(of_sine, 1.06 * of_both);
+  EXPECT_GE(of_sine, 0.9 * of_both);
+  const std::string report = ell_report(linear.law, {check});
+  EXPECT_NE(std::string::npos, report.find("ell of corollary 4.1 for 0.5 s")) << report;
+  const Subject cube(cubic("3"));
+  EXPECT_THROW(check_ell(cube.law, 0, 100, 0.5), std::invalid_argument);
 }
 
 TEST(EllCheck, TellsFormulasThatAreNoDerivatives) {

@@ -32,6 +32,19 @@ class LaunchNamesTest(FolderTest):
             self.assertEqual(parameters[file + "path"], name)
             self.assertEqual(parameters[file + "text"], "rate: %d\n" % number)
 
+    def test_an_example_takes_files_of_its_folder_and_others(self):
+        example = os.path.join(ROOT, "config", "examples", "bernard2022_neuron_jump_based")
+        mine = self.write("mine.yaml", "rate: 7\n")
+        found = subprocess.check_output(
+            ["roslaunch", "--dump-params",
+             os.path.join(example, "bernard2022_neuron_jump_based.launch"),
+             "scenario:=scenario_delay_1.yaml", "observer:=" + mine])
+        paths = {value for key, value in yaml.safe_load(found).items() if key.endswith("/path")}
+        expected = {os.path.join(example, name)
+                    for name in ("plant.yaml", "scenario_delay_1.yaml", "gains.yaml")} | {mine}
+        self.assertEqual({os.path.realpath(path) for path in paths},
+                         {os.path.realpath(path) for path in expected})
+
     def test_no_include_is_given_its_own_folder(self):
         # Within <include>, $(dirname) is the folder of the included file before roslaunch 1.15.15.
         launches = [path for folder in ("config", "launch", "test")

@@ -303,6 +303,15 @@ class ToolsTest(FolderTest):
         text = self.refuse("replay", *self.replay("--plot", self.path("x.gif")))
         self.assertIn("--plot: expected a file name that ends in .png, .pdf or .svg", text)
 
+    def test_a_picture_shows_the_jumps(self):
+        for scenario, has_jumps in ((SCENARIO, False), (BOUNCING, True)):
+            self.scenario = self.write("scenario.yaml", scenario)
+            self.simulate()
+            self.succeed("replay", *self.replay("--plot", self.path("run.svg")))
+            with open(self.path("run.svg"), encoding="utf-8") as picture:
+                # Matplotlib draws letters, and keeps texts as comments.
+                self.assertEqual("<!-- jumps used -->" in picture.read(), has_jumps)
+
     def test_an_estimate_that_diverges_has_an_exit_status_of_its_own(self):
         self.simulate()
         self.assertNotIn("DIVERGED", self.succeed("replay", *self.replay()))

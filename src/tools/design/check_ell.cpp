@@ -1,5 +1,6 @@
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@ namespace {
 struct CheckEllArguments {
   std::vector<std::string> files;
   std::size_t points = 2000;
+  std::optional<double> dwell_time;  // [s]
 };
 
 void check_ell_command(const CheckEllArguments& arguments) {
@@ -32,10 +34,13 @@ void check_ell_command(const CheckEllArguments& arguments) {
   if (law->plant().outputs(SensorTiming::kContinuous) != 1) {
     throw DesignError("expected a plant with one output, found several: they are not tried");
   }
+  if (arguments.dwell_time && (!law->plant().jumps() || law->plant().switches())) {
+    throw DesignError("--dwell-time: expected a plant that jumps and does not switch");
+  }
   std::vector<EllCheck> checks;
   bool has_second = false;
   for (std::size_t mode = 0; mode < law->maps().size(); ++mode) {
-    checks.push_back(check_ell(*law, mode, arguments.points));
+    checks.push_back(check_ell(*law, mode, arguments.points, arguments.dwell_time));
     has_second = has_second || checks.back().second.has_value();
   }
   std::printf("%s", ell_report(*law, checks).c_str());
@@ -51,6 +56,10 @@ void add_check_ell(CommandLine& tool) {
   command.argument("CONFIG...", arguments->files, "Files of an observer: plant, sensors, gains");
   command.option("--points N", arguments->points, "How many points of the box to try")
       .check(whole_number_between(10, 1000000));
+  command
+      .option("--dwell-time SECONDS", arguments->dwell_time,
+              "Shortest time between jumps, or an average one: for the ell of corollary 4.1")
+      .check(number_above(0));
   command.action([arguments] {
     check_ell_command(*arguments);
     return 0;
