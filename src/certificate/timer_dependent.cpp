@@ -1,4 +1,3 @@
-#include "certificate/timer_dependent.h"
 
 #include <cmath>
 #include <functional>
@@ -8,7 +7,8 @@
 
 #include "certificate/theorems.h"
 #include "certificate/timer_dependent_bound.h"
-#include "certificate/timer_dependent_conditions.h"
+#include "certificate/timer_dependent_theorem.h"
+#include "certificate/timer_grid.h"
 
 namespace sampled_data_observers {
 namespace {
@@ -28,22 +28,10 @@ struct TimerDependentVariant {
   bool is_scheduled = false;
 };
 
-std::vector<double> shortest_of(const CertificateSubject& subject) {
-  std::vector<double> all;
-  for (const SamplingTimes& times : times_of_timers(subject)) all.push_back(times.T1);
-  return all;
-}
-
-std::vector<double> longest_of(const CertificateSubject& subject) {
-  std::vector<double> all;
-  for (const SamplingTimes& times : times_of_timers(subject)) all.push_back(times.T2);
-  return all;
-}
-
 /// Observers of plants that do not jump.
-class TimerDependentTheorem : public Theorem {
+class SampledTimerTheorem : public TimerDependentTheorem {
  public:
-  explicit TimerDependentTheorem(TimerDependentVariant variant) : variant_(std::move(variant)) {}
+  explicit SampledTimerTheorem(TimerDependentVariant variant) : variant_(std::move(variant)) {}
 
   std::string name() const override { return variant_.name; }
   std::string guarantee() const override { return kGuarantee; }
@@ -113,7 +101,7 @@ class TimerDependentTheorem : public Theorem {
   }
 
   std::vector<NamedShape> multipliers(const CertificateSubject& subject) const override {
-    std::vector<NamedShape> all = function(subject).shapes();
+    std::vector<NamedShape> all = TimerDependentTheorem::multipliers(subject);
     if (!variant_.is_scheduled) return all;
     std::vector<NamedShape> scalars;  // P is a gain
     for (const NamedShape& shape : all) {
@@ -122,54 +110,16 @@ class TimerDependentTheorem : public Theorem {
     return scalars;
   }
 
-  std::vector<NamedShape> parameters(const CertificateSubject& subject) const override {
-    std::vector<NamedShape> all = {scalar_shape("lambda_t")};
-    if (subject.plant.N.cols() > 0) all.push_back(scalar_shape("gamma"));
-    return all;
-  }
-
-  std::vector<std::string> unlimited_multipliers(const CertificateSubject& subject) const override {
-    std::vector<std::string> names;
-    for (const NamedShape& shape : multipliers(subject)) {
-      if (shape.name == "P_rest" || shape.name.rfind("nu/", 0) == 0) names.push_back(shape.name);
-    }
-    return names;
-  }
-
-  std::string decay_parameter() const override { return "lambda_t"; }
-
-  bool is_homogeneous(const CertificateSubject& subject) const override {
-    return subject.plant.N.cols() == 0;
-  }
-
-  std::vector<Condition> conditions(const CertificateSubject& subject) const override {
-    std::vector<Condition> all;
-    bool has_grid = true;
-    for (const SamplingTimes& times : times_of_timers(subject)) {
-      has_grid &= 0.0 <= times.T1 && times.T1 <= times.T2 && times.T2 > 0.0;
-      for (Condition& domain : domain_of_times(times.T1, times.T2)) {
-        all.push_back(std::move(domain));
-      }
-    }
-    if (!has_grid) return all;
-    for (const NamedShape& parameter : parameters(subject)) all.push_back(positive(parameter.name));
-    if (!subject.plant.is_linear() && subject.plant.vertices.empty()) {
-      all.push_back({"lipschitz_constant >= 0", *subject.plant.lipschitz_constant, std::nullopt,
-                     Condition::Kind::kNonNegative});
-    }
-    for (Condition& condition : function(subject).conditions()) all.push_back(std::move(condition));
-    return all;
-  }
-
   std::unique_ptr<const ErrorBound> error_bound(
       const CertificateSubject& subject, const NamedMatrices& values,
       const ErrorAssumptions& assumptions) const override {
-    return std::make_unique<const TimerDependentBound>(function(subject), longest_of(subject),
+    return std::make_unique<const TimerDependentBound>(function(subject), longest_times(subject),
                                                        values, assumptions);
   }
 
-  TimerDependentFunction function(const CertificateSubject& subject) const {
-    return {variant_.error(subject), grid_of(subject), shortest_of(subject)};
+ protected:
+  ErrorSystem error(const CertificateSubject& subject) const override {
+    return variant_.error(subject);
   }
 
  private:
@@ -178,36 +128,29 @@ class TimerDependentTheorem : public Theorem {
 
 }  // namespace
 
-std::optional<TimerDependentFunction> timer_dependent_function(const Theorem& theorem,
-                                                               const CertificateSubject& subject) {
-  const auto* own = dynamic_cast<const TimerDependentTheorem*>(&theorem);
-  if (own == nullptr) return std::nullopt;
-  return own->function(subject);
-}
-
 const Theorem& timer_dependent_constant_gain() {
-  static const TimerDependentTheorem theorem(
+  static const SampledTimerTheorem theorem(
       {"timer_dependent_constant_gain", "ConstantGainObserver", constant_gain_error});
   return theorem;
 }
 
 const Theorem& timer_dependent_intersample_injection() {
-  static const TimerDependentTheorem theorem({"timer_dependent_intersample_injection",
-                                              "IntersampleInjectionObserver", injection_error, true,
-                                              true});
+  static const SampledTimerTheorem theorem({"timer_dependent_intersample_injection",
+                                            "IntersampleInjectionObserver", injection_error, true,
+                                            true});
   return theorem;
 }
 
 const Theorem& timer_dependent_sample_and_hold() {
-  static const TimerDependentTheorem theorem(
+  static const SampledTimerTheorem theorem(
       {"timer_dependent_sample_and_hold", "SampleAndHoldObserver", held_injection_error});
   return theorem;
 }
 
 const Theorem& timer_dependent_scheduled_gain() {
-  static const TimerDependentTheorem theorem({"timer_dependent_scheduled_gain",
-                                              "TimeVaryingGainObserver", scheduled_gain_error,
-                                              false, false, true});
+  static const SampledTimerTheorem theorem({"timer_dependent_scheduled_gain",
+                                            "TimeVaryingGainObserver", scheduled_gain_error, false,
+                                            false, true});
   return theorem;
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "certificate/proof_fingerprint.h"
+#include "certificate/timer_grid.h"
 #include "config/claimed_gains.h"
 #include "config/event_times.h"
 #include "config/named_values.h"
@@ -47,6 +48,20 @@ CertificateSubject read_subject(ConfigSection& section, const Plant& plant) {
   return subject;
 }
 
+/// Gains that depend on timers are proved on the grid on which the law interpolates them.
+void require_same_nodes(ConfigSection& section, const Certificate& certificate) {
+  const CertificateSubject& subject = certificate.subject;
+  for (std::size_t i = 0; i < subject.plant.sampled.size(); ++i) {
+    const std::string& sensor = subject.plant.sampled[i].sensor;
+    const auto timers = certificate.values.find("timers/" + sensor);
+    if (timers == certificate.values.end()) continue;
+    const std::vector<double>& nodes = grid_of(subject).nodes(i);
+    if (std::equal(nodes.begin(), nodes.end(), timers->second.data())) continue;
+    throw section.error("timer_nodes", "for sensor '" + sensor + "' those of gains/timers",
+                        "others");
+  }
+}
+
 }  // namespace
 
 std::optional<CertificateConfig> read_certificate(ConfigSection& root, const Plant& plant,
@@ -78,6 +93,7 @@ std::optional<CertificateConfig> read_certificate(ConfigSection& root, const Pla
   certificate.values.merge(read_named_values(section, theorem.multipliers(certificate.subject)));
   certificate.values.merge(
       gains_of_theorem(root.section("gains"), theorem, certificate.subject, law));
+  require_same_nodes(section, certificate);
   if (section.has("proof_hash")) {
     config.is_proved = section.text("proof_hash") == proof_fingerprint(certificate);
   }

@@ -124,6 +124,7 @@ const std::vector<const DesignMethod*>& design_methods() {
       &sferlazza2019_equation17_design(),
       &timer_dependent_constant_gain_design(),
       &timer_dependent_scheduled_gain_design(),
+      &timer_dependent_jump_gain_design(),
       &timer_dependent_alternating_gain(),
       &timer_dependent_alternating_injection(),
       &timer_dependent_alternating_hold(),

@@ -86,7 +86,8 @@ bool bounds_disturbances(const Theorem& theorem) {
 
 bool has_final_error_level(const Theorem& theorem) {
   return theorem.name() == "ferrante2019_theorem2" || theorem.name() == "ferrante2016_theorem1" ||
-         theorem.name().rfind("timer_dependent", 0) == 0;
+         (theorem.name().rfind("timer_dependent", 0) == 0 &&
+          theorem.name() != "timer_dependent_synchronized");
 }
 
 void minimize_final_error(LmiProgram& program, const Theorem& theorem,

@@ -107,6 +107,7 @@ PlantScaling scaling_of(const Theorem& theorem, const CertificateSubject& subjec
       auto unit = scaling.output.segment(outputs.first, outputs.rows);
       unit.setConstant(geometric_mean(unit));
     }
+    make_uniform(scaling.jump_output);
   }
   if (kept.of_outputs) {
     make_uniform(scaling.output);

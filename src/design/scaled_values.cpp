@@ -44,7 +44,11 @@ class Unscaling {
     if (base == "P_measured") {
       return level_ * (from_y_.asDiagonal() * value * from_y_.asDiagonal());
     }
-    if (base == "nu") return level_ * value / std::pow(output_of(name)(0), 2);
+    if (base == "nu") {
+      const bool is_at_jumps = scaling_.sampled.empty();
+      const double y = is_at_jumps ? scaling_.jump_output(0) : output_of(name)(0);
+      return level_ * value / (y * y);
+    }
     if (base == "timers") return time * value;
     if (base == "K" && has_norm_of_noise(theorem_)) return gain(1.0, value, output_of(name));
     if (base == "S") return form_of_output_at_switches(value);

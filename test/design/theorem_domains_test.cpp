@@ -37,10 +37,11 @@ CertificateSubject subject_of(const Theorem& theorem) {
     plant.C_p = row;
   }
   if (is_of("sferlazza2019_equation17")) plant.modes.front().C = Eigen::MatrixXd::Identity(2, 2);
-  if (is_of("bernard2022")) {
+  if (is_of("bernard2022") || is_of("timer_dependent_synchronized")) {
     ModeMatrices& mode = plant.modes.front();
     mode.label = 1;
     mode.C.resize(0, 2);
+    plant.sampled.clear();
     mode.C_c = row;
     mode.C_d = row;
     mode.A_d = Eigen::MatrixXd::Identity(2, 2);

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -91,6 +93,47 @@ class ConstantJumpGain : public JumpGainDesign {
   }
 };
 
+/// An output at jumps of the plant: P after a jump is always P_0, and L_d = P_0⁻¹ Y.
+class GainAtJumps : public JumpGainDesign {
+ public:
+  std::string name() const override { return "timer_dependent_jump_gain"; }
+  std::string summary() const override {
+    return "gain L_d at jumps of the plant, by a Lyapunov function that depends on the time since "
+           "the last one";
+  }
+  const Theorem& theorem() const override { return *find_theorem("timer_dependent_synchronized"); }
+
+  void require_applicable(const CertificateSubject& subject) const override {
+    require_subject(theorem(), subject);
+    if (subject.plant.mode().C_c.rows() == 0) return;
+    throw std::invalid_argument(
+        "it is about an output at jumps alone, and one in flow is measured");
+  }
+
+  LmiProgram program(const CertificateSubject& given, const Parameters& parameters,
+                     Objective objective) const override {
+    const CertificateSubject subject = timer_dependent_subject(given, parameters, objective);
+    LmiProgram program;
+    const MatrixExpression Y =
+        program.matrix("Y", subject.plant.states(), subject.plant.mode().C_d.rows());
+    const GainProducts products = {[Y](std::size_t, std::size_t) { return Y; }, std::nullopt};
+    return program_of(subject, parameters, objective, synchronized_error, products,
+                      std::move(program));
+  }
+
+  std::vector<Objective> objectives(const CertificateSubject& subject) const override {
+    std::vector<Objective> all = timer_dependent_objectives(subject);
+    all.erase(std::remove(all.begin(), all.end(), Objective::kMinFinalError), all.end());
+    return all;
+  }
+
+ protected:
+  NamedMatrices gains(const CertificateSubject&, const Parameters&,
+                      const NamedMatrices& solution) const override {
+    return {{"L_d", solve_definite(solution.at("P/0"), solution.at("Y"))}};
+  }
+};
+
 /// Gains that are interpolated between nodes of the timers (ScheduledGains).
 class ScheduledJumpGain : public JumpGainDesign {
  public:
@@ -164,6 +207,11 @@ class ScheduledJumpGain : public JumpGainDesign {
 
 const DesignMethod& timer_dependent_scheduled_gain_design() {
   static const ScheduledJumpGain method;
+  return method;
+}
+
+const DesignMethod& timer_dependent_jump_gain_design() {
+  static const GainAtJumps method;
   return method;
 }
 
