@@ -197,6 +197,22 @@ TEST(CertifiedConfigTest, RefusesWhatIsNotProved) {
   }
 }
 
+const char kTwoSensors[] = "test/certificate/two_sensors.yaml";
+
+TEST(CertifiedConfigTest, ComparesTheTimesOfEachSensorWithItsOwnOfTheProof) {
+  EXPECT_EQ("", CertifiedGains(kTwoSensors).config().warning);
+  EXPECT_NE("", CertifiedGains(kTwoSensors).config().guarantee);
+  // Inside those of gps, but not of wheel, and the other way round.
+  expect_parts(refusal_of(CertifiedGains(kTwoSensors).with("sampling: {wheel: {T2: 0.5}}")),
+               {"sampling/wheel: expected T1 and T2 inside [0.05, 0.2] s", "[0.05, 0.5] s"});
+  expect_parts(refusal_of(CertifiedGains(kTwoSensors).with("sampling: {gps: {T1: 0.1}}")),
+               {"sampling/gps: expected T1 and T2 inside [0.2, 1] s", "found [0.1, 1] s"});
+  const auto own =
+      CertifiedGains(kTwoSensors).with("sensors: {gps: {sampling: {T1: 0.3, T2: 0.5}}}").config();
+  EXPECT_EQ("", own.warning);
+  EXPECT_EQ(from_seconds(0.5), own.options.sampling.of_sensor(0).T2);
+}
+
 TEST(CertifiedConfigTest, TakesAverageDwellTimesThatImplyThatOfTheProof) {
   const char kAveraged[] = "test/certificate/bernard2022_bouncing_ball_reverse_average.yaml";
   const auto averaged = [&](const std::string& jumps) {
