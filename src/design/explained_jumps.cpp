@@ -34,7 +34,7 @@ void say_output_at_jumps(ExplanationContext& c, const ModeMatrices& mode) {
   double least = std::numeric_limits<double>::infinity();
   double where = c.subject.T1;
   for (int i = 0; i < kJumpTimes; ++i) {
-    const double tau = c.subject.T1 + (c.subject.T2 - c.subject.T1) * i / (kJumpTimes - 1);
+    const double tau = c.subject.T1 + (c.longest() - c.subject.T1) * i / (kJumpTimes - 1);
     const DiscretePair pair = pair_at_jumps(mode.A, *mode.A_d, mode.C_d, tau);
     if (!is_detectable(pair.F, pair.H, TimeDomain::kDiscrete)) undetectable.push_back(tau);
     const double margin = detectability_margin(pair.F, pair.H, TimeDomain::kDiscrete);
@@ -69,27 +69,28 @@ void say_dwell_times(ExplanationContext& c, const ModeMatrices& mode) {
   const double at_jump = spectral_radius(*mode.A_d);
   const double in_flow = spectral_abscissa(mode.A);
   if (mode.C_c.rows() > 0) {
-    const double needed = c.has_times() && at_jump > 1.0 ? std::log(at_jump) / c.subject.T1 : 0.0;
+    const bool has_shortest = c.has_times() && c.subject.T1 > 0.0;
+    const double needed = has_shortest && at_jump > 1.0 ? std::log(at_jump) / c.subject.T1 : 0.0;
     c.out.paragraph(
         "Flow-based (gain on y_c, jumps copied): the error must shrink in flow by more than it "
         "grows at a jump, bernard2022 (C1). Jumps multiply it by " +
         brief(at_jump) + " or more in the long run" +
-        (at_jump <= 1.0  ? ", so that any rate of decay in flow may do."
-         : c.has_times() ? ": at jumps T1 apart, that takes a rate of decay of more than " +
-                               brief(needed) + " 1/s."
-                         : "."));
+        (at_jump <= 1.0 ? ", so that any rate of decay in flow may do."
+         : has_shortest ? ": at jumps T1 apart, that takes a rate of decay of more than " +
+                              brief(needed) + " 1/s."
+                        : "; there must be a shortest time T1, or an average dwell time."));
     const std::vector<Mode> unseen = unseen_modes(mode.A, mode.C_c);
-    if (!unseen.empty() && c.has_times() && -unseen.front().eigenvalue.real() <= needed) {
+    if (!unseen.empty() && has_shortest && -unseen.front().eigenvalue.real() <= needed) {
       c.out.bullet("what y_c does not show decays at " + brief(-unseen.front().eigenvalue.real()) +
                    " 1/s only: (22) can't hold; a longer T1 or another output is needed");
     }
   }
   if (mode.C_d.rows() > 0) {
-    const double grown = c.has_times() ? std::exp(in_flow * c.subject.T2) : 0.0;
+    const double grown = c.has_longest() ? std::exp(in_flow * c.longest()) : 0.0;
     c.out.paragraph(
         "Jump-based (gain on y_d, flow copied): the error must shrink at a jump by more than it "
         "grows in flow, bernard2022 (C2)" +
-        (c.has_times() && in_flow > 0.0
+        (c.has_longest() && in_flow > 0.0
              ? ". Flow multiplies it by about " + brief(grown) + " in T2."
          : in_flow > 0.0 ? "; there must be a longest time T2."
                          : ". Flow does not multiply it exponentially."));
@@ -97,7 +98,7 @@ void say_dwell_times(ExplanationContext& c, const ModeMatrices& mode) {
     for (const Mode& unseen : unseen_modes(*mode.A_d, mode.C_d)) {
       unseen_factor = std::max(unseen_factor, std::abs(unseen.eigenvalue));
     }
-    if (unseen_factor * std::exp(in_flow * c.subject.T2) >= 1.0) {
+    if (unseen_factor * std::exp(in_flow * c.longest()) >= 1.0) {
       c.out.bullet("what y_d does not show of the jumps is multiplied by " + brief(unseen_factor) +
                    " at each: (26), which takes flow and jumps one by one, can't hold; (32) and "
                    "(36), which take them together, may");

@@ -13,7 +13,7 @@ constexpr int kTimes = 101;
 void say_samples(ExplanationContext& c, const ModeMatrices& mode) {
   const double beat = longest_beat(mode.A);
   const std::vector<PathologicalInterval> all =
-      pathological_intervals(mode.A, mode.C, std::max(c.subject.T2, beat));
+      pathological_intervals(mode.A, mode.C, std::max(c.longest(), beat));
   std::vector<PathologicalInterval> within;
   for (const PathologicalInterval& interval : all) {
     if (c.has_times() && c.subject.T1 <= interval.tau && interval.tau <= c.subject.T2) {
@@ -23,7 +23,7 @@ void say_samples(ExplanationContext& c, const ModeMatrices& mode) {
   if (c.has_times()) {
     std::vector<double> times;
     for (int i = 0; i < kTimes; ++i) {
-      times.push_back(c.subject.T1 + (c.subject.T2 - c.subject.T1) * i / (kTimes - 1));
+      times.push_back(c.subject.T1 + (c.longest() - c.subject.T1) * i / (kTimes - 1));
     }
     // Between those the dip may be narrow.
     for (const PathologicalInterval& interval : within) times.push_back(interval.tau);

@@ -1,6 +1,7 @@
 #include "design/explanation.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -169,7 +170,7 @@ class Explanation {
 
   /// Only where T2 comes close: designs for longer or much shorter times work well.
   void say_nearest_pathology(const ModeMatrices& mode) {
-    if (mode.C.rows() == 0 || !c_.has_times() || c_.has_several_sensors()) return;
+    if (mode.C.rows() == 0 || !c_.has_longest() || c_.has_several_sensors()) return;
     for (const PathologicalInterval& interval :
          pathological_intervals(mode.A, mode.C, c_.subject.T2 / kClose)) {
       if (interval.decays || interval.tau <= c_.subject.T2) continue;
@@ -206,5 +207,10 @@ class Explanation {
 }  // namespace
 
 std::string explain(const CertificateSubject& subject) { return Explanation(subject).text(); }
+
+double longest_looked_at(const CertificateSubject& subject) {
+  constexpr double kTypicalTimes = 10.0;
+  return std::isfinite(subject.T2) ? subject.T2 : kTypicalTimes * time_scale(subject);
+}
 
 }  // namespace sampled_data_observers

@@ -10,8 +10,13 @@ namespace sampled_data_observers {
 /// Why designs for a plant can or can't exist, in words: its modes, what its outputs show of them,
 /// in flow, at samples and at jumps, what that asks of the times between events, which methods are
 /// about the plant, and what to try. Lines of at most 96 columns.
-/// @param subject  T1 and T2 may be 0: then nothing is said of them
+/// @param subject  T1 and T2 may be 0: then nothing is said of them; where T2 is infinite, times up
+/// to
+///                 longest_looked_at() are looked at
 std::string explain(const CertificateSubject& subject);
+
+/// T2, or, where there is none, ten times what is typical of the plant (time_scale()) [s].
+double longest_looked_at(const CertificateSubject& subject);
 
 /// A measure of observability over the time τ between events.
 struct ObservabilityCurve {

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <vector>
 
 #include "certificate/certificate.h"
+#include "design/explanation.h"
 #include "design/observability.h"
 #include "design/paragraphs.h"
 
@@ -22,9 +24,16 @@ struct ExplanationContext {
       : subject(about), plant(about.plant) {}
 
   bool has_times() const { return subject.T2 > 0.0; }
+  bool has_longest() const { return has_times() && std::isfinite(subject.T2); }
   std::string times() const {
-    return "[T1, T2] = [" + brief(subject.T1) + ", " + brief(subject.T2) + "] s";
+    if (has_longest()) {
+      return "[T1, T2] = [" + brief(subject.T1) + ", " + brief(subject.T2) + "] s";
+    }
+    return "T1 = " + brief(subject.T1) + " s and more, of which those up to " +
+           brief(longest_looked_at(subject)) + " s are looked at";
   }
+  /// Of times between events [s].
+  double longest() const { return longest_looked_at(subject); }
   bool has_several_sensors() const { return plant.sampled.size() > 1; }
   bool has_times_of_sensors() const { return !subject.sensor_times.empty(); }
   /// Else jumps or other modes may show what one flow does not.

@@ -18,10 +18,11 @@ double first_pathological(const ModeMatrices& mode) {
 }
 
 double longest_drawn(const CertificateSubject& subject) {
-  double longest = 1.5 * subject.T2;
+  const double T2 = longest_looked_at(subject);
+  double longest = 1.5 * T2;
   for (const ModeMatrices& mode : subject.plant.modes) {
     const double first = mode.C.rows() > 0 ? 1.1 * first_pathological(mode) : 0.0;
-    if (subject.T2 == 0.0 || first <= kFar * subject.T2) longest = std::max(longest, first);
+    if (T2 == 0.0 || first <= kFar * T2) longest = std::max(longest, first);
   }
   if (longest > 0.0) return longest;
   const double scale = norm2(subject.plant.A());

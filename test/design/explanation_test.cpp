@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 #include "design/design_method.h"
@@ -188,6 +189,25 @@ TEST(ObservabilityCurves, ReachZeroAtPathologicalIntervals) {
   ASSERT_EQ(curves.size(), 1u);
   EXPECT_LT(*std::min_element(curves[0].value.begin(), curves[0].value.end()), 1e-12);
   EXPECT_GT(curves[0].tau.back(), times[0]);
+}
+
+TEST(Explanation, ALongestTimeMayBeMissing) {
+  CertificateSubject subject = unobserved_impulsive();
+  subject.T2 = std::numeric_limits<double>::infinity();
+  subject.plant.modes.front().C_c = Eigen::RowVector3d(1, 0, 0);
+  EXPECT_TRUE(says(subject, "T1 = 2 s and more, of which those up to 20 s are looked at"));
+  EXPECT_TRUE(says(subject, "bernard2022_equation22 applies"));
+  EXPECT_TRUE(says(subject, "bernard2022_equation26 no:"));
+  EXPECT_EQ(std::string::npos, explain(subject).find("nan"));
+  const std::vector<ObservabilityCurve> curves = observability_curves(subject);
+  ASSERT_FALSE(curves.empty());
+  EXPECT_NEAR(30.0, curves.front().tau.back(), 1e-9);
+  // Nor a shortest one.
+  subject.T1 = 0.0;
+  subject.dwell_time = DwellTime{DwellTime::Kind::kAverage, 0.5, 2.0};
+  *subject.plant.modes.front().A_d *= 2.0;
+  EXPECT_TRUE(says(subject, "there must be a shortest time T1, or an average dwell time"));
+  EXPECT_TRUE(says(subject, "bernard2022_equation22_average_dwell_time applies"));
 }
 
 }  // namespace
