@@ -9,8 +9,10 @@
 #include "design/assumed_disturbance.h"
 #include "design/certify.h"
 #include "design/final_error.h"
+#include "design/methods/gain_bound.h"
 #include "design/methods/methods.h"
 #include "design/methods/timer_dependent.h"
+#include "design/methods/timer_dependent_start.h"
 #include "linear_algebra/matrix_functions.h"
 
 namespace sampled_data_observers {
@@ -31,9 +33,18 @@ class AlternatingDesign : public DesignMethod {
                           Objective objective) const override {
     const CertificateSubject subject = timer_dependent_subject(given, parameters, objective);
     DesignCandidate best;
-    for (const NamedMatrices& gains : starts(subject, parameters, objective)) {
+    const auto offer = [&](const NamedMatrices& gains) {
       DesignCandidate start = with_best_P(subject, parameters, objective, gains);
       if (best.values.empty() || is_better(start, best)) best = std::move(start);
+    };
+    const std::vector<NamedMatrices> all = starts(subject, parameters, objective);
+    for (const NamedMatrices& gains : all) offer(gains);
+    if (!best.is_verified() && !all.empty()) {
+      CertificateSubject undisturbed = subject;
+      undisturbed.plant.N.resize(subject.plant.states(), 0);
+      const auto gains =
+          gains_of_rate(theorem(), undisturbed, all.front(), parameters.at("lambda_t"));
+      if (gains) offer(*gains);
     }
     for (int step = 0; step < kMaxSteps && !best.values.empty(); ++step) {
       const NamedMatrices gains = better_gains(subject, parameters, objective, best.values);
@@ -134,11 +145,26 @@ class AlternatingDesign : public DesignMethod {
       }
     }
     for (const Condition& condition : theorem().conditions(subject)) program.require(condition, 1);
+    for (const std::string& name : bounded_gains(subject))
+      bound(program, subject, name, parameters);
     if (objective == Objective::kMinFinalError) {
       minimize_timer_dependent_level(program, *timer_dependent_function(theorem(), subject),
                                      subject, weights_of_design(subject), parameters, false);
     }
     return program;
+  }
+
+  /// |L| <= gain_bound
+  void bound(LmiProgram& program, const CertificateSubject& subject, const std::string& name,
+             const Parameters& parameters) const {
+    const MatrixExpression k = kBoundShare * parameters.at("gain_bound");
+    for (const NamedShape& shape : theorem().gains(subject)) {
+      if (shape.name != name) continue;
+      const MatrixExpression L = symbol(name, shape.rows, shape.cols);
+      program.bound_above(
+          "norm of " + name, zeros(shape.rows + shape.cols, shape.rows + shape.cols),
+          symmetric_blocks({{k * identity(shape.rows), L}, {k * identity(shape.cols)}}));
+    }
   }
 
   static bool is_better(const DesignCandidate& a, const DesignCandidate& b) {
@@ -213,6 +239,13 @@ class AlternatingInjection : public AlternatingDesign {
                                   : "timer_dependent_intersample_injection");
   }
 
+  std::vector<DesignParameter> parameters(const CertificateSubject& subject) const override {
+    std::vector<DesignParameter> all = AlternatingDesign::parameters(subject);
+    all.push_back({"gain_bound", "bound on the norm of L", 1000.0, std::nullopt});
+    return all;
+  }
+  std::vector<std::string> bounded_gains(const CertificateSubject&) const override { return {"L"}; }
+
   void require_applicable(const CertificateSubject& subject) const override {
     require_subject(theorem(), subject);
     if (subject.plant.sampled.size() == 1) return;
@@ -225,7 +258,6 @@ class AlternatingInjection : public AlternatingDesign {
     std::vector<NamedMatrices> all;
     Parameters own = parameters;
     own["a"] = 0.25 / subject.T2;
-    own["gain_bound"] = 1000.0;
     for (const double delta : {1.0, 4.0, 12.0}) {
       own["delta"] = delta / subject.T2;
       for (const DesignMethod* method : methods()) {
