@@ -29,8 +29,8 @@ struct ExplanationContext {
     if (has_longest()) {
       return "[T1, T2] = [" + brief(subject.T1) + ", " + brief(subject.T2) + "] s";
     }
-    return "T1 = " + brief(subject.T1) + " s and more, of which those up to " +
-           brief(longest_looked_at(subject)) + " s are looked at";
+    return "[T1, T2] = [" + brief(subject.T1) + ", inf] s (looked at up to " + brief(longest()) +
+           " s)";
   }
   /// Of times between events [s].
   double longest() const { return longest_looked_at(subject); }

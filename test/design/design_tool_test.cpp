@@ -376,6 +376,9 @@ TEST_F(DesignTool, ExplainsFirstThatNothingCanConverge) {
   EXPECT_TRUE(explained.says("states that y shows")) << explained.output;
   EXPECT_FALSE(run("explain " + write("plant.yaml", oscillator())).says("states that y shows"));
   EXPECT_GT(run("explain " + plant + " --plot x.gif").status, 99);
+  const ToolRun without_longest = run("explain " + plant + " --T1 0.5 --T2 inf");
+  EXPECT_EQ(0, without_longest.status) << without_longest.output;
+  EXPECT_TRUE(without_longest.says("[0.5, inf] s")) << without_longest.output;
 }
 
 TEST_F(DesignTool, NamesTheModeThatCannotBeDetected) {

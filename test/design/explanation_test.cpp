@@ -195,7 +195,7 @@ TEST(Explanation, ALongestTimeMayBeMissing) {
   CertificateSubject subject = unobserved_impulsive();
   subject.T2 = std::numeric_limits<double>::infinity();
   subject.plant.modes.front().C_c = Eigen::RowVector3d(1, 0, 0);
-  EXPECT_TRUE(says(subject, "T1 = 2 s and more, of which those up to 20 s are looked at"));
+  EXPECT_TRUE(says(subject, "[T1, T2] = [2, inf] s (looked at up to 20 s)"));
   EXPECT_TRUE(says(subject, "bernard2022_equation22 applies"));
   EXPECT_TRUE(says(subject, "bernard2022_equation26 no:"));
   EXPECT_EQ(std::string::npos, explain(subject).find("nan"));

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -32,7 +33,7 @@ constexpr std::size_t kTrajectorySteps = 1000;
 struct ExplainArguments {
   std::vector<std::string> files;
   std::optional<double> T1;  // [s]
-  std::optional<double> T2;  // [s]
+  std::string T2;            // [s], or inf
   std::string plot;
   bool along = false;
   std::vector<std::string> gains;
@@ -109,15 +110,18 @@ void explain_command(const ExplainArguments& arguments) {
   }
   refuse_overwriting(given_files("PLANT", arguments.files), {{"--plot", arguments.plot}});
   CertificateSubject subject = read_design_config(arguments.files, load_plant_plugin).subject;
-  if (arguments.T1 || arguments.T2) require_common_times(subject);
-  if (arguments.T2) {
-    subject.T2 = *arguments.T2;
+  const bool gives_times = arguments.T1 || !arguments.T2.empty();
+  if (gives_times) require_common_times(subject);
+  if (!arguments.T2.empty()) {
+    subject.T2 = std::strtod(arguments.T2.c_str(), nullptr);
     subject.dwell_time.reset();
-    subject.T1 = std::min(subject.T1 > 0.0 ? subject.T1 : subject.T2, subject.T2);
+    if (std::isfinite(subject.T2)) {
+      subject.T1 = std::min(subject.T1 > 0.0 ? subject.T1 : subject.T2, subject.T2);
+    }
   }
   if (arguments.T1) subject.T1 = *arguments.T1;
   if (subject.T1 > subject.T2) throw DesignError("T1 > T2");
-  if (arguments.T1 || arguments.T2) give_to_all_sensors(subject);
+  if (gives_times) give_to_all_sensors(subject);
   std::printf("%s", explain(subject).c_str());
   if (!arguments.plot.empty()) draw(subject, arguments);
 }
@@ -130,8 +134,8 @@ void add_explain(CommandLine& tool) {
   command.argument("PLANT...", arguments->files, "Files with plant, sensors and design");
   command.option("--T1 SECONDS", arguments->T1, "Instead of design/sampling/T1 [s]; 0 for any")
       .check(number_at_least(0));
-  command.option("--T2 SECONDS", arguments->T2, "Instead of design/sampling/T2 [s]")
-      .check(number_above(0));
+  command.option("--T2 SECONDS", arguments->T2, "Instead of design/sampling/T2 [s]; inf for none")
+      .check(number_above_or_infinite(0));
   command
       .option("--plot FILE", arguments->plot,
               "Draw observability over the time between events (.png, .pdf, .svg)")
