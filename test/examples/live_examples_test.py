@@ -21,17 +21,24 @@ SPECIAL = {"bernard2022_neuron_high_gain": (10, 2), "bernard2022_neuron_jump_bas
            "bernard2022_clutch": (10, 4), "bernard2022_impulsive": (40, 16), "sferlazza2019_aircraft_1_3": (40, 8),
            "sferlazza2019_aircraft_4_8": (40, 8)}
 
-# Guarded examples whose jumps are missed, invented and told twice: simulated seconds, those per
-# second, the gains, how often neurons send their potential [s], and what goes wrong.
+# Examples whose jumps are missed, invented and told twice: simulated seconds, those per second, the
+# observer's files, how often neurons send their potential [s], and what goes wrong.
+GUARDED = "observer_guarded.yaml"
 MISTAKEN = {
-    "bernard2022_bouncing_ball": (8, 8, "gains_kalman_jitter.yaml", None, """
+    "bernard2022_bouncing_ball": (8, 8, (GUARDED, "gains_kalman_jitter.yaml"), None, """
 scenario: {seed: 5, jumps: {missed: 0.1, duplicate: 0.2, false_rate: 0.3, stamp_error: 0.002}}
 """),
-    "bernard2022_neuron_high_gain": (50, 10, "gains.yaml", 0.005, """
+    "bernard2022_neuron_high_gain": (50, 10, (GUARDED, "gains.yaml"), 0.005, """
 scenario: {seed: 2, jumps: {missed: 0.3, duplicate: 1, false_rate: 0.1, stamp_error: 0.002}}
 """),
-    "bernard2022_neuron_jump_based": (120, 24, "gains.yaml", 0.02, """
+    "bernard2022_neuron_jump_based": (120, 24, (GUARDED, "gains.yaml"), 0.02, """
 scenario: {seed: 4, jumps: {missed: 0.3, duplicate: 0.5, false_rate: 0.03, stamp_error: 0.01}}
+"""),
+    "bernard2022_impulsive": (30, 15, ("observer.yaml", "gains.yaml"), None, """
+scenario: {seed: 6, jumps: {missed: 0.2, duplicate: 0.5, false_rate: 0.1, stamp_error: 0.02}}
+"""),
+    "bernard2022_switched": (16, 8, ("observer.yaml", "gains.yaml"), None, """
+scenario: {jumps: {missed: 0.2, duplicate: 0.5, false_rate: 0.1, stamp_error: 0.02}}
 """),
 }
 
@@ -77,7 +84,7 @@ class LiveExamplesTest(unittest.TestCase):
     @classmethod
     def mistaken_files(cls, name):
         """Files of the scenario, and of the observer beside them."""
-        _, _, gains, period, mistakes = MISTAKEN[name]
+        _, _, observer, period, mistakes = MISTAKEN[name]
         with open(os.path.join(EXAMPLES, name, "scenario.yaml"), encoding="utf-8") as original:
             scenario = original.read()
         if period is not None:
@@ -88,7 +95,7 @@ class LiveExamplesTest(unittest.TestCase):
         plant = os.path.join(EXAMPLES, name, "plant.yaml")
         return ([plant] * os.path.exists(plant) +
                 [cls.path(name + "_mistaken", file) for file in ("scenario.yaml", "mistakes.yaml")],
-                [os.path.join(EXAMPLES, name, file) for file in ("observer_guarded.yaml", gains)])
+                [os.path.join(EXAMPLES, name, file) for file in observer])
 
     @classmethod
     def launch(cls, run, file, *arguments):
@@ -129,8 +136,9 @@ class LiveExamplesTest(unittest.TestCase):
                 else:
                     outcomes.add(message.outcome)
                     not_possible = message.NOT_POSSIBLE
-        self.assertGreater(missing, 0)
-        self.assertIn(not_possible, outcomes)
+        if GUARDED in MISTAKEN[name][2]:
+            self.assertGreater(missing, 0)
+            self.assertIn(not_possible, outcomes)
         with rosbag.Bag(self.path(run, "simulated.bag")) as bag:
             stamps = sorted(message.header.stamp.to_sec()
                             for _, message, _ in bag.read_messages(["jumps", "/jumps"]))
