@@ -30,11 +30,12 @@ ErrorSystem without_observer(const CertificateSubject& subject, Eigen::Index siz
   return system;
 }
 
-/// A, or A + Ψ_v with each vertex.
-std::vector<Eigen::MatrixXd> flows_of(const PlantMatrices& plant) {
-  if (plant.vertices.empty()) return {plant.A()};
-  std::vector<Eigen::MatrixXd> flows;
-  for (const Eigen::MatrixXd& vertex : plant.vertices) flows.emplace_back(plant.A() + vertex);
+/// A, or A + Ψ_v with each vertex: formulas, since the sum of doubles is rounded.
+std::vector<MatrixExpression> flows_of(const PlantMatrices& plant) {
+  const MatrixExpression A = plant.A();
+  if (plant.vertices.empty()) return {A};
+  std::vector<MatrixExpression> flows;
+  for (const Eigen::MatrixXd& vertex : plant.vertices) flows.push_back(A + vertex);
   return flows;
 }
 
@@ -49,7 +50,7 @@ ErrorSystem corrected_at_samples(
   const PlantMatrices& plant = subject.plant;
   const Eigen::Index n = plant.states();
   ErrorSystem system = without_observer(subject, n);
-  for (const Eigen::MatrixXd& flow : flows_of(plant)) system.F.emplace_back(flow);
+  system.F = flows_of(plant);
   for (std::size_t i = 0; i < plant.sampled.size(); ++i) {
     ErrorReset reset;
     reset.name = plant.sampled[i].sensor;
@@ -82,7 +83,7 @@ ErrorSystem corrected_by_injection(const CertificateSubject& subject, double sig
   }
   const MatrixExpression all_L = blocks({L});
   const MatrixExpression all_H = blocks(H);
-  for (const Eigen::MatrixXd& flow : flows_of(plant)) {
+  for (const MatrixExpression& flow : flows_of(plant)) {
     system.F.push_back(blocks({{flow, all_L}, {zeros(m, n), all_H}}));
   }
   for (const SampledOutputs& outputs : plant.sampled) {
@@ -146,7 +147,7 @@ ErrorSystem synchronized_error(const CertificateSubject& subject) {
   const ModeMatrices& mode = plant.mode();
   const Eigen::Index n = plant.states();
   ErrorSystem system = without_observer(subject, n);
-  for (const Eigen::MatrixXd& flow : flows_of(plant)) {
+  for (const MatrixExpression& flow : flows_of(plant)) {
     MatrixExpression F = flow;
     if (mode.C_c.rows() > 0) F = F - symbol("L_c", n, mode.C_c.rows()) * MatrixExpression(mode.C_c);
     system.F.push_back(F);

@@ -19,8 +19,8 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNanoseconds = 1e9;  // in a second
 constexpr std::size_t kNoTimer = std::numeric_limits<std::size_t>::max();
-/// What rounding may take from a weight between nodes.
-constexpr double kWeightRounding = 1e-12;
+/// P_0 that is computed of other matrices may be off by this share of itself.
+constexpr double kLargestShare = 0.1;
 
 double squared(double value) { return value * value; }
 
@@ -50,6 +50,65 @@ double quotient_above(const Sized& a, const Eigen::MatrixXd& b, const Eigen::Mat
   return std::max(0.0, quotient_above({a.value.transpose() * b * a.value, size}, P));
 }
 
+/// Not less than the largest eigenvalue of Kᵀ P K, which may be small beside what it is summed of.
+double form_above(const Eigen::MatrixXd& K, const Eigen::MatrixXd& P) {
+  if (K.cols() == 0) return 0.0;
+  const double size = (K.cwiseAbs().transpose() * P.cwiseAbs() * K.cwiseAbs()).norm();
+  return largest_eigenvalue_above(K.transpose() * P * K) +
+         1e3 * eigenvalue_rounding(P.rows(), size);
+}
+
+/// How far weights between nodes may be off: those of a cell that is narrow beside its time the
+/// most.
+double weight_rounding_of(const TensorGrid& grid) {
+  double largest = 0.0;
+  for (std::size_t timer = 0; timer < grid.dimensions(); ++timer) {
+    const std::vector<double>& nodes = grid.nodes(timer);
+    for (std::size_t i = 1; i < nodes.size(); ++i) {
+      largest = std::max(largest, nodes[i] / (nodes[i] - nodes[i - 1]));
+    }
+  }
+  return 16.0 * std::numeric_limits<double>::epsilon() * largest;
+}
+
+/// δ of P <= (1 + δ) P_k and P_k <= (1 + δ) P, P_k being exact and P its computed value.
+double share_of_rounding(const MatrixExpression& P, const NamedMatrices& values) {
+  const RoundedMatrix rounded = evaluate_with_rounding(P, values);
+  const Eigen::MatrixXd inverse_R = inverse_of(cholesky_root(rounded.value)).cwiseAbs();
+  const double share = 2.0 * std::numeric_limits<double>::epsilon() *
+                       (inverse_R.transpose() * rounded.error * inverse_R).norm();
+  if (share <= kLargestShare) return share;
+  throw std::invalid_argument(
+      "P/0 is lost in rounding: write states in units in which they are of like size, and design "
+      "again");
+}
+
+/// √(δKᵀ P⁺ δK) at most, of what ScheduledGain::evaluate() computes. Its Cholesky factors solve for
+/// P⁺ + δP with |δP| <= n (n + 10) ε/2 d dᵀ, d² the diagonal, and what it solves for is off by as
+/// much of d |d K|, and by the weights.
+double gain_rounding_of(const std::vector<Eigen::MatrixXd>& P, const TensorGrid& grid,
+                        const ErrorReset& reset, std::size_t timer, const NamedMatrices& values,
+                        double weight_rounding) {
+  if (reset.is_constant) return 0.0;
+  const auto n = static_cast<double>(P.front().rows());
+  Eigen::VectorXd d = Eigen::VectorXd::Zero(P.front().rows());
+  for (std::size_t k = 0; k < grid.size(); ++k) {
+    d = d.cwiseMax(P[grid.with_first(k, timer)].diagonal().cwiseSqrt());
+  }
+  const Eigen::VectorXd inverse_d = d.cwiseInverse();
+  double least = 1.0;
+  double largest = 0.0;
+  for (std::size_t k = 0; k < grid.size(); ++k) {
+    const std::size_t first = grid.with_first(k, timer);
+    const Eigen::MatrixXd scaled = inverse_d.asDiagonal() * P[first] * inverse_d.asDiagonal();
+    least = std::min(least, positive_least_eigenvalue(scaled, "P/" + std::to_string(first)));
+    largest = std::max(largest, (d.asDiagonal() * evaluate(reset.K(k), values)).norm());
+  }
+  const double share = 64.0 * n * n * std::numeric_limits<double>::epsilon() +
+                       static_cast<double>(TensorGrid::kMaxVertices) * n * weight_rounding;
+  return share * std::sqrt(n) / least * largest;
+}
+
 /// Not less than P⁻¹, whatever rounding has done to the value of P.
 Eigen::MatrixXd inverse_of_exact(const MatrixExpression& P, const NamedMatrices& values,
                                  const std::string& name) {
@@ -71,7 +130,7 @@ TimerDependentBound::TimerDependentBound(const TimerDependentFunction& function,
     : grid_(function.grid()),
       shortest_(function.shortest()),
       longest_(std::move(longest)),
-      rate_(2.0 * scalar_value(values, "lambda_t")),
+      weight_rounding_(weight_rounding_of(grid_)),
       noise_(assumptions.noise),
       initial_error_(assumptions.initial_error),
       initial_injection_(assumptions.initial_injection),
@@ -88,9 +147,10 @@ TimerDependentBound::TimerDependentBound(const TimerDependentFunction& function,
     if (reset.position >= timer_of_.size()) timer_of_.resize(reset.position + 1, kNoTimer);
     timer_of_[reset.position] = timer;
     nu_.push_back(reset.C.rows() > 0 ? scalar_value(values, "nu/" + reset.name) : 0.0);
+    output_norm_.push_back(reset.C.rows() > 0 ? raised(norm2(reset.C)) : 0.0);
   }
   compute_nodes(function, values);
-  compute_late_growth(function, values);
+  compute_growth(function, values);
 }
 
 void TimerDependentBound::compute_nodes(const TimerDependentFunction& function,
@@ -100,28 +160,40 @@ void TimerDependentBound::compute_nodes(const TimerDependentFunction& function,
   const Eigen::Index rest = system.size - n;
   std::vector<Eigen::MatrixXd> P;
   for (std::size_t k = 0; k < grid_.size(); ++k) P.push_back(evaluate(function.P(k), values));
+  // What the exact P is at most, in terms of the computed one.
+  const double raise_of_first =
+      function.is_free(0) ? 1.0 : 1.0 + share_of_rounding(function.P(0), values);
+  const auto raise_of = [&](std::size_t k) { return k == 0 ? raise_of_first : 1.0; };
   for (std::size_t k = 0; k < grid_.size(); ++k) {
     Node node;
     node.inverse =
         inverse_of_exact(function.P(k), values, "P/" + std::to_string(k)).topLeftCorner(n, n);
     node.inverse_norm = largest_eigenvalue_above(node.inverse);
-    node.of_state = largest_eigenvalue_above(P[k].topLeftCorner(n, n));
-    if (rest > 0) node.of_injection = largest_eigenvalue_above(P[k].bottomRightCorner(rest, rest));
+    node.of_state = raise_of(k) * largest_eigenvalue_above(P[k].topLeftCorner(n, n));
+    if (rest > 0) {
+      node.of_injection =
+          raise_of(k) * largest_eigenvalue_above(P[k].bottomRightCorner(rest, rest));
+    }
     for (std::size_t timer = 0; timer < system.resets.size(); ++timer) {
-      const Eigen::MatrixXd& after = P[grid_.with_first(k, timer)];
+      const std::size_t first = grid_.with_first(k, timer);
+      const Eigen::MatrixXd& after = P[first];
       const ErrorReset& reset = system.resets[timer];
       const Eigen::MatrixXd K = evaluate(reset.K(k), values);
       Sized map{reset.J, reset.J.cwiseAbs()};
       map.add(-(K * reset.C), K.cwiseAbs() * reset.C.cwiseAbs());
-      node.mu.push_back(quotient_above(map, after, P[k]));
-      node.rho.push_back(K.cols() == 0 ? 0.0 : largest_eigenvalue_above(K.transpose() * after * K));
+      node.mu.push_back(raise_of(first) * raise_of(k) * quotient_above(map, after, P[k]));
+      node.rho.push_back(raise_of(first) * form_above(K, after));
     }
     nodes_.push_back(std::move(node));
   }
+  for (std::size_t timer = 0; timer < system.resets.size(); ++timer) {
+    gain_rounding_.push_back(
+        gain_rounding_of(P, grid_, system.resets[timer], timer, values, weight_rounding_));
+  }
 }
 
-void TimerDependentBound::compute_late_growth(const TimerDependentFunction& function,
-                                              const NamedMatrices& values) {
+void TimerDependentBound::compute_growth(const TimerDependentFunction& function,
+                                         const NamedMatrices& values) {
   const ErrorSystem& system = function.system();
   const std::size_t timers = grid_.dimensions();
   const double gain = system.N.cols() > 0 ? squared(scalar_value(values, "gamma")) : 0.0;
@@ -129,9 +201,9 @@ void TimerDependentBound::compute_late_growth(const TimerDependentFunction& func
   for (std::size_t k = 0; k < grid_.size(); ++k) P.push_back(evaluate(function.P(k), values));
   std::vector<Eigen::MatrixXd> F;
   for (const MatrixExpression& flow : system.F) F.push_back(evaluate(flow, values));
-  late_growth_.assign(std::size_t{1} << timers, -rate_ / 2.0);
+  growth_.assign(std::size_t{1} << timers, -scalar_value(values, "lambda_t"));
   const auto cells = cells_of(grid_);
-  for (std::size_t late = 1; late < late_growth_.size(); ++late) {
+  for (std::size_t late = 1; late < growth_.size(); ++late) {
     for (const std::vector<CellCorner>& corners : cells) {
       for (const CellCorner& corner : corners) {
         bool is_on_face = true;
@@ -162,7 +234,7 @@ void TimerDependentBound::compute_late_growth(const TimerDependentFunction& func
             const Eigen::MatrixXd P_N = P_k * system.N;
             growth.add(P_N * P_N.transpose() / gain);
           }
-          late_growth_[late] = std::max(late_growth_[late], quotient_above(growth, P_k) / 2.0);
+          growth_[late] = std::max(growth_[late], quotient_above(growth, P_k) / 2.0);
         }
       }
     }
@@ -192,8 +264,8 @@ void TimerDependentBound::begin(double error, double* state) const {
   double of_injection = 0.0;
   for (std::size_t i = 0; i < here.size; ++i) {
     const Node& node = nodes_[here.vertices[i]];
-    of_state += (here.weights[i] + kWeightRounding) * node.of_state;
-    of_injection += (here.weights[i] + kWeightRounding) * node.of_injection;
+    of_state += (here.weights[i] + weight_rounding_) * node.of_state;
+    of_injection += (here.weights[i] + weight_rounding_) * node.of_injection;
   }
   state[kW] = squared(std::sqrt(of_state) * error + std::sqrt(of_injection) * initial_injection_);
 }
@@ -218,8 +290,7 @@ void TimerDependentBound::flow(double duration, double* state) const {
         piece = std::min(piece, before_late);
       }
     }
-    W = late == 0 ? decayed(W, push_ / rate_, rate_, piece)
-                  : flowed_linearly(W, 2.0 * late_growth_[late], push_, piece);
+    W = flowed_linearly(W, 2.0 * growth_[late], push_, piece);
     passed = piece == left ? duration : passed + piece;
     left -= piece;
   }
@@ -241,6 +312,10 @@ void TimerDependentBound::reset(std::size_t timer, double* state) const {
   if (time_of(timer, state) >= shortest_[timer]) {
     after = std::min(after, state[kW] + nu_[timer] * squared(noise_));
   }
+  if (gain_rounding_[timer] > 0.0) {
+    const double innovation = output_norm_[timer] * bound(state) + noise_;
+    after = squared(std::sqrt(after) + gain_rounding_[timer] * innovation);
+  }
   state[kW] = after;
   state[kTimers + static_cast<Eigen::Index>(timer)] = 0.0;
 }
@@ -257,7 +332,7 @@ double TimerDependentBound::bound(const double* state) const {
   const TensorGrid::Interpolation here = interpolation(state);
   double norm = 0.0;
   for (std::size_t i = 0; i < here.size; ++i) {
-    norm += (here.weights[i] + kWeightRounding) * nodes_[here.vertices[i]].inverse_norm;
+    norm += (here.weights[i] + weight_rounding_) * nodes_[here.vertices[i]].inverse_norm;
   }
   return std::sqrt(raised(state[kW] * norm));
 }
@@ -272,7 +347,7 @@ void TimerDependentBound::state_bounds(const double* state, double*,
   for (Eigen::Index j = 0; j < bounds.size(); ++j) {
     double entry = 0.0;
     for (std::size_t i = 0; i < here.size; ++i) {
-      entry += (here.weights[i] + kWeightRounding) * nodes_[here.vertices[i]].inverse(j, j);
+      entry += (here.weights[i] + weight_rounding_) * nodes_[here.vertices[i]].inverse(j, j);
     }
     bounds(j) = std::sqrt(raised(state[kW] * entry));
   }
@@ -288,7 +363,7 @@ void TimerDependentBound::ellipsoid(const double* state, double*,
   Q.setZero();
   for (std::size_t i = 0; i < here.size; ++i) {
     const Node& node = nodes_[here.vertices[i]];
-    Q += (here.weights[i] + kWeightRounding) * node.inverse;
+    Q += (here.weights[i] + weight_rounding_) * node.inverse;
   }
   // With room for the rounding of the sum.
   Q.diagonal() += Q.diagonal() * 1e-9;

@@ -17,6 +17,8 @@ namespace sampled_data_observers {
 /// a c satisfies that is computed here. An event sooner than the shortest time, such as the first
 /// one after the estimate began, takes W to (√(μ W) + √ρ |η|)², with the least μ and ρ for which
 /// that holds at the corners of the cell; the same is used at all events, where it is less.
+/// Gains between nodes are those that the law computes, off by δK by rounding: there √W grows by
+/// √(δKᵀ P⁺ δK) |C e + η|.
 ///
 /// State: W, infinite where nothing is known any more | the timers [ns].
 class TimerDependentBound : public ErrorBound {
@@ -57,10 +59,8 @@ class TimerDependentBound : public ErrorBound {
 
   TensorGrid::Interpolation interpolation(const double* state) const;
   double time_of(std::size_t timer, const double* state) const;
-  bool is_late(std::size_t timer, double time) const;
-  void advance(double duration, double* state) const;
   void reset(std::size_t timer, double* state) const;
-  void compute_late_growth(const TimerDependentFunction& function, const NamedMatrices& values);
+  void compute_growth(const TimerDependentFunction& function, const NamedMatrices& values);
   void compute_nodes(const TimerDependentFunction& function, const NamedMatrices& values);
 
   TensorGrid grid_;
@@ -69,9 +69,13 @@ class TimerDependentBound : public ErrorBound {
   std::vector<double> longest_;        // [s]
   std::vector<std::size_t> timer_of_;  // of each sensor of the plant, kNone where it has none
   std::vector<double> nu_;             // ν_i
-  /// c of each set of timers that are late, a bit for each.
-  std::vector<double> late_growth_;
-  double rate_ = 0.0;  // 2 λ
+  /// What gains between nodes lack by rounding, δK: √(δKᵀ P⁺ δK) at most, of each timer.
+  std::vector<double> gain_rounding_;
+  std::vector<double> output_norm_;  // |C_i|
+  /// What rounding may take from a weight between nodes.
+  double weight_rounding_ = 0.0;
+  /// c of each set of timers that are late, a bit for each; −λ of none.
+  std::vector<double> growth_;
   double push_ = 0.0;  // γ² |w|²
   double noise_ = 0.0;
   double initial_error_ = 0.0;

@@ -76,7 +76,8 @@ MatrixExpression TimerDependentFunction::flow(const CellCorner& corner,
   const MatrixExpression P_k = P(corner.node);
   MatrixExpression first = derivative(corner, F) + MatrixExpression(2.0) * symbol("lambda_t") * P_k;
   if (system_.C_p.rows() > 0) {
-    first = first + MatrixExpression(Eigen::MatrixXd(system_.C_p.transpose() * system_.C_p));
+    const MatrixExpression C_p = system_.C_p;
+    first = first + transpose(C_p) * C_p;
   }
   std::vector<std::vector<MatrixExpression>> rows;
   const Eigen::Index w = system_.N.cols();

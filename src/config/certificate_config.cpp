@@ -55,7 +55,8 @@ void require_same_nodes(ConfigSection& section, const Certificate& certificate) 
     const std::string& sensor = subject.plant.sampled[i].sensor;
     const auto timers = certificate.values.find("timers/" + sensor);
     if (timers == certificate.values.end()) continue;
-    const std::vector<double>& nodes = grid_of(subject).nodes(i);
+    const TensorGrid grid = grid_of(subject);
+    const std::vector<double>& nodes = grid.nodes(i);
     if (std::equal(nodes.begin(), nodes.end(), timers->second.data())) continue;
     throw section.error("timer_nodes", "for sensor '" + sensor + "' those of gains/timers",
                         "others");

@@ -168,6 +168,18 @@ class ScheduledJumpGain : public JumpGainDesign {
                       std::move(program));
   }
 
+  /// The law has nodes and a symmetric P to the bit, as changes of units do not leave them.
+  void restore(const CertificateSubject& subject, NamedMatrices& values) const override {
+    const TensorGrid grid = grid_of(subject);
+    for (std::size_t i = 0; i < subject.plant.sampled.size(); ++i) {
+      values["timers/" + subject.plant.sampled[i].sensor] = row_of(grid.nodes(i));
+    }
+    for (std::size_t node = 0; node < grid.size(); ++node) {
+      Eigen::MatrixXd& P = values.at("P/" + std::to_string(node));
+      P = Eigen::MatrixXd((P + P.transpose()) / 2.0);
+    }
+  }
+
  protected:
   NamedMatrices gains(const CertificateSubject& subject, const Parameters&,
                       const NamedMatrices& solution) const override {
@@ -179,9 +191,7 @@ class ScheduledJumpGain : public JumpGainDesign {
     }
     for (std::size_t i = 0; i < subject.plant.sampled.size(); ++i) {
       const std::string& sensor = subject.plant.sampled[i].sensor;
-      const std::vector<double>& nodes = grid.nodes(i);
-      values["timers/" + sensor] = Eigen::Map<const Eigen::RowVectorXd>(
-          nodes.data(), static_cast<Eigen::Index>(nodes.size()));
+      values["timers/" + sensor] = row_of(grid.nodes(i));
       for (std::size_t node = 0; node < grid.size(); ++node) {
         // Sooner than T1 the gain is the one at T1.
         std::size_t from = node;
@@ -194,6 +204,10 @@ class ScheduledJumpGain : public JumpGainDesign {
   }
 
  private:
+  static Eigen::MatrixXd row_of(const std::vector<double>& nodes) {
+    return Eigen::Map<const Eigen::RowVectorXd>(nodes.data(),
+                                                static_cast<Eigen::Index>(nodes.size()));
+  }
   static std::string product_name(const std::string& sensor, std::size_t node) {
     return "Y/" + sensor + "/" + std::to_string(node);
   }

@@ -1,0 +1,113 @@
+// Designs and proofs by Lyapunov functions that depend on timers, against numbers that an
+// independent program gave.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "design/analysis.h"
+#include "design/request_error.h"
+#include "design/rigorous_check.h"
+#include "timer_dependent_plants.h"
+
+namespace sampled_data_observers::test {
+namespace {
+
+double gamma_of(const Design& design) {
+  EXPECT_EQ(design.proved_conditions,
+            design.certificate.theorem->conditions(design.certificate.subject).size());
+  return scalar_value(design.certificate.values, "gamma");
+}
+
+double analyzed_gamma(int cells) {
+  AnalysisProblem problem;
+  problem.theorem = find_theorem("timer_dependent_intersample_injection");
+  problem.subject = with_cells(densely_sampled_oscillator(0.41), cells);
+  problem.gains["L"] = Eigen::Vector2d(2.067, -3.0);  // ferrante2019 (51)
+  problem.gains["H"] = scalar_matrix(-1.384);
+  problem.given = {{"lambda_t", 0.05}};
+  problem.objective = Objective::kMinGamma;
+  return gamma_of(analyze(problem, {}));
+}
+
+TEST(TimerDependentAnalysis, FindsTheGammaOfThePrintedGains) {
+  // Theorem 2 of the paper proves 32.92 of them.
+  EXPECT_NEAR(analyzed_gamma(4), 2.4457, 0.002 * 2.4457);
+  EXPECT_NEAR(analyzed_gamma(8), 2.0037, 0.002 * 2.0037);
+  EXPECT_NEAR(analyzed_gamma(16), 1.7830, 0.002 * 1.7830);
+}
+
+double designed_gamma(int cells) {
+  return gamma_of(design_by("timer_dependent_constant_gain",
+                            with_cells(densely_sampled_oscillator(0.41), cells),
+                            {{"lambda_t", 0.05}}, Objective::kMinGamma));
+}
+
+TEST(TimerDependentDesign, OfOneGainIsTheBestForItsCells) {
+  EXPECT_NEAR(designed_gamma(4), 1.717, 0.002 * 1.717);
+  EXPECT_NEAR(designed_gamma(8), 1.404, 0.002 * 1.404);
+  EXPECT_NEAR(designed_gamma(16), 1.251, 0.002 * 1.251);
+}
+
+TEST(TimerDependentDesign, RefinesItsCellsUntilThatGainsLittle) {
+  const Design design = design_by("timer_dependent_constant_gain", densely_sampled_oscillator(0.41),
+                                  {{"lambda_t", 0.05}}, Objective::kMinGamma);
+  EXPECT_LE(gamma_of(design), 1.2);
+  EXPECT_GT(design.certificate.subject.timer_nodes.front().size(), 16u);
+}
+
+TEST(TimerDependentDesign, FusesTwoSensorsByGainsOfBothTimers) {
+  const Design design =
+      design_by("timer_dependent_scheduled_gain", with_cells(triple_integrator(), 3),
+                {{"lambda_t", 0.05}}, Objective::kMinGamma);
+  EXPECT_LE(gamma_of(design), 0.0325);
+}
+
+/// x1' = 0.5 x1 + w, x2' = x2 + w, with a sensor of each.
+CertificateSubject two_unstable_states() {
+  const Eigen::MatrixXd A = Eigen::Vector2d(0.5, 1.0).asDiagonal();
+  CertificateSubject subject = linear_subject(A, Eigen::MatrixXd::Identity(2, 2), 0.0, 0.0);
+  subject.plant.sampled = {{"first", 0, 0, 1}, {"second", 1, 1, 1}};
+  subject.plant.N = Eigen::MatrixXd::Ones(2, 1);
+  subject.plant.C_p = Eigen::MatrixXd::Identity(2, 2);
+  set_sensor_times(subject, {{0.1, 0.5}, {0.2, 0.6}});
+  return subject;
+}
+
+TEST(TimerDependentDesign, NeedsEachOfTwoSensorsThatShowAnUnstableStateEach) {
+  const Design design =
+      design_by("timer_dependent_scheduled_gain", with_cells(two_unstable_states(), 3),
+                {{"lambda_t", 0.05}}, Objective::kMinGamma);
+  EXPECT_LE(gamma_of(design), 2.0);
+  const CertificateSubject both = two_unstable_states();
+  for (Eigen::Index sensor = 0; sensor < 2; ++sensor) {
+    CertificateSubject alone = linear_subject(both.plant.A(), both.plant.C().row(sensor), 0.1, 0.6);
+    const std::string reason =
+        refusal("timer_dependent_constant_gain", alone, {{"lambda_t", 0.05}});
+    EXPECT_NE(reason.find(sensor == 0 ? "x2" : "x1"), std::string::npos) << reason;
+  }
+}
+
+TEST(TimerDependentProof, IsAboutExactProducts) {
+  // −2 F − 2 λ = C_p² exactly, which in double precision is less by one.
+  constexpr double kRoot = 94906267.0;
+  constexpr double kF = -4503599757937645.0;
+  CertificateSubject subject =
+      linear_subject(Eigen::MatrixXd::Constant(1, 1, kF), Eigen::MatrixXd::Ones(1, 1), 0.0, 1.0);
+  subject.plant.N = Eigen::MatrixXd::Zero(1, 1);
+  subject.plant.C_p = Eigen::MatrixXd::Constant(1, 1, kRoot);
+  subject.timer_nodes = {{0.0, 1.0}};
+  const Eigen::MatrixXd one = scalar_matrix(1.0);
+  const NamedMatrices values = {{"L", one},    {"P_measured", one},      {"P_rest", one},
+                                {"P/1", one},  {"nu/output", 4.0 * one}, {"lambda_t", one / 2.0},
+                                {"gamma", one}};
+  bool is_flow_proved = false;
+  for (const ConditionProof& proof :
+       prove(find_theorem("timer_dependent_constant_gain")->conditions(subject), values)) {
+    if (proof.name.rfind("flow", 0) != 0) continue;
+    is_flow_proved |= proof.status == ProofStatus::kProved;
+  }
+  EXPECT_FALSE(is_flow_proved);
+}
+
+}  // namespace
+}  // namespace sampled_data_observers::test
