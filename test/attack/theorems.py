@@ -8,6 +8,8 @@ from conditions import Contracts, Fixed, Number, OverTimes, Statement
 from formulas import lipschitz_constant_is_refuted, vertices_are_refuted
 from high_precision import (exponential, identity, inverse, minus, null_space, pivots_and_factor, plus,
                             product, products, solved, stacked, symmetrized, times, transposed, zeros)
+from timer_dependent import (timer_dependent_constant_gain, timer_dependent_intersample_injection,
+                             timer_dependent_sample_and_hold, timer_dependent_scheduled_gain)
 
 
 def root_of(P):
@@ -572,6 +574,10 @@ OBSERVERS = {
     bernard2022_section7_3_1: "SwitchedObserver",
     bernard2022_section7_3_2_metric: "SwitchedObserver",
     bernard2022_section7_3_2: "SwitchedObserver",
+    timer_dependent_constant_gain: "ConstantGainObserver",
+    timer_dependent_scheduled_gain: "TimeVaryingGainObserver",
+    timer_dependent_intersample_injection: "IntersampleInjectionObserver",
+    timer_dependent_sample_and_hold: "SampleAndHoldObserver",
 }
 
 
@@ -579,7 +585,8 @@ def statements_of_formulas(claim):
     """That no pair of points refutes what the file states of psi proves nothing of it."""
     if claim.psi is None:
         return
-    if claim.theorem.startswith("ferrante2019"):
+    if claim.theorem.startswith("ferrante2019") or (
+            claim.theorem.startswith("timer_dependent") and not claim.vertices):
         yield Statement("no points refute lipschitz_constant", not lipschitz_constant_is_refuted(
             claim.psi, len(claim.S), claim.lipschitz))
     elif claim.vertices:
