@@ -11,6 +11,7 @@
 #include "certificate/rounded_matrix.h"
 #include "certificate/sublevel_set.h"
 #include "certificate/timer_grid.h"
+#include "certificate/weighted_norm.h"
 #include "linear_algebra/matrix_functions.h"
 
 namespace sampled_data_observers {
@@ -23,40 +24,6 @@ constexpr std::size_t kNoTimer = std::numeric_limits<std::size_t>::max();
 constexpr double kLargestShare = 0.1;
 
 double squared(double value) { return value * value; }
-
-/// A matrix with a bound on the size of what it was summed from, entry by entry.
-struct Sized {
-  Eigen::MatrixXd value;
-  Eigen::MatrixXd size;
-
-  void add(const Eigen::MatrixXd& term) { add(term, term.cwiseAbs()); }
-  void add(const Eigen::MatrixXd& term, const Eigen::MatrixXd& size_of_term) {
-    value += term;
-    size += size_of_term;
-  }
-};
-
-/// Not less than the least c with M <= c P, for a symmetric M.
-double quotient_above(const Sized& M, const Eigen::MatrixXd& P) {
-  const Eigen::MatrixXd inverse_R = inverse_of(cholesky_root(P));
-  const Eigen::MatrixXd scaled = inverse_R.transpose() * M.value * inverse_R;
-  const Eigen::MatrixXd size = inverse_R.cwiseAbs().transpose() * M.size * inverse_R.cwiseAbs();
-  return max_eigenvalue(scaled) + 1e3 * eigenvalue_rounding(P.rows(), size.norm());
-}
-
-/// The same for M = aᵀ b a with b > 0, not less than 0.
-double quotient_above(const Sized& a, const Eigen::MatrixXd& b, const Eigen::MatrixXd& P) {
-  const Eigen::MatrixXd size = a.size.transpose() * b.cwiseAbs() * a.size;
-  return std::max(0.0, quotient_above({a.value.transpose() * b * a.value, size}, P));
-}
-
-/// Not less than the largest eigenvalue of Kᵀ P K, which may be small beside what it is summed of.
-double form_above(const Eigen::MatrixXd& K, const Eigen::MatrixXd& P) {
-  if (K.cols() == 0) return 0.0;
-  const double size = (K.cwiseAbs().transpose() * P.cwiseAbs() * K.cwiseAbs()).norm();
-  return largest_eigenvalue_above(K.transpose() * P * K) +
-         1e3 * eigenvalue_rounding(P.rows(), size);
-}
 
 /// How far weights between nodes may be off: those of a cell that is narrow beside its time the
 /// most.
@@ -131,6 +98,7 @@ TimerDependentBound::TimerDependentBound(const TimerDependentFunction& function,
       shortest_(function.shortest()),
       longest_(std::move(longest)),
       weight_rounding_(weight_rounding_of(grid_)),
+      rate_(2.0 * scalar_value(values, "lambda_t")),
       noise_(assumptions.noise),
       initial_error_(assumptions.initial_error),
       initial_injection_(assumptions.initial_injection),
@@ -149,17 +117,18 @@ TimerDependentBound::TimerDependentBound(const TimerDependentFunction& function,
     nu_.push_back(reset.C.rows() > 0 ? scalar_value(values, "nu/" + reset.name) : 0.0);
     output_norm_.push_back(reset.C.rows() > 0 ? raised(norm2(reset.C)) : 0.0);
   }
-  compute_nodes(function, values);
-  compute_growth(function, values);
+  compute_nodes(function, values, assumptions.disturbance);
 }
 
 void TimerDependentBound::compute_nodes(const TimerDependentFunction& function,
-                                        const NamedMatrices& values) {
+                                        const NamedMatrices& values, double disturbance) {
   const ErrorSystem& system = function.system();
   const Eigen::Index n = system.states;
   const Eigen::Index rest = system.size - n;
   std::vector<Eigen::MatrixXd> P;
   for (std::size_t k = 0; k < grid_.size(); ++k) P.push_back(evaluate(function.P(k), values));
+  const double horizon = *std::max_element(longest_.begin(), longest_.end());
+  late_flow_.emplace(function, values, P, disturbance, horizon);
   // What the exact P is at most, in terms of the computed one.
   const double raise_of_first =
       function.is_free(0) ? 1.0 : 1.0 + share_of_rounding(function.P(0), values);
@@ -179,10 +148,11 @@ void TimerDependentBound::compute_nodes(const TimerDependentFunction& function,
       const Eigen::MatrixXd& after = P[first];
       const ErrorReset& reset = system.resets[timer];
       const Eigen::MatrixXd K = evaluate(reset.K(k), values);
-      Sized map{reset.J, reset.J.cwiseAbs()};
-      map.add(-(K * reset.C), K.cwiseAbs() * reset.C.cwiseAbs());
-      node.mu.push_back(raise_of(first) * raise_of(k) * quotient_above(map, after, P[k]));
-      node.rho.push_back(raise_of(first) * form_above(K, after));
+      const MatrixExpression map =
+          MatrixExpression(reset.J) - MatrixExpression(K) * MatrixExpression(reset.C);
+      node.mu.push_back(raise_of(first) * raise_of(k) *
+                        raised(squared(norm_between(P[k], after, map))));
+      node.rho.push_back(raise_of(first) * raised(squared(norm_into(after, K))));
     }
     nodes_.push_back(std::move(node));
   }
@@ -192,63 +162,15 @@ void TimerDependentBound::compute_nodes(const TimerDependentFunction& function,
   }
 }
 
-void TimerDependentBound::compute_growth(const TimerDependentFunction& function,
-                                         const NamedMatrices& values) {
-  const ErrorSystem& system = function.system();
-  const std::size_t timers = grid_.dimensions();
-  const double gain = system.N.cols() > 0 ? squared(scalar_value(values, "gamma")) : 0.0;
-  std::vector<Eigen::MatrixXd> P;
-  for (std::size_t k = 0; k < grid_.size(); ++k) P.push_back(evaluate(function.P(k), values));
-  std::vector<Eigen::MatrixXd> F;
-  for (const MatrixExpression& flow : system.F) F.push_back(evaluate(flow, values));
-  growth_.assign(std::size_t{1} << timers, -scalar_value(values, "lambda_t"));
-  const auto cells = cells_of(grid_);
-  for (std::size_t late = 1; late < growth_.size(); ++late) {
-    for (const std::vector<CellCorner>& corners : cells) {
-      for (const CellCorner& corner : corners) {
-        bool is_on_face = true;
-        for (std::size_t timer = 0; timer < timers; ++timer) {
-          const bool is_last = grid_.position(corner.node, timer) + 1 == grid_.nodes(timer).size();
-          is_on_face &= (late >> timer & 1U) == 0 || is_last;
-        }
-        if (!is_on_face) continue;
-        const Eigen::MatrixXd& P_k = P[corner.node];
-        for (const Eigen::MatrixXd& flow : F) {
-          const Eigen::MatrixXd product = P_k * flow;
-          const Eigen::MatrixXd size = P_k.cwiseAbs() * flow.cwiseAbs();
-          Sized growth{product + product.transpose(), size + size.transpose()};
-          for (std::size_t timer = 0; timer < timers; ++timer) {
-            if ((late >> timer & 1U) != 0) continue;
-            const CellCorner::Edge& edge = corner.edges[timer];
-            growth.add((P[edge.high] - P[edge.low]) / edge.length,
-                       (P[edge.high].cwiseAbs() + P[edge.low].cwiseAbs()) / edge.length);
-          }
-          if (!system.is_linear()) {
-            const double chi = scalar_value(values, "chi/" + std::to_string(corner.node));
-            const double ell = system.lipschitz_constant;
-            const Eigen::MatrixXd P_G = P_k * system.G;
-            growth.add(chi * ell * ell * system.S.transpose() * system.S);
-            growth.add(P_G * P_G.transpose() / chi);
-          }
-          if (push_ > 0.0) {
-            const Eigen::MatrixXd P_N = P_k * system.N;
-            growth.add(P_N * P_N.transpose() / gain);
-          }
-          growth_[late] = std::max(growth_[late], quotient_above(growth, P_k) / 2.0);
-        }
-      }
-    }
-  }
-}
-
 double TimerDependentBound::time_of(std::size_t timer, const double* state) const {
   return state[kTimers + static_cast<Eigen::Index>(timer)] / kNanoseconds;
 }
 
-TensorGrid::Interpolation TimerDependentBound::interpolation(const double* state) const {
+TensorGrid::Interpolation TimerDependentBound::interpolation(const double* state,
+                                                             double later) const {
   std::array<double, TensorGrid::kMaxDimensions> times = {};
   for (std::size_t timer = 0; timer < grid_.dimensions(); ++timer) {
-    times[timer] = time_of(timer, state);
+    times[timer] = time_of(timer, state) + later;
   }
   return grid_.locate(times.data());
 }
@@ -259,7 +181,7 @@ void TimerDependentBound::initialize(double* state) const {
 }
 
 void TimerDependentBound::begin(double error, double* state) const {
-  const TensorGrid::Interpolation here = interpolation(state);
+  const TensorGrid::Interpolation here = interpolation(state, 0.0);
   double of_state = 0.0;
   double of_injection = 0.0;
   for (std::size_t i = 0; i < here.size; ++i) {
@@ -276,9 +198,13 @@ void TimerDependentBound::begin_at_sample(std::size_t sensor, double error, doub
 }
 
 void TimerDependentBound::flow(double duration, double* state) const {
+  double& W = state[kW];
+  const double start = W;
   double left = duration;
   double passed = 0.0;
-  double& W = state[kW];
+  bool is_late = false;
+  double late_from = 0.0;
+  double W_there = 0.0;
   while (left > 0.0 && W < kInfinity) {
     std::size_t late = 0;
     double piece = left;
@@ -290,9 +216,23 @@ void TimerDependentBound::flow(double duration, double* state) const {
         piece = std::min(piece, before_late);
       }
     }
-    W = flowed_linearly(W, 2.0 * growth_[late], push_, piece);
+    if (late != 0 && !is_late) {
+      is_late = true;
+      late_from = passed;
+      W_there = W;
+    }
+    W = late == 0 ? flowed_linearly(W, -rate_, push_, piece)
+                  : squared(late_flow_->flowed(late, std::sqrt(W), piece));
     passed = piece == left ? duration : passed + piece;
     left -= piece;
+  }
+  if (is_late) {
+    const auto by_Q = [&](double from, double W_from) {
+      return squared(late_flow_->flowed_in_Q(interpolation(state, from), std::sqrt(W_from),
+                                             duration - from, interpolation(state, duration),
+                                             weight_rounding_));
+    };
+    W = std::min({W, by_Q(0.0, start), by_Q(late_from, W_there)});
   }
   const double nanoseconds = std::round(duration * kNanoseconds);
   for (std::size_t timer = 0; timer < grid_.dimensions(); ++timer) {
@@ -301,7 +241,7 @@ void TimerDependentBound::flow(double duration, double* state) const {
 }
 
 void TimerDependentBound::reset(std::size_t timer, double* state) const {
-  const TensorGrid::Interpolation here = interpolation(state);
+  const TensorGrid::Interpolation here = interpolation(state, 0.0);
   double mu = 0.0;
   double rho = 0.0;
   for (std::size_t i = 0; i < here.size; ++i) {
@@ -329,7 +269,7 @@ void TimerDependentBound::jump(const JumpMotion&, double* state) const { state[k
 
 double TimerDependentBound::bound(const double* state) const {
   if (state[kW] == kInfinity) return kInfinity;
-  const TensorGrid::Interpolation here = interpolation(state);
+  const TensorGrid::Interpolation here = interpolation(state, 0.0);
   double norm = 0.0;
   for (std::size_t i = 0; i < here.size; ++i) {
     norm += (here.weights[i] + weight_rounding_) * nodes_[here.vertices[i]].inverse_norm;
@@ -343,7 +283,7 @@ void TimerDependentBound::state_bounds(const double* state, double*,
     bounds.setConstant(kInfinity);
     return;
   }
-  const TensorGrid::Interpolation here = interpolation(state);
+  const TensorGrid::Interpolation here = interpolation(state, 0.0);
   for (Eigen::Index j = 0; j < bounds.size(); ++j) {
     double entry = 0.0;
     for (std::size_t i = 0; i < here.size; ++i) {
@@ -359,7 +299,7 @@ void TimerDependentBound::ellipsoid(const double* state, double*,
     Q.setConstant(kInfinity);
     return;
   }
-  const TensorGrid::Interpolation here = interpolation(state);
+  const TensorGrid::Interpolation here = interpolation(state, 0.0);
   Q.setZero();
   for (std::size_t i = 0; i < here.size; ++i) {
     const Node& node = nodes_[here.vertices[i]];

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "certificate/error_bound.h"
+#include "certificate/late_flow.h"
 #include "certificate/timer_dependent_conditions.h"
 
 namespace sampled_data_observers {
@@ -13,12 +15,11 @@ namespace sampled_data_observers {
 ///
 /// Between nodes P(τ)⁻¹ is at most the mean of the inverses at the corners of the cell by the
 /// weights of the interpolation, since the inverse is convex. Where a timer is beyond its longest
-/// time it stands still: then V̇ <= 2 c V + γ² |w|² by the flow conditions without its slope, which
-/// a c satisfies that is computed here. An event sooner than the shortest time, such as the first
-/// one after the estimate began, takes W to (√(μ W) + √ρ |η|)², with the least μ and ρ for which
-/// that holds at the corners of the cell; the same is used at all events, where it is less.
-/// Gains between nodes are those that the law computes, off by δK by rounding: there √W grows by
-/// √(δKᵀ P⁺ δK) |C e + η|.
+/// time it stands still: LateFlow says what the flow makes of V then. An event sooner than the
+/// shortest time, such as the first one after the estimate began, takes W to (√(μ W) + √ρ |η|)²,
+/// with the least μ and ρ for which that holds at the corners of the cell; the same is used at all
+/// events, where it is less. Gains between nodes are those that the law computes, off by δK by
+/// rounding: there √W grows by √(δKᵀ P⁺ δK) |C e + η|.
 ///
 /// State: W, infinite where nothing is known any more | the timers [ns].
 class TimerDependentBound : public ErrorBound {
@@ -57,11 +58,12 @@ class TimerDependentBound : public ErrorBound {
     std::vector<double> rho;    ///< of each timer
   };
 
-  TensorGrid::Interpolation interpolation(const double* state) const;
+  /// Where the timers are so much later [s].
+  TensorGrid::Interpolation interpolation(const double* state, double later) const;
   double time_of(std::size_t timer, const double* state) const;
   void reset(std::size_t timer, double* state) const;
-  void compute_growth(const TimerDependentFunction& function, const NamedMatrices& values);
-  void compute_nodes(const TimerDependentFunction& function, const NamedMatrices& values);
+  void compute_nodes(const TimerDependentFunction& function, const NamedMatrices& values,
+                     double disturbance);
 
   TensorGrid grid_;
   std::vector<Node> nodes_;
@@ -74,8 +76,8 @@ class TimerDependentBound : public ErrorBound {
   std::vector<double> output_norm_;  // |C_i|
   /// What rounding may take from a weight between nodes.
   double weight_rounding_ = 0.0;
-  /// c of each set of timers that are late, a bit for each; −λ of none.
-  std::vector<double> growth_;
+  std::optional<LateFlow> late_flow_;
+  double rate_ = 0.0;  // 2 λ
   double push_ = 0.0;  // γ² |w|²
   double noise_ = 0.0;
   double initial_error_ = 0.0;
