@@ -216,7 +216,7 @@ Design analyze(const AnalysisProblem& problem, const SynthesisOptions& options) 
     throw RequestError(theorem.name() + " is not for this plant: " + fault.what());
   }
   return solve_on_refined_cells(theorem, problem.subject, problem.objective, problem.assumptions,
-                                [&](const CertificateSubject& subject) {
+                                [&](const CertificateSubject& subject, const Design*) {
                                   AnalysisProblem on_grid = problem;
                                   on_grid.subject = subject;
                                   return analyze_on_grid(on_grid, options);

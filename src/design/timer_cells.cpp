@@ -13,6 +13,7 @@ namespace sampled_data_observers {
 namespace {
 
 constexpr int kFirstCells = 4;
+constexpr int kFirstCellsOfSeveral = 2;
 constexpr double kWorthwhile = 0.99;
 /// Entries of P at all nodes of a grid.
 constexpr Eigen::Index kMostEntries = 450;
@@ -93,18 +94,25 @@ double cost_of(const Design& design, Objective objective, const ErrorAssumptions
 
 Design solve_on_refined_cells(const Theorem& theorem, const CertificateSubject& subject,
                               Objective objective, const ErrorAssumptions& assumptions,
-                              const std::function<Design(const CertificateSubject&)>& solve) {
+                              const SolveOnGrid& solve) {
   const bool has_grid = timer_dependent_function(theorem, subject).has_value();
-  if (!has_grid || !subject.timer_nodes.empty()) return solve(subject);
+  if (!has_grid || !subject.timer_nodes.empty()) return solve(subject, nullptr);
   std::optional<Design> best;
   double least = std::numeric_limits<double>::infinity();
-  CertificateSubject next = with_cells(subject, kFirstCells);
+  std::size_t attempts = 0;
+  double seconds = 0.0;
+  CertificateSubject next =
+      with_cells(subject, times_of_timers(subject).size() > 1 ? kFirstCellsOfSeveral : kFirstCells);
   while (true) {
     const TensorGrid grid(next.timer_nodes);
     Marks marks = all_marked(grid, true);
     std::optional<DesignError> failure;
     try {
-      Design found = solve(next);
+      Design found = solve(next, best ? &*best : nullptr);
+      found.attempts += attempts;
+      found.seconds += seconds;
+      attempts = found.attempts;
+      seconds = found.seconds;
       const double value = cost_of(found, objective, assumptions);
       const bool is_worthwhile = !best || value < least - (1.0 - kWorthwhile) * std::abs(least);
       if (value < least || !best) {
@@ -113,6 +121,8 @@ Design solve_on_refined_cells(const Theorem& theorem, const CertificateSubject& 
         best = std::move(found);
         least = value;
       }
+      best->attempts = attempts;
+      best->seconds = seconds;
       if (!is_worthwhile) return *best;
     } catch (const DesignError& error) {
       if (best) return *best;
