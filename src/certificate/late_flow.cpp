@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "certificate/bound_flow.h"
 #include "certificate/flow_growth.h"
@@ -13,6 +14,8 @@
 namespace sampled_data_observers {
 namespace {
 
+/// The flow may grow by so many times more in the second of the norms that are made for it.
+constexpr double kFaster = 20.0;
 constexpr double kLowest = std::numeric_limits<double>::lowest();
 
 double squared(double value) { return value * value; }
@@ -70,18 +73,30 @@ LateFlow::LateFlow(const TimerDependentFunction& function, const NamedMatrices& 
   for (std::size_t late = 1; late < growth_.size(); ++late) {
     growth_[late] = growth_on_face(function, F, P, late, disturbance);
   }
-  const Eigen::MatrixXd W = flow_growth(F.front(), horizon).W;
-  Eigen::MatrixXd Q = W.transpose() * W;
-  Q = Eigen::MatrixXd((Q + Q.transpose()) / 2.0);
-  in_Q_ = {kLowest, push_of(Q, system.N, disturbance)};
+  // Just after all events P is far from singular.
+  add_norm(system, F, P, P.front(), disturbance);
+  for (const double time : {horizon, horizon / kFaster}) {
+    const Eigen::MatrixXd W = flow_growth(F.front(), time).W;
+    const Eigen::MatrixXd Q = W.transpose() * W;
+    add_norm(system, F, P, (Q + Q.transpose()) / 2.0, disturbance);
+  }
+}
+
+void LateFlow::add_norm(const ErrorSystem& system, const std::vector<Eigen::MatrixXd>& F,
+                        const std::vector<Eigen::MatrixXd>& P, const Eigen::MatrixXd& Q,
+                        double disturbance) {
+  Norm norm;
+  norm.growth = {kLowest, push_of(Q, system.N, disturbance)};
   for (const Eigen::MatrixXd& flow : F) {
-    in_Q_.rate = std::max(in_Q_.rate, quotient_above(flow_of(system, flow, Q), Q) / 2.0);
+    norm.growth.rate =
+        std::max(norm.growth.rate, quotient_above(flow_of(system, flow, Q), Q) / 2.0);
   }
   const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(system.size, system.size);
   for (const Eigen::MatrixXd& P_k : P) {
-    into_Q_.push_back(raised(squared(norm_between(P_k, Q, identity))));
-    from_Q_.push_back(raised(squared(norm_between(Q, P_k, identity))));
+    norm.into.push_back(raised(squared(norm_between(P_k, Q, identity))));
+    norm.out.push_back(raised(squared(norm_between(Q, P_k, identity))));
   }
+  norms_.push_back(std::move(norm));
 }
 
 /// The largest at the corners of all cells, as far as they lie where these timers are at their end.
@@ -122,15 +137,20 @@ double LateFlow::flowed(std::size_t late, double root, double duration) const {
 
 double LateFlow::flowed_in_Q(const TensorGrid::Interpolation& from, double root, double duration,
                              const TensorGrid::Interpolation& to, double weight_rounding) const {
-  // P⁻¹ is convex, and P affine, in the weights.
-  double into = 0.0;
-  double out = 0.0;
-  for (std::size_t i = 0; i < from.size; ++i) {
-    into += (from.weights[i] + weight_rounding) * into_Q_[from.vertices[i]];
-    out += (to.weights[i] + weight_rounding) * from_Q_[to.vertices[i]];
+  double least = std::numeric_limits<double>::infinity();
+  for (const Norm& norm : norms_) {
+    // P⁻¹ is convex, and P affine, in the weights.
+    double into = 0.0;
+    double out = 0.0;
+    for (std::size_t i = 0; i < from.size; ++i) {
+      into += (from.weights[i] + weight_rounding) * norm.into[from.vertices[i]];
+      out += (to.weights[i] + weight_rounding) * norm.out[to.vertices[i]];
+    }
+    const double flowed =
+        flowed_linearly(std::sqrt(into) * root, norm.growth.rate, norm.growth.push, duration);
+    least = std::min(least, std::sqrt(out) * flowed);
   }
-  const double norm = flowed_linearly(std::sqrt(into) * root, in_Q_.rate, in_Q_.push, duration);
-  return std::sqrt(out) * norm;
+  return least;
 }
 
 }  // namespace sampled_data_observers

@@ -10,12 +10,13 @@ namespace sampled_data_observers {
 
 /// How much V = eᵀ P(τ) e of a TimerDependentFunction grows at most where timers are beyond their
 /// longest times, at which they stand still in P. The conditions of the flow say nothing of that:
-/// they count on a P that falls. By two norms, of which either holds:
+/// they count on a P that falls. By several norms, which all hold:
 /// - that of P(τ): d/dt √V <= c √V + |N|_P |w|, with c from the flow conditions without the slopes
 /// of
 ///   the late timers;
-/// - one in which the flow grows little (FlowGrowth), |e|_Q: the same with its own c, at the price
-///   of what V and |e|_Q² differ by.
+/// - those with a constant Q, |e|_Q, in which the flow grows little (FlowGrowth), or P is that just
+///   after events: the same with their own c, at the price of what V and |e|_Q² differ by. The
+///   least counts.
 class LateFlow {
  public:
   /// @param P  at each node
@@ -27,7 +28,7 @@ class LateFlow {
   /// √V after `duration` [s] with these timers late, a bit for each, from this √V on.
   double flowed(std::size_t late, double root, double duration) const;
 
-  /// The same by |e|_Q, whichever timers are late.
+  /// The same by the least |e|_Q, whichever timers are late.
   /// @param weight_rounding  by which weights may be off
   double flowed_in_Q(const TensorGrid::Interpolation& from, double root, double duration,
                      const TensorGrid::Interpolation& to, double weight_rounding) const;
@@ -37,15 +38,21 @@ class LateFlow {
     double rate = 0.0;
     double push = 0.0;
   };
+  struct Norm {
+    Growth growth;
+    std::vector<double> into;  ///< β of each node: Q <= β P_k
+    std::vector<double> out;   ///< η: P_k <= η Q
+  };
+  void add_norm(const ErrorSystem& system, const std::vector<Eigen::MatrixXd>& F,
+                const std::vector<Eigen::MatrixXd>& P, const Eigen::MatrixXd& Q,
+                double disturbance);
   Growth growth_on_face(const TimerDependentFunction& function,
                         const std::vector<Eigen::MatrixXd>& F,
                         const std::vector<Eigen::MatrixXd>& P, std::size_t late,
                         double disturbance) const;
 
   std::vector<Growth> growth_;  ///< of each set of late timers
-  Growth in_Q_;
-  std::vector<double> into_Q_;  ///< β of each node: Q <= β P_k
-  std::vector<double> from_Q_;  ///< η: P_k <= η Q
+  std::vector<Norm> norms_;
 };
 
 }  // namespace sampled_data_observers

@@ -7,6 +7,7 @@
 
 #include "certificate/certified_gains.h"
 #include "certificate/timer_grid.h"
+#include "design/analysis.h"
 #include "design/gain_file.h"
 #include "paper_plants.h"
 
@@ -51,11 +52,19 @@ class DesignedObserver {
   }
 
   void design(const char* method, double lambda_t, int cells) {
-    design_ = design_by(method, with_cells(subject_, cells), {{"lambda_t", lambda_t}},
-                        Objective::kMinGamma);
-    std::ostringstream text;
-    write_gain_file(design_, {"plant.yaml", plant_fingerprint(plant_), "test", "2000-01-01"}, text);
-    gains_ = text.str();
+    take(design_by(method, with_cells(subject_, cells), {{"lambda_t", lambda_t}},
+                   Objective::kMinGamma));
+  }
+
+  /// A proof of given gains instead.
+  void prove_gains(const char* theorem, const NamedMatrices& gains, double lambda_t, int cells) {
+    AnalysisProblem problem;
+    problem.theorem = find_theorem(theorem);
+    problem.subject = with_cells(subject_, cells);
+    problem.gains = gains;
+    problem.given = {{"lambda_t", lambda_t}};
+    problem.objective = Objective::kMinGamma;
+    take(analyze(problem, {}));
   }
 
   const Design& design() const { return design_; }
@@ -76,6 +85,13 @@ class DesignedObserver {
   }
 
  private:
+  void take(const Design& design) {
+    design_ = design;
+    std::ostringstream text;
+    write_gain_file(design_, {"plant.yaml", plant_fingerprint(plant_), "test", "2000-01-01"}, text);
+    gains_ = text.str();
+  }
+
   ConfigNode plant_;
   CertificateSubject subject_;
   Design design_;
