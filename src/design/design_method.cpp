@@ -1,6 +1,7 @@
 #include "design/design_method.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "design/assumed_disturbance.h"
@@ -30,11 +31,13 @@ DesignCandidate LmiDesignMethod::solve(const CertificateSubject& subject,
                                        const Parameters& parameters, Objective objective) const {
   DesignCandidate candidate;
   LmiSolution solution = solve_with_csdp(program(subject, parameters, objective), SolverOptions());
-  const auto level = solution.values.find(kFinalErrorLevel);
-  if (objective == Objective::kMinFinalError && level != solution.values.end()) {
+  const auto least = solution.values.find(kFinalErrorLevel);
+  std::optional<double> level;
+  if (objective == Objective::kMinFinalError && least != solution.values.end()) {
     // Gains at the very edge could hardly be proved.
+    level = kFinalErrorRoom * least->second(0, 0);
     Parameters with_room = parameters;
-    with_room[kFinalErrorLevel] = kFinalErrorRoom * level->second(0, 0);
+    with_room[kFinalErrorLevel] = *level;
     solution = solve_with_csdp(program(subject, with_room, objective), SolverOptions());
   }
   candidate.solver = solution.solver;
@@ -60,7 +63,11 @@ DesignCandidate LmiDesignMethod::solve(const CertificateSubject& subject,
       values[shape.name] = (is_minimized ? kGammaInflation : 1.0) * found->second;
     }
   }
-  return judged(theorem(), subject, std::move(values), objective, std::move(candidate));
+  candidate = judged(theorem(), subject, std::move(values), objective, std::move(candidate));
+  if (level && candidate.is_verified()) {
+    candidate.cost = final_error_of_level(theorem(), subject, candidate.values, *level);
+  }
+  return candidate;
 }
 
 DesignCandidate LmiDesignMethod::attempt(const CertificateSubject& subject,
@@ -79,7 +86,8 @@ DesignCandidate LmiDesignMethod::attempt(const CertificateSubject& subject,
     DesignCandidate least = certify_final_error(
         theorem(), subject, fixed, weights_of_design(subject), final_error_assumptions(parameters));
     least.solver = solved.solver;
-    return least;
+    // Where the gains leave nothing of P free, the proof is that of the design, or none.
+    return least.is_verified() || !solved.is_verified() ? least : solved;
   }
   DesignCandidate candidate = certify_here(theorem(), subject, fixed, objective);
   candidate.solver = solved.solver;

@@ -19,7 +19,7 @@ namespace {
 std::vector<std::string> claims() {
   const std::filesystem::path root = SDO_SOURCE_DIR;
   std::vector<std::string> all;
-  for (const char* folder : {"config/examples", "test/certificate"}) {
+  for (const char* folder : {"config", "test/certificate"}) {
     for (const auto& entry : std::filesystem::recursive_directory_iterator(root / folder)) {
       if (entry.path().extension() != ".yaml") continue;
       const ConfigNode file = read_yaml_file(entry.path().string());

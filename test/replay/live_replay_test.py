@@ -20,6 +20,7 @@ MASS_SPRING = [os.path.join(EXAMPLE, name)
 HUSKY = os.path.join(ROOT, "config", "husky_unicycle.yaml")
 CRAZYFLIE = os.path.join(ROOT, "config", "crazyflie_position.yaml")
 TWO_SENSORS = os.path.join(ROOT, "config", "crazyflie_two_sensors.yaml")
+BOUNDS = os.path.join(ROOT, "config", "crazyflie_bounds")
 CRASH = [os.path.join(ROOT, "config", name)
          for name in ("crazyflie_position.yaml", "crazyflie_crash.yaml",
                       "crazyflie_crash_detector.yaml")]
@@ -203,6 +204,20 @@ class CrazyflieTest(ReplayTestCase):
         self.assertGreater(summary["sensors"]["height"]["samples_used"],
                            1.5 * summary["sensors"]["mocap"]["samples_used"])
         self.assertLess(summary["rmse_norm"], 0.5 * summary["hold_rmse_norm"])
+
+    def test_bounds_of_one_and_of_two_sensors_hold_at_all_stamps(self):
+        truth = ["--truth", "/vrpn_client_node/Drone1/pose", "--compare"]
+        truth += ["%s=pose.position.%s" % (axis, axis) for axis in "xyz"]
+        for sensors, options in (("one_sensor", []), ("two_sensors", truth)):
+            configs = [os.path.join(BOUNDS, sensors + end) for end in (".yaml", "_gains.yaml")]
+            summary = self.replay(self.bag, configs, "bounds.bag", "--thin-to-sampling", "--seed",
+                                  "1", *options)
+            self.assertGreater(summary["compared_stamps"], 3000)
+            for bound in (summary["error_bound"], *summary["error_bounds"].values()):
+                self.assertEqual(summary["compared_stamps"], bound["finite"])
+                self.assertEqual(0, bound["exceeded"])
+            self.assertGreater(summary["error_bounds"]["y"]["largest_share"], 0.1)
+            self.assertLess(summary["rmse_norm"], 0.8 * summary["hold_rmse_norm"])
 
     def test_the_crash_is_detected_and_nothing_before(self):
         import rosbag
