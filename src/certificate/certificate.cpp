@@ -180,8 +180,17 @@ std::string statement(const Certificate& certificate) {
       add(shape.name, certificate.values.at(shape.name)(0, 0), "");
     }
   }
-  add("T1", subject.T1, " s");
-  add("T2", subject.T2, " s");
+  if (subject.sensor_times.empty()) {
+    add("T1", subject.T1, " s");
+    add("T2", subject.T2, " s");
+  }
+  for (std::size_t i = 0; i < subject.sensor_times.size(); ++i) {
+    const SamplingTimes& times = subject.sensor_times[i];
+    char numbers[96];
+    std::snprintf(numbers, sizeof numbers, ": T1 = %.4g s, T2 = %.4g s", times.T1, times.T2);
+    text += separator + subject.plant.sampled[i].sensor + numbers;
+    separator = ", ";
+  }
   if (subject.dwell_time) {
     add("tau", subject.dwell_time->tau, " s");
     add("N0", subject.dwell_time->N0, "");

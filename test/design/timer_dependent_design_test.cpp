@@ -60,6 +60,10 @@ TEST(TimerDependentDesign, FusesTwoSensorsByGainsOfBothTimers) {
       design_by("timer_dependent_scheduled_gain", with_cells(triple_integrator(), 3),
                 {{"lambda_t", 0.05}}, Objective::kMinGamma);
   EXPECT_LE(gamma_of(design), 0.0325);
+  const std::string told = statement(design.certificate);
+  for (const char* times : {"position: T1 = 0.2 s, T2 = 1 s", "speed: T1 = 0.05 s, T2 = 0.2 s)"}) {
+    EXPECT_NE(told.find(times), std::string::npos) << told;
+  }
 }
 
 /// x1' = 0.5 x1 + w, x2' = x2 + w, with a sensor of each.
