@@ -50,30 +50,31 @@ double share_of_rounding(const MatrixExpression& P, const NamedMatrices& values)
       "again");
 }
 
-/// √(δKᵀ P⁺ δK) at most, of what ScheduledGain::evaluate() computes. Its Cholesky factors solve for
-/// P⁺ + δP with |δP| <= n (n + 10) ε/2 d dᵀ, d² the diagonal, and what it solves for is off by as
-/// much of d |d K|, and by the weights.
+/// √(δKᵀ P⁺ δK) at most in a cell, of what ScheduledGain::evaluate() computes. Its Cholesky factors
+/// solve for P⁺ + δP with |δP| <= n (n + 10) ε/2 d dᵀ, d² the diagonal, and what it solves for is
+/// off by as much of d |d K|, and by the weights.
 double gain_rounding_of(const std::vector<Eigen::MatrixXd>& P, const TensorGrid& grid,
-                        const ErrorReset& reset, std::size_t timer, const NamedMatrices& values,
+                        const ErrorReset& reset, std::size_t timer,
+                        const std::vector<CellCorner>& corners, const NamedMatrices& values,
                         double weight_rounding) {
-  if (reset.is_constant) return 0.0;
   const auto n = static_cast<double>(P.front().rows());
   Eigen::VectorXd d = Eigen::VectorXd::Zero(P.front().rows());
-  for (std::size_t k = 0; k < grid.size(); ++k) {
-    d = d.cwiseMax(P[grid.with_first(k, timer)].diagonal().cwiseSqrt());
+  for (const CellCorner& corner : corners) {
+    d = d.cwiseMax(P[grid.with_first(corner.node, timer)].diagonal().cwiseSqrt());
   }
   const Eigen::VectorXd inverse_d = d.cwiseInverse();
   double least = 1.0;
   double largest = 0.0;
-  for (std::size_t k = 0; k < grid.size(); ++k) {
-    const std::size_t first = grid.with_first(k, timer);
+  for (const CellCorner& corner : corners) {
+    const std::size_t first = grid.with_first(corner.node, timer);
     const Eigen::MatrixXd scaled = inverse_d.asDiagonal() * P[first] * inverse_d.asDiagonal();
     least = std::min(least, positive_least_eigenvalue(scaled, "P/" + std::to_string(first)));
-    largest = std::max(largest, (d.asDiagonal() * evaluate(reset.K(k), values)).norm());
+    largest = std::max(largest, (d.asDiagonal() * evaluate(reset.K(corner.node), values)).norm());
   }
   const double share = 64.0 * n * n * std::numeric_limits<double>::epsilon() +
                        static_cast<double>(TensorGrid::kMaxVertices) * n * weight_rounding;
-  return share * std::sqrt(n) / least * largest;
+  // Of one timer P⁺ is P_0 everywhere, and the gain the plain mean.
+  return share * std::sqrt(n) * largest / (grid.dimensions() > 1 ? least : 1.0);
 }
 
 /// Not less than P⁻¹, whatever rounding has done to the value of P.
@@ -115,7 +116,6 @@ TimerDependentBound::TimerDependentBound(const TimerDependentFunction& function,
     if (reset.position >= timer_of_.size()) timer_of_.resize(reset.position + 1, kNoTimer);
     timer_of_[reset.position] = timer;
     nu_.push_back(reset.C.rows() > 0 ? scalar_value(values, "nu/" + reset.name) : 0.0);
-    output_norm_.push_back(reset.C.rows() > 0 ? raised(norm2(reset.C)) : 0.0);
   }
   compute_nodes(function, values, assumptions.disturbance);
 }
@@ -153,12 +153,19 @@ void TimerDependentBound::compute_nodes(const TimerDependentFunction& function,
       node.mu.push_back(raise_of(first) * raise_of(k) *
                         raised(squared(norm_between(P[k], after, map))));
       node.rho.push_back(raise_of(first) * raised(squared(norm_into(after, K))));
+      if (reset.is_constant) continue;
+      node.output.push_back(largest_eigenvalue_above(reset.C * node.inverse * reset.C.transpose()));
     }
     nodes_.push_back(std::move(node));
   }
-  for (std::size_t timer = 0; timer < system.resets.size(); ++timer) {
-    gain_rounding_.push_back(
-        gain_rounding_of(P, grid_, system.resets[timer], timer, values, weight_rounding_));
+  for (const std::vector<CellCorner>& corners : cells_of(grid_)) {
+    Node& lowest = nodes_[corners.front().node];
+    for (std::size_t timer = 0; timer < system.resets.size(); ++timer) {
+      const ErrorReset& reset = system.resets[timer];
+      if (reset.is_constant) continue;
+      lowest.gain_rounding.push_back(
+          gain_rounding_of(P, grid_, reset, timer, corners, values, weight_rounding_));
+    }
   }
 }
 
@@ -252,9 +259,14 @@ void TimerDependentBound::reset(std::size_t timer, double* state) const {
   if (time_of(timer, state) >= shortest_[timer]) {
     after = std::min(after, state[kW] + nu_[timer] * squared(noise_));
   }
-  if (gain_rounding_[timer] > 0.0) {
-    const double innovation = output_norm_[timer] * bound(state) + noise_;
-    after = squared(std::sqrt(after) + gain_rounding_[timer] * innovation);
+  const Node& lowest = nodes_[here.vertices.front()];
+  if (!lowest.gain_rounding.empty()) {
+    double output = 0.0;
+    for (std::size_t i = 0; i < here.size; ++i) {
+      output += (here.weights[i] + weight_rounding_) * nodes_[here.vertices[i]].output[timer];
+    }
+    const double innovation = std::sqrt(raised(state[kW] * output)) + noise_;
+    after = squared(std::sqrt(after) + lowest.gain_rounding[timer] * innovation);
   }
   state[kW] = after;
   state[kTimers + static_cast<Eigen::Index>(timer)] = 0.0;

@@ -56,6 +56,10 @@ class TimerDependentBound : public ErrorBound {
     double of_injection = 0.0;  ///< and on what is injected
     std::vector<double> mu;     ///< of each timer
     std::vector<double> rho;    ///< of each timer
+    // Of each timer, where gains are interpolated between nodes:
+    std::vector<double> output;  ///< not less than |C P_k⁻¹ Cᵀ|
+    /// Of the cell whose lowest node it is: √(δKᵀ P⁺ δK), δK what gains are off by rounding.
+    std::vector<double> gain_rounding;
   };
 
   /// Where the timers are so much later [s].
@@ -71,9 +75,6 @@ class TimerDependentBound : public ErrorBound {
   std::vector<double> longest_;        // [s]
   std::vector<std::size_t> timer_of_;  // of each sensor of the plant, kNone where it has none
   std::vector<double> nu_;             // ν_i
-  /// What gains between nodes lack by rounding, δK: √(δKᵀ P⁺ δK) at most, of each timer.
-  std::vector<double> gain_rounding_;
-  std::vector<double> output_norm_;  // |C_i|
   /// What rounding may take from a weight between nodes.
   double weight_rounding_ = 0.0;
   std::optional<LateFlow> late_flow_;

@@ -55,7 +55,10 @@ CertificateSubject with_longest_time(CertificateSubject subject, double T2) {
     set_sensor_times(subject, after);
   }
   for (std::size_t i = 0; i < subject.timer_nodes.size(); ++i) {
-    for (double& node : subject.timer_nodes[i]) node = moved(node, before[i], after[i]);
+    std::vector<double>& nodes = subject.timer_nodes[i];
+    for (double& node : nodes) node = moved(node, before[i], after[i]);
+    // None is left between T1 and T2 where these are the same.
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   }
   return subject;
 }

@@ -11,6 +11,7 @@ namespace sampled_data_observers {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNanoseconds = 1e9;  // in a second
 
 /// Events of one sensor, or jumps of the plant, at intervals in turn [s].
 struct EventSource {
@@ -52,7 +53,8 @@ class Run {
     }
     then_ = now_;
     time_ += interval;
-    for (double& left : left_) left -= interval;
+    // Times between events are whole nanoseconds, and so they sum up to T1 and T2 exactly.
+    for (double& left : left_) left = std::round((left - interval) * kNanoseconds) / kNanoseconds;
     left_[next] = source.intervals[++taken_[next] % source.intervals.size()];
     return std::max(largest, bound(then_));
   }
@@ -123,6 +125,9 @@ void add_start(const ErrorBound& bound, bool jumps, const EventSources& sources,
   figures.time_to_hundredth = kInfinity;
 }
 
+/// A time that differs by so many nanoseconds from a whole number of them is that number.
+constexpr double kSameTick = 1e-3;
+
 std::vector<EventSources> worst_sources(const CertificateSubject& subject) {
   const auto of_one = [&](std::vector<double> intervals) {
     const auto& sampled = subject.plant.sampled;
@@ -141,8 +146,10 @@ std::vector<EventSources> worst_sources(const CertificateSubject& subject) {
     for (std::size_t i = 0; i < subject.sensor_times.size(); ++i) {
       const SamplingTimes& times = subject.sensor_times[i];
       const std::size_t sensor = subject.plant.sampled[i].position;
-      soon.push_back({sensor, {times.T1 > 0.0 ? times.T1 : times.T2}});
-      late.push_back({sensor, {times.T2}});
+      const double longest = std::floor(times.T2 * kNanoseconds + kSameTick) / kNanoseconds;
+      const double shortest = std::ceil(times.T1 * kNanoseconds - kSameTick) / kNanoseconds;
+      soon.push_back({sensor, {times.T1 > 0.0 ? shortest : longest}});
+      late.push_back({sensor, {longest}});
     }
     return {soon, late};
   }

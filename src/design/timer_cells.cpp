@@ -116,8 +116,11 @@ Design solve_on_refined_cells(const Theorem& theorem, const CertificateSubject& 
       const double value = cost_of(found, objective, assumptions);
       const bool is_worthwhile = !best || value < least - (1.0 - kWorthwhile) * std::abs(least);
       if (value < least || !best) {
-        marks =
-            active_intervals(TensorGrid(found.certificate.subject.timer_nodes), found.certificate);
+        const TensorGrid found_grid(found.certificate.subject.timer_nodes);
+        // Where a search has made T2 as short as T1, nodes are missing.
+        if (found_grid.size() == grid.size()) {
+          marks = active_intervals(found_grid, found.certificate);
+        }
         best = std::move(found);
         least = value;
       }

@@ -7,6 +7,7 @@
 #include "design/analysis.h"
 #include "design/request_error.h"
 #include "design/rigorous_check.h"
+#include "design/run_time_figures.h"
 #include "timer_dependent_plants.h"
 
 namespace sampled_data_observers::test {
@@ -89,6 +90,34 @@ TEST(TimerDependentDesign, NeedsEachOfTwoSensorsThatShowAnUnstableStateEach) {
         refusal("timer_dependent_constant_gain", alone, {{"lambda_t", 0.05}});
     EXPECT_NE(reason.find(sensor == 0 ? "x2" : "x1"), std::string::npos) << reason;
   }
+}
+
+TEST(TimerDependentDesign, OfTwoSensorsIsRunAtTheirTimesToTheNanosecond) {
+  // Sums of rounded intervals would be sooner than T1, where no proof lets the bound fall.
+  const CertificateSubject subject = [] {
+    CertificateSubject of_uneven_times = two_unstable_states();
+    set_sensor_times(of_uneven_times, {{0.1037, 0.5}, {0.2171, 0.6}});
+    return with_cells(of_uneven_times, 3);
+  }();
+  const Design design = design_by("timer_dependent_scheduled_gain", subject, {{"lambda_t", 0.3}},
+                                  Objective::kMinGamma);
+  ErrorAssumptions noise;
+  noise.noise = 1.0;
+  const RunTimeFigures figures =
+      run_time_figures(*design.certificate.theorem, subject, design.certificate.values, noise);
+  EXPECT_LT(figures.factor_on_start, 1e5);
+  EXPECT_LT(figures.time_to_hundredth, 100.0);
+}
+
+TEST(TimerDependentAnalysis, OfUselessGainsEndsAtNoTime) {
+  AnalysisProblem problem;
+  problem.theorem = find_theorem("timer_dependent_constant_gain");
+  problem.subject =
+      linear_subject(Eigen::MatrixXd::Ones(1, 1), Eigen::MatrixXd::Ones(1, 1), 0.1, 0.4);
+  problem.gains = {{"L", scalar_matrix(0.01)}};
+  problem.given = {{"lambda_t", 0.1}};
+  problem.objective = Objective::kMaxT2;
+  EXPECT_THROW(analyze(problem, {}), DesignError);
 }
 
 TEST(TimerDependentProof, IsAboutExactProducts) {
