@@ -6,15 +6,12 @@
 #include "certificate/timer_grid.h"
 
 namespace sampled_data_observers {
-namespace {
 
 std::vector<double> shortest_times(const CertificateSubject& subject) {
   std::vector<double> all;
   for (const SamplingTimes& times : times_of_timers(subject)) all.push_back(times.T1);
   return all;
 }
-
-}  // namespace
 
 std::vector<double> longest_times(const CertificateSubject& subject) {
   std::vector<double> all;

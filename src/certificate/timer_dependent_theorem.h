@@ -28,7 +28,8 @@ class TimerDependentTheorem : public Theorem {
   virtual ErrorSystem error(const CertificateSubject& subject) const = 0;
 };
 
-/// The longest times of the timers of a subject [s].
+/// The shortest and the longest times of the timers of a subject [s].
+std::vector<double> shortest_times(const CertificateSubject& subject);
 std::vector<double> longest_times(const CertificateSubject& subject);
 
 }  // namespace sampled_data_observers

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "certificate/timer_dependent_theorem.h"
 #include "certificate/timer_grid.h"
 #include "design/methods/methods.h"
 #include "design/methods/sampled_plant.h"
@@ -12,12 +13,6 @@
 
 namespace sampled_data_observers {
 namespace {
-
-std::vector<double> shortest_times(const CertificateSubject& subject) {
-  std::vector<double> all;
-  for (const SamplingTimes& times : times_of_timers(subject)) all.push_back(times.T1);
-  return all;
-}
 
 /// Gains of an observer x̂⁺ = x̂ + K (y − C x̂): with Y = P⁺ K in place of K, the jump conditions are
 /// linear in P and Y, so that one program finds both.
