@@ -44,8 +44,13 @@ Effect DelayedJumps::reset(const Event& event, double* state, double* workspace)
     pending_.set(true, state);
     return law().reset(event, mu_.of(state), workspace);
   }
-  // Of the jump's own stamp: its outputs, or a sample of the state after it.
-  if (pending && since_jump_.of(state) == 0.0) law().reset(event, mu_.of(state), workspace);
+  const bool is_of_stamp = pending && since_jump_.of(state) == 0.0;
+  if (event.kind == EventKind::kJumpOutput) {
+    // z may be what a jump before left, as if that were just now: the outputs are not its.
+    return is_of_stamp ? law().reset(event, mu_.of(state), workspace) : Effect::kApplied;
+  }
+  // A sample of the state after it, or what is held from then on.
+  if (is_of_stamp) law().reset(event, mu_.of(state), workspace);
   return law().reset(event, state, workspace);
 }
 

@@ -91,6 +91,32 @@ TEST(DelayedJumpsBoundTest, AJumpThatComesWhileAnotherWaitsReleasesThatFirst) {
   EXPECT_TRUE(std::isfinite(largest_bound(compare_from(run, 0.0, 9.0))));
 }
 
+/// A plant that stands still between jumps, and gains that are right, if odd.
+const char kStill[] = R"(
+plant: {states: [x], A: [[0]], jump_map: {A_d: [[0.1]]}}
+sensors: {position: {C: [[1]], measured: at_jumps}}
+jumps: {topic: jumps, late: delayed}
+observer: SynchronizedObserver
+sampling: {T1: 0.5, T2: 5}
+gains: {L_d: [[-0.8]]}
+initial_estimate: {x: 100}
+history: {duration: 100, max_events: 1000}
+certificate: {theorem: bernard2022_corollary5_2, T1: 0.5, T2: 5, jump_decay: 0.05, P: [[1]], plant: {file: none.yaml, hash: x}}
+error_assumptions: {initial_error: 0.01, noise: 0}
+)";
+
+/// They are those of the jump that waits, not of the one that it released.
+TEST(DelayedJumpsBoundTest, OutputsComeBehindAJumpThatReleasedAnother) {
+  const ObserverConfig config =
+      read_observer_config(with_own_hash(read_yaml_text(kStill, "test.yaml")), no_plant_plugins);
+  TrueRun run(config, Eigen::VectorXd::Zero(1));
+  run.jump_in_parts(1.0, 4.0, {0});
+  run.jump_in_parts(2.0, 4.0, {0});
+  run.tell(10.0);
+  EXPECT_LT(largest_bound(compare_from(run, 2.0, 3.0)), 20.0);
+  EXPECT_LT(largest_bound(compare_from(run, 6.0, 9.9)), 1.0);
+}
+
 TEST(DelayedJumpsBoundTest, AJumpThatIsRefusedWhileAnotherWaitsLosesIt) {
   const ObserverConfig config =
       waiting_impulsive().with("jumps: {late: delayed, min_separation: 1}").config();

@@ -73,6 +73,17 @@ class TrueRun {
     x_ = Eigen::VectorXd(map.M() * x_ + map.c());
     happen({EventKind::kJump, 0, {}}, later, stamp_error);
   }
+  /// A jump that is told by itself, and outputs of some sensors, behind it.
+  void jump_in_parts(double seconds, double later, const std::vector<int>& sensors) {
+    go_to(seconds);
+    const Eigen::VectorXd before = x_;
+    unmeasured_jump(seconds, later, 0.0);
+    for (const int sensor : sensors) {
+      const auto& output = plant_.modes().front().outputs[static_cast<std::size_t>(sensor)];
+      const Eigen::VectorXd y = output->affine()->M() * before;
+      happen({EventKind::kJumpOutput, sensor, {y.data(), y.data() + y.size()}}, later);
+    }
+  }
   /// Told, although the plant did not jump.
   void false_jump(double seconds) {
     go_to(seconds);
