@@ -65,6 +65,7 @@ Diagnosis::Diagnosis(DiagnosisSubject subject)
 void Diagnosis::update(const RunStatistics& window, Stamp now, Duration elapsed) {
   if (clock_.note(now) > 0) {  // what was in the future says nothing
     for (ChannelMemory& memory : memory_) memory.forget_events();
+    begun_ = 0;
     restored_ = 0;
   }
   window_ = window;
@@ -84,6 +85,7 @@ void Diagnosis::update(const RunStatistics& window, Stamp now, Duration elapsed)
     if (window.channels[i].used() > 0) memory_[i].used = now;
     memory_[i].newest = std::max(memory_[i].newest, window.channels[i].newest.value_or(0));
   }
+  if (begun_ == 0 && window.lateness.count > 0) begun_ = now;
   const std::optional<Suspension> found = find_suspension();
   if (found && !suspension_) {
     suspension_ = found;

@@ -32,12 +32,13 @@ std::optional<Diagnosis::Suspension> Diagnosis::find_suspension() const {
                                   "which rested on their absence: set error_assumptions/latency "
                                   "to what is never exceeded, and publish_delay to as much"};
     }
-    const bool is_silent = subject_.channels[i].kind == EventKind::kSample && memory_[i].used > 0 &&
-                           now_ - memory_[i].used > std::max(sampling.T2, diagnosis_text::kSilence);
+    // A sensor of several may never have had one.
+    const Stamp since = std::max(memory_[i].used, begun_);
+    const bool is_silent = subject_.channels[i].kind == EventKind::kSample && since > 0 &&
+                           now_ - since > std::max(sampling.T2, diagnosis_text::kSilence);
     if (is_silent) {
-      return Suspension{memory_[i].used,
-                        "no sample of " + subject_.channels[i].name +
-                            " for longer than T2 = " + diagnosis_text::longest(sampling.T2)};
+      return Suspension{since, "no sample of " + subject_.channels[i].name +
+                                   " for longer than T2 = " + diagnosis_text::longest(sampling.T2)};
     }
   }
   return std::nullopt;

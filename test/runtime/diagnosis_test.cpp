@@ -216,6 +216,18 @@ TEST_F(DiagnosisTest, ASensorThatFallsSilentIsStale) {
          diagnosis_.certificate());
 }
 
+TEST_F(DiagnosisTest, ASensorThatNeverSpokeSuspendsTheCertificate) {
+  RunStatistics silent = good();
+  silent.channels[0] = ChannelStatistics();
+  update(silent);
+  expect(HealthLevel::kOk, {"valid"}, diagnosis_.certificate());
+  for (int i = 0; i < 3; ++i) update(silent);
+  expect(HealthLevel::kWarn, {"suspended since 101.000 s", "no sample of position", "T2 = 0.5 s"},
+         diagnosis_.certificate());
+  update(good());
+  expect(HealthLevel::kOk, {"restored at 105.000 s"}, diagnosis_.certificate());
+}
+
 TEST_F(DiagnosisTest, IntervalsOutsideSuspendTheCertificateUntilTheyAreWithin) {
   RunStatistics window = good();
   window.channels[0].interval = {10, 3 * kSecond, kSecond / 10, 2 * kSecond};

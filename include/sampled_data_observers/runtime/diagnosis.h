@@ -128,6 +128,8 @@ class Diagnosis {
   RunStatistics totals_;
   std::vector<ChannelMemory> memory_;
   Stamp now_ = 0;
+  /// When the first window with an estimate ended; 0: none did.
+  Stamp begun_ = 0;
   Duration elapsed_ = 0;
   std::uint64_t newly_missing_ = 0;
   std::uint64_t newly_skipped_ = 0;
