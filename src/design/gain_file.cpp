@@ -107,7 +107,8 @@ void write_claim(const Design& design, const GainFileOrigin& origin, std::ostrea
     out << separator << name << ": " << shortest_decimal(value);
     separator = ", ";
   }
-  out << "}\n  solver: " << design.solver << "\n  date: " << origin.date << '\n';
+  // In quotes, since ROS' loader of parameters takes no dates.
+  out << "}\n  solver: " << design.solver << "\n  date: " << yaml_scalar(origin.date) << '\n';
 }
 
 }  // namespace

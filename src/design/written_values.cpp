@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "design/csv.h"
+#include "design/yaml_text.h"
 
 namespace sampled_data_observers {
 namespace {
@@ -32,6 +33,12 @@ std::string value_text(const NamedShape& shape, const Eigen::MatrixXd& value) {
   return nested_lists(value);
 }
 
+/// In quotes where it is a number: ROS' loader of parameters takes texts only for keys.
+std::string key_text(const std::string& key) {
+  const bool is_number = key.find_first_not_of("0123456789") == std::string::npos;
+  return is_number ? yaml_scalar(key) : key;
+}
+
 /// Those of a first key together, where the first of them stands.
 void write_entries(const Entries& entries, const std::string& indent, std::ostream& out) {
   std::set<std::string> begun;
@@ -39,7 +46,7 @@ void write_entries(const Entries& entries, const std::string& indent, std::ostre
     const std::size_t slash = name.find('/');
     const std::string key = name.substr(0, slash);
     if (slash == std::string::npos) {
-      out << indent << key << ": " << text << '\n';
+      out << indent << key_text(key) << ": " << text << '\n';
       continue;
     }
     if (!begun.insert(key).second) continue;
@@ -49,7 +56,7 @@ void write_entries(const Entries& entries, const std::string& indent, std::ostre
         below.emplace_back(other.substr(slash + 1), other_text);
       }
     }
-    out << indent << key << ":\n";
+    out << indent << key_text(key) << ":\n";
     write_entries(below, indent + "  ", out);
   }
 }

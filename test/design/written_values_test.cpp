@@ -52,7 +52,7 @@ TEST(WrittenValuesTest, StandBelowTheirKeys) {
                                "    gps: [0, 0.1, 0.30000000000000004]\n"
                                "  K:\n"
                                "    gps:\n"
-                               "      0: [[0.3333333333333333], [-1e-300]]\n"))
+                               "      \"0\": [[0.3333333333333333], [-1e-300]]\n"))
       << written();
 }
 
@@ -65,7 +65,7 @@ TEST(WrittenValuesTest, OtherKeysAndFormsAreRefused) {
   const Fault faults[] = {
       {"    wheel:\n", "    wheel:\n      7: [[0]]\n", {"values/K/wheel/7", "unknown"}},
       {"  K:\n", "  K:\n    Gps: 0\n", {"values/K/Gps", "unknown"}},
-      {"      0: [[1.5, 2.5]]", "      1: [[1.5, 2.5]]", {"values/K/wheel/0", "missing"}},
+      {"      \"0\": [[1.5, 2.5]]", "      \"1\": [[1.5, 2.5]]", {"values/K/wheel/0", "missing"}},
       {"[[1.5, 2.5]]", "[1.5, 2.5]", {"values/K/wheel/0", "1 x 2"}},
       {"gps: [0, 0.1, ", "gps: [[0, 0.1, 0.2]] # ", {"values/timers/gps", "a list of 3"}},
       {"gps: [0, 0.1, ", "gps: [0, 0.1, 0.2, ", {"values/timers/gps", "a list of 3"}}};

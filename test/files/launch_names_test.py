@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """Configuration files of any name without spaces reach the parameter server by roslaunch, those of an example
-from its own folder."""
+from its own folder, and may be loaded there as trees of parameters, too."""
 import glob
 import os
 import subprocess
 import sys
 import unittest
+import xmlrpc.client
 import xml.etree.ElementTree
 
 import yaml
@@ -44,6 +45,14 @@ class LaunchNamesTest(FolderTest):
                     for name in ("plant.yaml", "scenario_delay_1.yaml", "gains.yaml")} | {mine}
         self.assertEqual({os.path.realpath(path) for path in paths},
                          {os.path.realpath(path) for path in expected})
+
+    def test_configurations_may_be_trees_of_parameters(self):
+        # What <rosparam command="load"/> does: it takes no keys but texts, and no dates.
+        files = glob.glob(os.path.join(ROOT, "config", "**", "*.yaml"), recursive=True)
+        self.assertGreater(len(files), 30)
+        for path in files:
+            with self.subTest(path), open(path) as text:
+                xmlrpc.client.dumps((yaml.safe_load(text),))
 
     def test_no_include_is_given_its_own_folder(self):
         # Within <include>, $(dirname) is the folder of the included file before roslaunch 1.15.15.
