@@ -138,7 +138,10 @@ void TimerDependentBound::compute_nodes(const TimerDependentFunction& function,
     node.inverse =
         inverse_of_exact(function.P(k), values, "P/" + std::to_string(k)).topLeftCorner(n, n);
     node.inverse_norm = largest_eigenvalue_above(node.inverse);
-    node.of_state = raise_of(k) * largest_eigenvalue_above(P[k].topLeftCorner(n, n));
+    const Eigen::MatrixXd of_state = P[k].topLeftCorner(n, n);
+    node.form = FormMaximum(of_state, of_state.cwiseAbs());
+    node.raise = raise_of(k);
+    node.of_state = raise_of(k) * largest_eigenvalue_above(of_state);
     if (rest > 0) {
       node.of_injection =
           raise_of(k) * largest_eigenvalue_above(P[k].bottomRightCorner(rest, rest));
@@ -197,6 +200,22 @@ void TimerDependentBound::begin(double error, double* state) const {
     of_injection += (here.weights[i] + weight_rounding_) * node.of_injection;
   }
   state[kW] = squared(std::sqrt(of_state) * error + std::sqrt(of_injection) * initial_injection_);
+}
+
+/// The largest of eᵀ P(τ) e is at most the mean of those at the corners.
+void TimerDependentBound::narrow(const Eigen::Ref<const Eigen::MatrixXd>& Q, double* state) const {
+  if (state[kW] == kInfinity) return;
+  const TensorGrid::Interpolation here = interpolation(state, 0.0);
+  double of_state = 0.0;
+  double of_injection = 0.0;
+  for (std::size_t i = 0; i < here.size; ++i) {
+    const Node& node = nodes_[here.vertices[i]];
+    const double weight = here.weights[i] + weight_rounding_;
+    of_state += weight * node.raise * node.form.over(Q);
+    of_injection += weight * node.of_injection;
+  }
+  const double root = std::sqrt(of_state) + std::sqrt(of_injection) * initial_injection_;
+  state[kW] = std::min(state[kW], raised(squared(root)));
 }
 
 void TimerDependentBound::begin_at_sample(std::size_t sensor, double error, double* state) const {

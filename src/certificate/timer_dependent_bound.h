@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "certificate/error_bound.h"
+#include "certificate/form_maximum.h"
 #include "certificate/late_flow.h"
 #include "certificate/timer_dependent_conditions.h"
 
@@ -34,6 +35,7 @@ class TimerDependentBound : public ErrorBound {
   }
   void initialize(double* state) const override;
   void begin(double error, double* state) const override;
+  void narrow(const Eigen::Ref<const Eigen::MatrixXd>& Q, double* state) const override;
   void begin_at_sample(std::size_t sensor, double error, double* state) const override;
   void flow(double duration, double* state) const override;
   void sample(std::size_t sensor, double* state, double* workspace) const override;
@@ -52,6 +54,8 @@ class TimerDependentBound : public ErrorBound {
   struct Node {
     Eigen::MatrixXd inverse;    ///< n x n: not less than the block of P_k⁻¹ of the state
     double inverse_norm = 0.0;  ///< not less than its largest eigenvalue
+    FormMaximum form;           ///< of the block of P_k of the state, but for its rounding
+    double raise = 1.0;         ///< not less than the share of the exact P_k in the computed one
     double of_state = 0.0;      ///< not less than |P_k| on the state
     double of_injection = 0.0;  ///< and on what is injected
     std::vector<double> mu;     ///< of each timer

@@ -73,6 +73,8 @@ const SelfReload kSelfReloads[] = {
      2 * kSecond},
     {"config/examples/etienne2019_dc_drive/gains.yaml", "{initial_error: 1, noise: 0.1}",
      kSecond / 4},
+    {"config/examples/ferrante2016_mass_spring/gains_timer_dependent.yaml",
+     "{initial_error: 1, noise: 0.1, disturbance: 0}", kSecond},
 };
 
 TEST(BoundAfterSelfReloadTest, StartsFromTheEllipsoidAndNotFromTheNorm) {
