@@ -14,6 +14,8 @@ def slopes(claim):
 
 def timer_dependent(claim, fields, reset, noise_of, nodes):
     """e' = F e + N w + G phi; at a sample e⁺ = reset e + noise η, noise a function of the node."""
+    if claim.T1 == 0:
+        raise Unreadable("samples one right after another")
     n, size = claim.states, len(fields[0])
     rate, level = claim.value("lambda_t"), claim.value("nu")
     is_lipschitz = claim.G is not None and not claim.vertices
