@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "config/size_limits.h"
+
 namespace sampled_data_observers {
 namespace {
 
@@ -86,8 +88,13 @@ void read_timer_nodes(ConfigSection& section, CertificateSubject& subject) {
   ConfigSection lists = section.section("timer_nodes");
   const std::vector<std::string> names = names_of_timers(subject);
   const std::vector<SamplingTimes> times = times_of_timers(subject);
+  std::size_t of_grid = 1;
   for (std::size_t i = 0; i < names.size(); ++i) {
     subject.timer_nodes.push_back(read_nodes(lists, names[i], times[i]));
+    of_grid *= subject.timer_nodes.back().size();
+    require_at_most(kMostTimerNodes, of_grid,
+                    "nodes of the grid, the product of those of its timers", section,
+                    "timer_nodes");
   }
   lists.finish();
 }

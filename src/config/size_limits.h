@@ -16,6 +16,8 @@ constexpr std::size_t kMostParameters = 200;
 constexpr std::size_t kMostDefinitions = 200;
 /// Formulas in a list.
 constexpr std::size_t kMostFormulas = 120;
+/// Of a grid over timers: there is a matrix at each, below a key of a map.
+constexpr std::size_t kMostTimerNodes = 1000;
 /// Of a plant of one mode, together: states (those of biases included), inputs, outputs of all
 /// sensors.
 constexpr std::size_t kMostVariables = 120;

@@ -213,6 +213,14 @@ TEST(CertifiedConfigTest, ComparesTheTimesOfEachSensorWithItsOwnOfTheProof) {
   EXPECT_EQ(from_seconds(0.5), own.options.sampling.of_sensor(0).T2);
 }
 
+TEST(CertifiedConfigTest, RefusesGridsOfTimersThatWouldFillTheMemory) {
+  std::string wheel = "0, 0.05";
+  for (int i = 1; i < 500; ++i) wheel += ", " + std::to_string(0.05 + i * 0.0003);
+  expect_parts(refusal_of(CertifiedGains(kTwoSensors)
+                              .with("certificate: {timer_nodes: {wheel: [" + wheel + ", 0.2]}}")),
+               {"certificate/timer_nodes: expected at most 1000 nodes of the grid", "1506"});
+}
+
 TEST(CertifiedConfigTest, TakesAverageDwellTimesThatImplyThatOfTheProof) {
   const char kAveraged[] = "test/certificate/bernard2022_bouncing_ball_reverse_average.yaml";
   const auto averaged = [&](const std::string& jumps) {
