@@ -221,7 +221,7 @@ class SensorRuns {
 
 /// The text with the first number of the P of a node made larger.
 std::string with_other_P(std::string text, const std::string& node) {
-  const std::size_t line = text.find("\n    " + node + ": [[", text.find("  P:"));
+  const std::size_t line = text.find("\n    \"" + node + "\": [[", text.find("  P:"));
   EXPECT_NE(line, std::string::npos) << text;
   text.insert(text.find("[[", line) + 2, "9");
   return text;
