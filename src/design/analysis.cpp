@@ -248,9 +248,9 @@ Design prove_final_error(const Design& design, const ErrorAssumptions& assumptio
   return best;
 }
 
-std::shared_ptr<const Design> prove_for_run_time(const Design& design,
-                                                 const ErrorAssumptions& assumptions,
-                                                 const SynthesisOptions& options) {
+std::shared_ptr<const Design> own_proof_for_run_time(const Design& design,
+                                                     const ErrorAssumptions& assumptions,
+                                                     const SynthesisOptions& options) {
   constexpr double kWorthwhile = 0.99;
   const Certificate& certificate = design.certificate;
   const Theorem& theorem = *certificate.theorem;

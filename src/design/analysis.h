@@ -36,12 +36,12 @@ Design analyze(const AnalysisProblem& problem, const SynthesisOptions& options);
 Design prove_final_error(const Design& design, const ErrorAssumptions& assumptions,
                          const SynthesisOptions& options);
 
-/// The gains of a design with the proof that gives the least bound on their final error, for its N
-/// (without one, for no disturbance) and no performance output; null where that is not less than
-/// what the design's own proof gives by 1 %.
-std::shared_ptr<const Design> prove_for_run_time(const Design& design,
-                                                 const ErrorAssumptions& assumptions,
-                                                 const SynthesisOptions& options);
+/// The gains of a design with the proof by its own theorem that gives the least bound on their
+/// final error, for its N (without one, for no disturbance) and no performance output; null where
+/// that is not less than what the design's own proof gives by 1 %.
+std::shared_ptr<const Design> own_proof_for_run_time(const Design& design,
+                                                     const ErrorAssumptions& assumptions,
+                                                     const SynthesisOptions& options);
 
 /// The design, or one with the same gains that analysis finds to be better by the objective.
 Design prove_further(const Design& design, const SynthesisOptions& options);

@@ -8,6 +8,7 @@
 #include "certificate/certified_gains.h"
 #include "design/analysis.h"
 #include "design/run_time_figures.h"
+#include "design/run_time_proof.h"
 
 namespace sampled_data_observers::test {
 namespace {

@@ -14,6 +14,7 @@
 #include "design/analysis.h"
 #include "design/assumed_disturbance.h"
 #include "design/request_error.h"
+#include "design/run_time_proof.h"
 #include "design/workers.h"
 #include "messages/plant_plugins.h"
 #include "sampled_data_observers/config/yaml_file.h"
@@ -196,9 +197,7 @@ void analyze_command(const AnalyzeArguments& arguments, const std::string& comma
   DesignProblem assumed;
   assumed.subject = problem.subject;
   assume({config.noise, config.disturbance}, assumed);
-  if (main->objective != Objective::kMinFinalError) {
-    main->for_run_time = prove_for_run_time(*main, assumed.assumptions, options);
-  }
+  main->for_run_time = prove_for_run_time(*main, assumed.assumptions, options);
   print_run_time_figures(*main, assumed.assumptions);
   if (arguments.output.empty()) return;
   save_gain_file(*main, origin, arguments.output);

@@ -14,6 +14,7 @@
 #include "design/best_design.h"
 #include "design/final_error.h"
 #include "design/request_error.h"
+#include "design/run_time_proof.h"
 #include "design/synthesis.h"
 #include "design/workers.h"
 #include "linear_algebra/matrix_functions.h"
@@ -209,9 +210,7 @@ void synthesize_command(const SynthesizeArguments& arguments, const std::string&
     std::fprintf(stderr, "design: %s\n", error.what());
     throw ExitStatus{kNoDesign};
   }
-  if (problem.objective != Objective::kMinFinalError) {
-    design.for_run_time = prove_for_run_time(design, assumed.assumptions, options);
-  }
+  design.for_run_time = prove_for_run_time(design, assumed.assumptions, options);
   const std::string text = save_gain_file(design, origin, arguments.output);
   std::printf("%s\nwritten to %s after %zu attempt%s in %.1f s\n", text.c_str(),
               arguments.output.c_str(), design.attempts, design.attempts == 1 ? "" : "s",
