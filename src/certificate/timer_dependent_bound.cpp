@@ -17,13 +17,13 @@
 namespace sampled_data_observers {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNothingKnown = std::numeric_limits<double>::infinity();
 constexpr double kNanoseconds = 1e9;  // in a second
 constexpr std::size_t kNoTimer = std::numeric_limits<std::size_t>::max();
 /// P_0 that is computed of other matrices may be off by this share of itself.
 constexpr double kLargestShare = 0.1;
 
-double squared(double value) { return value * value; }
+double square_of(double value) { return value * value; }
 
 /// How far weights between nodes may be off: those of a cell that is narrow beside its time the
 /// most.
@@ -109,7 +109,7 @@ TimerDependentBound::TimerDependentBound(const TimerDependentFunction& function,
     if (system.N.cols() == 0) {
       throw std::invalid_argument("it is about plants without disturbance: give design/N");
     }
-    push_ = squared(scalar_value(values, "gamma") * assumptions.disturbance);
+    push_ = square_of(scalar_value(values, "gamma") * assumptions.disturbance);
   }
   for (std::size_t timer = 0; timer < system.resets.size(); ++timer) {
     const ErrorReset& reset = system.resets[timer];
@@ -154,8 +154,8 @@ void TimerDependentBound::compute_nodes(const TimerDependentFunction& function,
       const MatrixExpression map =
           MatrixExpression(reset.J) - MatrixExpression(K) * MatrixExpression(reset.C);
       node.mu.push_back(raise_of(first) * raise_of(k) *
-                        raised(squared(norm_between(P[k], after, map))));
-      node.rho.push_back(raise_of(first) * raised(squared(norm_into(after, K))));
+                        raised(square_of(norm_between(P[k], after, map))));
+      node.rho.push_back(raise_of(first) * raised(square_of(norm_into(after, K))));
       if (reset.is_constant) continue;
       node.output.push_back(largest_eigenvalue_above(reset.C * node.inverse * reset.C.transpose()));
     }
@@ -199,12 +199,12 @@ void TimerDependentBound::begin(double error, double* state) const {
     of_state += (here.weights[i] + weight_rounding_) * node.of_state;
     of_injection += (here.weights[i] + weight_rounding_) * node.of_injection;
   }
-  state[kW] = squared(std::sqrt(of_state) * error + std::sqrt(of_injection) * initial_injection_);
+  state[kW] = square_of(std::sqrt(of_state) * error + std::sqrt(of_injection) * initial_injection_);
 }
 
 /// The largest of eᵀ P(τ) e is at most the mean of those at the corners.
 void TimerDependentBound::narrow(const Eigen::Ref<const Eigen::MatrixXd>& Q, double* state) const {
-  if (state[kW] == kInfinity) return;
+  if (state[kW] == kNothingKnown) return;
   const TensorGrid::Interpolation here = interpolation(state, 0.0);
   double of_state = 0.0;
   double of_injection = 0.0;
@@ -215,7 +215,7 @@ void TimerDependentBound::narrow(const Eigen::Ref<const Eigen::MatrixXd>& Q, dou
     of_injection += weight * node.of_injection;
   }
   const double root = std::sqrt(of_state) + std::sqrt(of_injection) * initial_injection_;
-  state[kW] = std::min(state[kW], raised(squared(root)));
+  state[kW] = std::min(state[kW], raised(square_of(root)));
 }
 
 void TimerDependentBound::begin_at_sample(std::size_t sensor, double error, double* state) const {
@@ -231,7 +231,7 @@ void TimerDependentBound::flow(double duration, double* state) const {
   bool is_late = false;
   double late_from = 0.0;
   double W_there = 0.0;
-  while (left > 0.0 && W < kInfinity) {
+  while (left > 0.0 && W < kNothingKnown) {
     std::size_t late = 0;
     double piece = left;
     for (std::size_t timer = 0; timer < grid_.dimensions(); ++timer) {
@@ -248,15 +248,15 @@ void TimerDependentBound::flow(double duration, double* state) const {
       W_there = W;
     }
     W = late == 0 ? flowed_linearly(W, -rate_, push_, piece)
-                  : squared(late_flow_->flowed(late, std::sqrt(W), piece));
+                  : square_of(late_flow_->flowed(late, std::sqrt(W), piece));
     passed = piece == left ? duration : passed + piece;
     left -= piece;
   }
   if (is_late) {
     const auto by_Q = [&](double from, double W_from) {
-      return squared(late_flow_->flowed_in_Q(interpolation(state, from), std::sqrt(W_from),
-                                             duration - from, interpolation(state, duration),
-                                             weight_rounding_));
+      return square_of(late_flow_->flowed_in_Q(interpolation(state, from), std::sqrt(W_from),
+                                               duration - from, interpolation(state, duration),
+                                               weight_rounding_));
     };
     W = std::min({W, by_Q(0.0, start), by_Q(late_from, W_there)});
   }
@@ -274,9 +274,9 @@ void TimerDependentBound::reset(std::size_t timer, double* state) const {
     mu = std::max(mu, nodes_[here.vertices[i]].mu[timer]);
     rho = std::max(rho, nodes_[here.vertices[i]].rho[timer]);
   }
-  double after = squared(std::sqrt(mu * state[kW]) + std::sqrt(rho) * noise_);
+  double after = square_of(std::sqrt(mu * state[kW]) + std::sqrt(rho) * noise_);
   if (time_of(timer, state) >= shortest_[timer]) {
-    after = std::min(after, state[kW] + nu_[timer] * squared(noise_));
+    after = std::min(after, state[kW] + nu_[timer] * square_of(noise_));
   }
   const Node& lowest = nodes_[here.vertices.front()];
   if (!lowest.gain_rounding.empty()) {
@@ -285,21 +285,23 @@ void TimerDependentBound::reset(std::size_t timer, double* state) const {
       output += (here.weights[i] + weight_rounding_) * nodes_[here.vertices[i]].output[timer];
     }
     const double innovation = std::sqrt(raised(state[kW] * output)) + noise_;
-    after = squared(std::sqrt(after) + lowest.gain_rounding[timer] * innovation);
+    after = square_of(std::sqrt(after) + lowest.gain_rounding[timer] * innovation);
   }
   state[kW] = after;
   state[kTimers + static_cast<Eigen::Index>(timer)] = 0.0;
 }
 
 void TimerDependentBound::sample(std::size_t sensor, double* state, double*) const {
-  if (state[kW] == kInfinity) return;
+  if (state[kW] == kNothingKnown) return;
   reset(timer_of_[sensor], state);
 }
 
-void TimerDependentBound::jump(const JumpMotion&, double* state) const { state[kW] = kInfinity; }
+void TimerDependentBound::jump(const JumpMotion&, double* state) const {
+  state[kW] = kNothingKnown;
+}
 
 double TimerDependentBound::bound(const double* state) const {
-  if (state[kW] == kInfinity) return kInfinity;
+  if (state[kW] == kNothingKnown) return kNothingKnown;
   const TensorGrid::Interpolation here = interpolation(state, 0.0);
   double norm = 0.0;
   for (std::size_t i = 0; i < here.size; ++i) {
@@ -310,8 +312,8 @@ double TimerDependentBound::bound(const double* state) const {
 
 void TimerDependentBound::state_bounds(const double* state, double*,
                                        Eigen::Ref<Eigen::VectorXd> bounds) const {
-  if (state[kW] == kInfinity) {
-    bounds.setConstant(kInfinity);
+  if (state[kW] == kNothingKnown) {
+    bounds.setConstant(kNothingKnown);
     return;
   }
   const TensorGrid::Interpolation here = interpolation(state, 0.0);
@@ -326,8 +328,8 @@ void TimerDependentBound::state_bounds(const double* state, double*,
 
 void TimerDependentBound::ellipsoid(const double* state, double*,
                                     Eigen::Ref<Eigen::MatrixXd> Q) const {
-  if (state[kW] == kInfinity) {
-    Q.setConstant(kInfinity);
+  if (state[kW] == kNothingKnown) {
+    Q.setConstant(kNothingKnown);
     return;
   }
   const TensorGrid::Interpolation here = interpolation(state, 0.0);

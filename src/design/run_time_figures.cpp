@@ -10,7 +10,7 @@
 namespace sampled_data_observers {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kWithoutBound = std::numeric_limits<double>::infinity();
 constexpr double kNanoseconds = 1e9;  // in a second
 
 /// Events of one sensor, or jumps of the plant, at intervals in turn [s].
@@ -65,7 +65,7 @@ class Run {
   /// What is no number bounds nothing.
   double bound(const std::vector<double>& state) const {
     const double value = bound_.bound(state.data());
-    if (std::isnan(value)) return kInfinity;
+    if (std::isnan(value)) return kWithoutBound;
     return value;
   }
 
@@ -104,7 +104,8 @@ double final_bound(const ErrorBound& bound, bool jumps, const EventSources& sour
   for (int cycle = 0; cycle < kMaxCycles; ++cycle) {
     double largest = 0.0;
     for (std::size_t i = 0; i < events; ++i) largest = std::max(largest, run.advance());
-    if (!(largest < kInfinity) || std::abs(largest - before) <= kSettled * largest) return largest;
+    if (!(largest < kWithoutBound) || std::abs(largest - before) <= kSettled * largest)
+      return largest;
     before = largest;
   }
   return before;
@@ -122,7 +123,7 @@ void add_start(const ErrorBound& bound, bool jumps, const EventSources& sources,
     figures.time_to_hundredth = std::max(figures.time_to_hundredth, run.time());
     return;
   }
-  figures.time_to_hundredth = kInfinity;
+  figures.time_to_hundredth = kWithoutBound;
 }
 
 /// A time that differs by so many nanoseconds from a whole number of them is that number.

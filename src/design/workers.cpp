@@ -22,7 +22,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+constexpr std::size_t kNoWorker = static_cast<std::size_t>(-1);
 
 /// How long a wait may take that can be cancelled [s].
 constexpr double kPatience = 0.2;
@@ -148,7 +148,7 @@ class Worker {
   pid_t pid_ = -1;
   int to_ = -1;
   int from_ = -1;
-  std::size_t task_ = kNone;
+  std::size_t task_ = kNoWorker;
   Clock::time_point since_;
 };
 

@@ -26,7 +26,7 @@ struct JumpObservabilityArguments {
 };
 
 /// Of the largest gramian that outputs of such plants have, what is taken for rounding.
-constexpr double kRounding = 1e-12;
+constexpr double kRoundingOfTimes = 1e-12;
 
 void jump_observability_command(const JumpObservabilityArguments& arguments) {
   CertificateSubject subject = read_design_config(arguments.files, load_plant_plugin).subject;
@@ -43,7 +43,7 @@ void jump_observability_command(const JumpObservabilityArguments& arguments) {
   std::string intervals;
   for (const double tau : found.worst_intervals)
     intervals += (intervals.empty() ? "" : ", ") + brief(tau);
-  const bool is_seen = found.least_gramian > kRounding;
+  const bool is_seen = found.least_gramian > kRoundingOfTimes;
   std::printf(
       "the state before %zu intervals of flow in [%s, %s] s, from the outputs at the jumps behind "
       "them:\n",
