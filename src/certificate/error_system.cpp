@@ -1,5 +1,7 @@
 #include "certificate/error_system.h"
 
+#include <utility>
+
 namespace sampled_data_observers {
 namespace {
 
@@ -156,8 +158,8 @@ ErrorSystem synchronized_error(const CertificateSubject& subject) {
   reset.name = "jumps";
   reset.J = jump_of(mode);
   reset.C = mode.C_d;
-  const MatrixExpression K = mode.C_d.rows() > 0 ? symbol("L_d", n, mode.C_d.rows()) : zeros(n, 0);
-  reset.K = [K](std::size_t) { return K; };
+  MatrixExpression K = mode.C_d.rows() > 0 ? symbol("L_d", n, mode.C_d.rows()) : zeros(n, 0);
+  reset.K = [K = std::move(K)](std::size_t) { return K; };
   system.resets.push_back(std::move(reset));
   return system;
 }

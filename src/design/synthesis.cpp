@@ -62,8 +62,8 @@ Design synthesize_on_grid(const DesignMethod& method, const DesignProblem& probl
                           const SynthesisOptions& options, const Design* coarser) {
   const bool seeks_rate = problem.objective == Objective::kMinFinalError &&
                           problem.given.count(method.decay_parameter()) == 0;
-  const Design design = coarser != nullptr && seeks_rate ? climb(method, problem, options, *coarser)
-                                                         : search_design(method, problem, options);
+  Design design = coarser != nullptr && seeks_rate ? climb(method, problem, options, *coarser)
+                                                   : search_design(method, problem, options);
   if (problem.objective != Objective::kMinFinalError) return prove_further(design, options);
   // Where P depends on timers, it was found for the final error of these gains already.
   if (depends_on_timers(method, problem.subject)) return design;

@@ -64,10 +64,10 @@ class ConstantJumpGain : public JumpGainDesign {
     if (subject.T1 == 0.0) {
       products.Z = program.matrix("Z", m, m);
       const MatrixExpression P_K = transpose(MatrixExpression(subject.plant.C())) * *products.Z;
-      products.P_K = [P_K](std::size_t, std::size_t) { return P_K; };
+      products.P_K = [product = P_K](std::size_t, std::size_t) { return product; };
     } else {
       const MatrixExpression Y = program.matrix("Y", n, m);
-      products.P_K = [Y](std::size_t, std::size_t) { return Y; };
+      products.P_K = [product = Y](std::size_t, std::size_t) { return product; };
     }
     return program_of(subject, parameters, objective, constant_gain_error, products,
                       std::move(program));
@@ -111,7 +111,8 @@ class GainAtJumps : public JumpGainDesign {
     LmiProgram program;
     const MatrixExpression Y =
         program.matrix("Y", subject.plant.states(), subject.plant.mode().C_d.rows());
-    const GainProducts products = {[Y](std::size_t, std::size_t) { return Y; }, std::nullopt};
+    const GainProducts products = {[product = Y](std::size_t, std::size_t) { return product; },
+                                   std::nullopt};
     return program_of(subject, parameters, objective, synchronized_error, products,
                       std::move(program));
   }
