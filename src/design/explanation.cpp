@@ -32,7 +32,8 @@ constexpr Recommendation kRecommendations[] = {
      "a gain that knows the time since the last sample reaches the longest times and fastest "
      "rates"},
     {"ferrante2019_alternating",
-     "it finds the least gain from noise and disturbance of all that are about such plants"},
+     "of the paper's methods it finds the least gain from the disturbance; "
+     "timer_dependent_constant_gain finds a smaller one for most plants"},
     {"etienne2019_proposition2", "it needs no Lipschitz constant, and bounds what noise does"},
 };
 
@@ -156,9 +157,11 @@ class Explanation {
     say_recommendation();
     if (!c_.has_times()) c_.out.bullet("give the times between events, by --T1 and --T2");
     if (!c_.plant.jumps()) {
+      const bool is_one_sensor = c_.plant.sampled.size() < 2;
       c_.out.bullet(
-          "`design synthesize --objective max-T2` tells how far apart samples may come, "
-          "`design sweep` what longer times cost");
+          std::string(
+              "`design synthesize --objective max-T2` tells how far apart samples may come") +
+          (is_one_sensor ? ", `design sweep` what longer times cost" : ""));
     }
     if (c_.plant.N.cols() == 0) {
       c_.out.bullet(
