@@ -20,14 +20,10 @@ struct ErrorReset {
   std::size_t position = 0;  ///< of a sensor among those of the plant
   Eigen::MatrixXd J;         ///< N x N: the identity, or the plant's jump map
   Eigen::MatrixXd C;         ///< m x N
-  /// N x m, at a node of the grid of timers before the event (ScheduledGains); the same at all of
+  /// N x m, at a node of the grid of timers before the event (ScheduledGain); the same at all of
   /// them where the gain is constant.
   std::function<MatrixExpression(std::size_t node)> K;
   bool is_constant = true;
-
-  MatrixExpression map(std::size_t node) const {
-    return MatrixExpression(J) - K(node) * MatrixExpression(C);
-  }
 };
 
 /// The error of an observer as a hybrid system that is linear between events up to a nonlinearity:

@@ -12,8 +12,7 @@ namespace sampled_data_observers {
 /// longest times, at which they stand still in P. The conditions of the flow say nothing of that:
 /// they count on a P that falls. By several norms, which all hold:
 /// - that of P(τ): d/dt √V <= c √V + |N|_P |w|, with c from the flow conditions without the slopes
-/// of
-///   the late timers;
+///   of the late timers;
 /// - those with a constant Q, |e|_Q, in which the flow grows little (FlowGrowth), or P is that just
 ///   after events: the same with their own c, at the price of what V and |e|_Q² differ by. The
 ///   least counts.

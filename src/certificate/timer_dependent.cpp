@@ -1,4 +1,3 @@
-
 #include <cmath>
 #include <functional>
 #include <stdexcept>
@@ -15,8 +14,7 @@ namespace {
 
 constexpr const char* kGuarantee =
     "the error converges at the rate lambda_t, and its performance output has the L2 gain gamma "
-    "from "
-    "the disturbance, for all times between samples of each sensor from its T1 to its T2";
+    "from the disturbance, for all times between samples of each sensor from its T1 to its T2";
 
 /// Of one type of observer.
 struct TimerDependentVariant {

@@ -77,7 +77,7 @@ class TimerDependentBound : public ErrorBound {
   std::vector<Node> nodes_;
   std::vector<double> shortest_;       // [s]
   std::vector<double> longest_;        // [s]
-  std::vector<std::size_t> timer_of_;  // of each sensor of the plant, kNone where it has none
+  std::vector<std::size_t> timer_of_;  // of each sensor of the plant, kNoTimer where it has none
   std::vector<double> nu_;             // ν_i
   /// What rounding may take from a weight between nodes.
   double weight_rounding_ = 0.0;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "config/number_text.h"
 #include "config/size_limits.h"
 
 namespace sampled_data_observers {
@@ -68,6 +69,16 @@ std::vector<std::string> names_of_timers(const CertificateSubject& subject) {
   return names;
 }
 
+/// "[0, 0.1]", of which a few will do.
+std::string listed(const std::vector<double>& nodes) {
+  constexpr std::size_t kMostListed = 8;
+  std::string text = "[";
+  for (std::size_t i = 0; i < nodes.size() && i < kMostListed; ++i) {
+    text += (i == 0 ? "" : ", ") + number_text(nodes[i]);
+  }
+  return text + (nodes.size() > kMostListed ? ", ...]" : "]");
+}
+
 std::vector<double> read_nodes(ConfigSection& section, const std::string& name,
                                const SamplingTimes& times) {
   const Eigen::VectorXd list = section.vector(name, -1);
@@ -76,7 +87,10 @@ std::vector<double> read_nodes(ConfigSection& section, const std::string& name,
       std::adjacent_find(nodes.begin(), nodes.end(), std::greater_equal<>()) == nodes.end();
   if (nodes.size() < 2 || !increases || nodes.front() != 0.0 || nodes.back() != times.T2 ||
       std::find(nodes.begin(), nodes.end(), times.T1) == nodes.end()) {
-    throw section.error(name, "increasing times from 0 to T2 with T1 among them", "others");
+    throw section.error(name,
+                        "increasing times from 0 to T2 = " + number_text(times.T2) +
+                            " with T1 = " + number_text(times.T1) + " among them",
+                        listed(nodes));
   }
   return nodes;
 }

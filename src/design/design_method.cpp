@@ -27,6 +27,12 @@ const char* to_string(Objective objective) {
   return "max-decay";
 }
 
+bool is_better(const DesignCandidate& a, const DesignCandidate& b) {
+  if (a.values.empty()) return false;
+  if (a.is_verified() != b.is_verified()) return a.is_verified();
+  return a.is_verified() ? a.cost < b.cost : a.margin > b.margin;
+}
+
 DesignCandidate LmiDesignMethod::solve(const CertificateSubject& subject,
                                        const Parameters& parameters, Objective objective) const {
   DesignCandidate candidate;

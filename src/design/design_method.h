@@ -73,6 +73,10 @@ struct DesignCandidate {
   bool is_verified() const { return !values.empty() && margin > 0.0; }
 };
 
+/// Whether a is the better one: that which holds, or else is nearer to it; of two that hold, that
+/// of less cost.
+bool is_better(const DesignCandidate& a, const DesignCandidate& b);
+
 /// A way to find gains for which the conditions of a theorem hold.
 class DesignMethod {
  public:

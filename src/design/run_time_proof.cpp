@@ -70,10 +70,7 @@ std::optional<AnalysisProblem> problem_by_timers(const Design& design,
 std::shared_ptr<const Design> prove_for_run_time(const Design& design,
                                                  const ErrorAssumptions& assumptions,
                                                  const SynthesisOptions& options) {
-  std::shared_ptr<const Design> best;
-  if (design.objective != Objective::kMinFinalError) {
-    best = own_proof_for_run_time(design, assumptions, options);
-  }
+  std::shared_ptr<const Design> best = own_proof_for_run_time(design, assumptions, options);
   const std::optional<AnalysisProblem> problem = problem_by_timers(design, assumptions);
   if (!problem) return best;
   const double least = figure(best ? best->certificate : design.certificate, problem->assumptions);

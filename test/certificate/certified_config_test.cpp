@@ -219,6 +219,11 @@ TEST(CertifiedConfigTest, RefusesGridsOfTimersThatWouldFillTheMemory) {
   expect_parts(refusal_of(CertifiedGains(kTwoSensors)
                               .with("certificate: {timer_nodes: {wheel: [" + wheel + ", 0.2]}}")),
                {"certificate/timer_nodes: expected at most 1000 nodes of the grid", "1506"});
+  expect_parts(
+      refusal_of(CertifiedGains(kTwoSensors).with("certificate: {timer_nodes: {wheel: [0, 0.2]}}")),
+      {"certificate/timer_nodes/wheel: expected increasing times from 0 to T2 = 0.2 with "
+       "T1 = 0.05 among them",
+       "found [0, 0.2]"});
 }
 
 TEST(CertifiedConfigTest, TakesAverageDwellTimesThatImplyThatOfTheProof) {

@@ -617,6 +617,16 @@ TEST_F(DesignTool, ReadsTheTimesOfEachSensor) {
   const ToolRun others = run("explain --T2 1.8 " + plant(kGps, kWheel));
   EXPECT_NE(0, others.status);
   EXPECT_TRUE(others.says("--T1 and --T2 are the times of all sensors")) << others.output;
+  const std::string output = " -o " + path("gains.yaml");
+  for (const char* cells : {"40", "4000000000"}) {
+    const ToolRun fine = run("synthesize " + plant(kGps, kWheel) + output + " --cells " + cells);
+    EXPECT_NE(0, fine.status);
+    EXPECT_TRUE(fine.says("--cells: expected at most 1000 nodes of the grid")) << fine.output;
+  }
+  const ToolRun coinciding =
+      run("synthesize " + plant(kGps, "sampling: {wheel: {T1: 0, T2: 1}}\n") + output);
+  EXPECT_NE(0, coinciding.status);
+  EXPECT_TRUE(coinciding.says("it needs T1 > 0 of each")) << coinciding.output;
 }
 
 TEST_F(DesignTool, ExplainsPlantsOfFormulasAlongATrajectory) {

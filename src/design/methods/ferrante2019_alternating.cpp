@@ -63,12 +63,6 @@ class Alternating : public DesignMethod {
   }
 
  private:
-  static bool is_better(const DesignCandidate& a, const DesignCandidate& b) {
-    if (a.values.empty()) return false;
-    if (a.is_verified() != b.is_verified()) return a.is_verified();
-    return a.is_verified() ? a.cost < b.cost : a.margin > b.margin;
-  }
-
   /// The best of the propositions, and of Proposition 2 with gains that are too large at first: its
   /// bound on them is far from tight.
   DesignCandidate best_start(const CertificateSubject& subject, const Parameters& parameters,
@@ -182,9 +176,7 @@ class Alternating : public DesignMethod {
     const double e = std::exp(parameters.at("delta") * subject.T2);
     program.require_negative("M(0)", ferrante2019_M(plant, 1.0, lambda_t, P1_L, P2_CL_H));
     program.require_negative("M(T2)", ferrante2019_M(plant, e, lambda_t, P1_L, P2_CL_H));
-    const MatrixExpression k = kBoundShare * parameters.at("gain_bound");
-    program.bound_above("norm of L", zeros(n + m, n + m),
-                        symmetric_blocks({{k * identity(n), L}, {k * identity(m)}}));
+    bound_norm(program, "L", L, parameters.at("gain_bound"));
     return program;
   }
 

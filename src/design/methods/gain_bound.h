@@ -10,6 +10,15 @@ namespace sampled_data_observers {
 /// to its tolerances only, is then within.
 constexpr double kBoundShare = 1.0 - 1e-6;
 
+/// Bounds a gain that is a variable itself by ‖L‖₂ <= k.
+inline void bound_norm(LmiProgram& program, const std::string& gain, const MatrixExpression& L,
+                       double bound) {
+  const MatrixExpression k = kBoundShare * bound;
+  const Eigen::Index size = L.rows() + L.cols();
+  program.bound_above("norm of " + gain, zeros(size, size),
+                      symmetric_blocks({{k * identity(L.rows()), L}, {k * identity(L.cols())}}));
+}
+
 /// Bounds a gain P⁻¹ J by ‖P⁻¹ J‖₂ <= k: Jᵀ P⁻¹ J <= q k² I and P >= q I with a new variable q.
 inline void bound_gain(LmiProgram& program, const std::string& gain, const MatrixExpression& P,
                        const MatrixExpression& J, double bound) {

@@ -9,6 +9,7 @@
 #include "design/assumed_disturbance.h"
 #include "design/certify.h"
 #include "design/final_error.h"
+#include "design/methods/ferrante2019.h"
 #include "design/methods/gain_bound.h"
 #include "design/methods/methods.h"
 #include "design/methods/timer_dependent.h"
@@ -123,8 +124,11 @@ class AlternatingDesign : public DesignMethod {
   LmiProgram gain_program(const CertificateSubject& subject, const Parameters& parameters,
                           Objective objective, const NamedMatrices& values) const {
     LmiProgram program;
+    const std::vector<std::string> bounded = bounded_gains(subject);
     for (const NamedShape& shape : theorem().gains(subject)) {
-      program.matrix(shape.name, shape.rows, shape.cols);
+      const MatrixExpression gain = program.matrix(shape.name, shape.rows, shape.cols);
+      if (std::find(bounded.begin(), bounded.end(), shape.name) == bounded.end()) continue;
+      bound_norm(program, shape.name, gain, parameters.at("gain_bound"));
     }
     for (const NamedShape& shape : theorem().multipliers(subject)) {
       if (shape.form == NamedShape::Form::kScalar) {
@@ -134,43 +138,13 @@ class AlternatingDesign : public DesignMethod {
       }
     }
     program.fix("lambda_t", scalar_matrix(parameters.at("lambda_t")));
-    if (subject.plant.N.cols() > 0) {
-      const auto gamma = parameters.find("gamma");
-      if (objective == Objective::kMinGamma) {
-        program.minimize(program.squared("gamma"));
-      } else if (gamma != parameters.end()) {
-        program.fix("gamma", scalar_matrix(gamma->second));
-      } else {
-        program.squared("gamma");
-      }
-    }
+    add_gamma(program, subject, parameters, objective);
     for (const Condition& condition : theorem().conditions(subject)) program.require(condition, 1);
-    for (const std::string& name : bounded_gains(subject))
-      bound(program, subject, name, parameters);
     if (objective == Objective::kMinFinalError) {
       minimize_timer_dependent_level(program, *timer_dependent_function(theorem(), subject),
                                      subject, weights_of_design(subject), parameters, false);
     }
     return program;
-  }
-
-  /// |L| <= gain_bound
-  void bound(LmiProgram& program, const CertificateSubject& subject, const std::string& name,
-             const Parameters& parameters) const {
-    const MatrixExpression k = kBoundShare * parameters.at("gain_bound");
-    for (const NamedShape& shape : theorem().gains(subject)) {
-      if (shape.name != name) continue;
-      const MatrixExpression L = symbol(name, shape.rows, shape.cols);
-      program.bound_above(
-          "norm of " + name, zeros(shape.rows + shape.cols, shape.rows + shape.cols),
-          symmetric_blocks({{k * identity(shape.rows), L}, {k * identity(shape.cols)}}));
-    }
-  }
-
-  static bool is_better(const DesignCandidate& a, const DesignCandidate& b) {
-    if (a.values.empty()) return false;
-    if (a.is_verified() != b.is_verified()) return a.is_verified();
-    return a.is_verified() ? a.cost < b.cost : a.margin > b.margin;
   }
 
   /// Of noise levels, in the units of the attempt.

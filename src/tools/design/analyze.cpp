@@ -197,7 +197,9 @@ void analyze_command(const AnalyzeArguments& arguments, const std::string& comma
   DesignProblem assumed;
   assumed.subject = problem.subject;
   assume({config.noise, config.disturbance}, assumed);
-  main->for_run_time = prove_for_run_time(*main, assumed.assumptions, options);
+  if (main->objective != Objective::kMinFinalError) {
+    main->for_run_time = prove_for_run_time(*main, assumed.assumptions, options);
+  }
   print_run_time_figures(*main, assumed.assumptions);
   if (arguments.output.empty()) return;
   save_gain_file(*main, origin, arguments.output);

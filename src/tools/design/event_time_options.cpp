@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "certificate/timer_grid.h"
+#include "config/size_limits.h"
 #include "console/option_checks.h"
 #include "design/request_error.h"
 
@@ -17,6 +18,20 @@ DwellTime dwell_time_of(DwellTime::Kind kind, const std::array<double, 2>& value
   const auto [tau, N0] = values;
   if (tau > 0.0 && N0 >= 1.0 && N0 == std::floor(N0)) return {kind, tau, N0};
   throw RequestError("a dwell time: expected TAU > 0 [s] and a whole number N0 >= 1");
+}
+
+/// With so many cells of each timer. What observers read of a grid is limited.
+CertificateSubject with_readable_cells(const CertificateSubject& subject, unsigned cells) {
+  std::size_t nodes = cells;
+  if (nodes <= kMostTimerNodes) {
+    CertificateSubject on_grid = with_cells(subject, static_cast<int>(cells));
+    nodes = 1;
+    for (const std::vector<double>& of_timer : on_grid.timer_nodes) nodes *= of_timer.size();
+    if (nodes <= kMostTimerNodes) return on_grid;
+  }
+  throw RequestError("--cells: expected at most " + std::to_string(kMostTimerNodes) +
+                     " nodes of the grid, the product of those of its timers, found " +
+                     std::to_string(nodes) + " or more");
 }
 
 }  // namespace
@@ -82,7 +97,7 @@ void take_event_times(const EventTimeArguments& arguments, CertificateSubject& s
     subject.timer_nodes.clear();
   }
   if (arguments.cells && subject.T2 > 0.0 && std::isfinite(subject.T2)) {
-    subject = with_cells(subject, static_cast<int>(*arguments.cells));
+    subject = with_readable_cells(subject, *arguments.cells);
   }
   if (has_dwell_time) {
     subject.T1 = 0.0;

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -102,6 +103,17 @@ void print_outcomes(const std::vector<MethodOutcome>& outcomes, Objective object
   }
 }
 
+/// Why no theorem is about several sensors of a plant.
+std::string cause_for_several_sensors(const CertificateSubject& subject) {
+  const char* const name = "timer_dependent_scheduled_gain";
+  try {
+    require_subject(*find_theorem(name), subject);
+  } catch (const std::invalid_argument& fault) {
+    return std::string(", with several sensors (") + name + ": " + fault.what() + ")";
+  }
+  return ", with several sensors";
+}
+
 /// Tries all methods that apply, and says so.
 Design best_design(const DesignProblem& problem, const SynthesisOptions& options) {
   const std::vector<const DesignMethod*> methods = methods_that_apply(problem);
@@ -111,6 +123,8 @@ Design best_design(const DesignProblem& problem, const SynthesisOptions& options
       cause = ", with a dwell time in place of T1 and T2";
     } else if (std::isinf(problem.subject.T2)) {
       cause = ", with T2 = inf";
+    } else if (problem.subject.plant.sampled.size() > 1) {
+      cause = cause_for_several_sensors(problem.subject);
     }
     throw RequestError(std::string("no method serves the objective ") +
                        to_string(problem.objective) + " for this plant" + cause +
@@ -210,7 +224,9 @@ void synthesize_command(const SynthesizeArguments& arguments, const std::string&
     std::fprintf(stderr, "design: %s\n", error.what());
     throw ExitStatus{kNoDesign};
   }
-  design.for_run_time = prove_for_run_time(design, assumed.assumptions, options);
+  if (problem.objective != Objective::kMinFinalError) {
+    design.for_run_time = prove_for_run_time(design, assumed.assumptions, options);
+  }
   const std::string text = save_gain_file(design, origin, arguments.output);
   std::printf("%s\nwritten to %s after %zu attempt%s in %.1f s\n", text.c_str(),
               arguments.output.c_str(), design.attempts, design.attempts == 1 ? "" : "s",
