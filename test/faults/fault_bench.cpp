@@ -60,13 +60,15 @@ void FaultBench::settle() {
   publish_clock(to_ros_time(now_));
   const State& start = configuration_->start;
   truth_.begin(configuration_->flow, now_, start, configuration_->has_input ? kInput : 0.0);
-  // Until the observer has heard the clock, it starts at another time.
+  // Until the observer has heard the clock, it starts at another time, and flows from there: the
+  // clock may come between the two calls.
   require(
       [&] {
         publish_clock(to_ros_time(now_));
         if (!observer_.reset(start)) return false;  // it has no time yet
         const GetEstimate::Response found = get_estimate();
-        return found.success != 0 && to_stamp(found.estimate.header.stamp) == now_;
+        return found.success != 0 && to_stamp(found.estimate.header.stamp) == now_ &&
+               found.estimate.state == start;
       },
       "it does not start anew");
   go_on(kSettling);
