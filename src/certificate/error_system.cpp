@@ -32,15 +32,6 @@ ErrorSystem without_observer(const CertificateSubject& subject, Eigen::Index siz
   return system;
 }
 
-/// A, or A + Ψ_v with each vertex: formulas, since the sum of doubles is rounded.
-std::vector<MatrixExpression> flows_of(const PlantMatrices& plant) {
-  const MatrixExpression A = plant.A();
-  if (plant.vertices.empty()) return {A};
-  std::vector<MatrixExpression> flows;
-  for (const Eigen::MatrixXd& vertex : plant.vertices) flows.push_back(A + vertex);
-  return flows;
-}
-
 Eigen::MatrixXd rows_of(const SampledOutputs& outputs, const Eigen::MatrixXd& C) {
   return C.middleRows(outputs.first, outputs.rows);
 }
@@ -52,7 +43,7 @@ ErrorSystem corrected_at_samples(
   const PlantMatrices& plant = subject.plant;
   const Eigen::Index n = plant.states();
   ErrorSystem system = without_observer(subject, n);
-  system.F = flows_of(plant);
+  system.F = plant_flows(plant);
   for (std::size_t i = 0; i < plant.sampled.size(); ++i) {
     ErrorReset reset;
     reset.name = plant.sampled[i].sensor;
@@ -85,7 +76,7 @@ ErrorSystem corrected_by_injection(const CertificateSubject& subject, double sig
   }
   const MatrixExpression all_L = blocks({L});
   const MatrixExpression all_H = blocks(H);
-  for (const MatrixExpression& flow : flows_of(plant)) {
+  for (const MatrixExpression& flow : plant_flows(plant)) {
     system.F.push_back(blocks({{flow, all_L}, {zeros(m, n), all_H}}));
   }
   for (const SampledOutputs& outputs : plant.sampled) {
@@ -107,6 +98,14 @@ ErrorSystem corrected_by_injection(const CertificateSubject& subject, double sig
 }
 
 }  // namespace
+
+std::vector<MatrixExpression> plant_flows(const PlantMatrices& plant) {
+  const MatrixExpression A = plant.A();
+  if (plant.vertices.empty()) return {A};
+  std::vector<MatrixExpression> flows;
+  for (const Eigen::MatrixXd& vertex : plant.vertices) flows.push_back(A + vertex);
+  return flows;
+}
 
 std::string gain_of_sensor(const std::string& symbol, const CertificateSubject& subject,
                            std::size_t sensor) {
@@ -149,7 +148,7 @@ ErrorSystem synchronized_error(const CertificateSubject& subject) {
   const ModeMatrices& mode = plant.mode();
   const Eigen::Index n = plant.states();
   ErrorSystem system = without_observer(subject, n);
-  for (const MatrixExpression& flow : flows_of(plant)) {
+  for (const MatrixExpression& flow : plant_flows(plant)) {
     MatrixExpression F = flow;
     if (mode.C_c.rows() > 0) F = F - symbol("L_c", n, mode.C_c.rows()) * MatrixExpression(mode.C_c);
     system.F.push_back(F);

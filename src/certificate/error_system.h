@@ -43,6 +43,10 @@ struct ErrorSystem {
   bool is_linear() const { return G.cols() == 0; }
 };
 
+/// What the plant's own flow is in the convex hull of, n x n each: A, or A + Ψ_v with each vertex,
+/// formulas since the sum of doubles is rounded.
+std::vector<MatrixExpression> plant_flows(const PlantMatrices& plant);
+
 /// "L", or "L/gps" where there are several sensors.
 std::string gain_of_sensor(const std::string& symbol, const CertificateSubject& subject,
                            std::size_t sensor);

@@ -103,7 +103,7 @@ void LateFlow::add_norm(const ErrorSystem& system, const std::vector<Eigen::Matr
 LateFlow::Growth LateFlow::growth_on_face(const TimerDependentFunction& function,
                                           const std::vector<Eigen::MatrixXd>& F,
                                           const std::vector<Eigen::MatrixXd>& P, std::size_t late,
-                                          double disturbance) const {
+                                          double disturbance) {
   const TensorGrid& grid = function.grid();
   Growth growth{kLowest, 0.0};
   for (const std::vector<CellCorner>& corners : cells_of(grid)) {

@@ -32,11 +32,20 @@ class LateFlow {
   double flowed_in_Q(const TensorGrid::Interpolation& from, double root, double duration,
                      const TensorGrid::Interpolation& to, double weight_rounding) const;
 
- private:
+  /// d/dt √V <= rate √V + push
   struct Growth {
-    double rate = 0.0;
+    double rate = 0.0;  ///< 1/s
     double push = 0.0;
   };
+  /// That of the norm of P(τ) with these timers late.
+  const Growth& growth(std::size_t late) const { return growth_[late]; }
+  /// The same for any flows in the convex hull of matrices F; `late` may be none.
+  static Growth growth_on_face(const TimerDependentFunction& function,
+                               const std::vector<Eigen::MatrixXd>& F,
+                               const std::vector<Eigen::MatrixXd>& P, std::size_t late,
+                               double disturbance);
+
+ private:
   struct Norm {
     Growth growth;
     std::vector<double> into;  ///< β of each node: Q <= β P_k
@@ -45,10 +54,6 @@ class LateFlow {
   void add_norm(const ErrorSystem& system, const std::vector<Eigen::MatrixXd>& F,
                 const std::vector<Eigen::MatrixXd>& P, const Eigen::MatrixXd& Q,
                 double disturbance);
-  Growth growth_on_face(const TimerDependentFunction& function,
-                        const std::vector<Eigen::MatrixXd>& F,
-                        const std::vector<Eigen::MatrixXd>& P, std::size_t late,
-                        double disturbance) const;
 
   std::vector<Growth> growth_;  ///< of each set of late timers
   std::vector<Norm> norms_;

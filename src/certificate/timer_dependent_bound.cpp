@@ -150,12 +150,16 @@ void TimerDependentBound::compute_nodes(const TimerDependentFunction& function,
       const std::size_t first = grid_.with_first(k, timer);
       const Eigen::MatrixXd& after = P[first];
       const ErrorReset& reset = system.resets[timer];
-      const Eigen::MatrixXd K = evaluate(reset.K(k), values);
-      const MatrixExpression map =
-          MatrixExpression(reset.J) - MatrixExpression(K) * MatrixExpression(reset.C);
+      MatrixExpression map = reset.J;
+      double of_noise = 0.0;
+      if (reset.C.rows() > 0) {
+        const Eigen::MatrixXd K = evaluate(reset.K(k), values);
+        map = map - MatrixExpression(K) * MatrixExpression(reset.C);
+        of_noise = norm_into(after, K);
+      }
       node.mu.push_back(raise_of(first) * raise_of(k) *
                         raised(square_of(norm_between(P[k], after, map))));
-      node.rho.push_back(raise_of(first) * raised(square_of(norm_into(after, K))));
+      node.rho.push_back(raise_of(first) * raised(square_of(of_noise)));
       if (reset.is_constant) continue;
       node.output.push_back(largest_eigenvalue_above(reset.C * node.inverse * reset.C.transpose()));
     }
@@ -260,10 +264,24 @@ void TimerDependentBound::flow(double duration, double* state) const {
     };
     W = std::min({W, by_Q(0.0, start), by_Q(late_from, W_there)});
   }
+  advance_timers(duration, state);
+}
+
+void TimerDependentBound::advance_timers(double duration, double* state) const {
   const double nanoseconds = std::round(duration * kNanoseconds);
   for (std::size_t timer = 0; timer < grid_.dimensions(); ++timer) {
     state[kTimers + static_cast<Eigen::Index>(timer)] += nanoseconds;
   }
+}
+
+double TimerDependentBound::largest_here(const std::vector<double>& of_nodes,
+                                         const double* state) const {
+  const TensorGrid::Interpolation here = interpolation(state, 0.0);
+  double largest = 0.0;
+  for (std::size_t i = 0; i < here.size; ++i) {
+    largest = std::max(largest, of_nodes[here.vertices[i]]);
+  }
+  return largest;
 }
 
 void TimerDependentBound::reset(std::size_t timer, double* state) const {

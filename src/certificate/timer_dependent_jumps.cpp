@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "certificate/theorems.h"
+#include "certificate/timer_dependent_jump_bound.h"
 #include "certificate/timer_dependent_theorem.h"
 
 namespace sampled_data_observers {
@@ -27,6 +28,10 @@ class SynchronizedTimerTheorem : public TimerDependentTheorem {
       throw std::invalid_argument("it is about plants that do not switch");
     }
     if (!plant.jumps()) throw std::invalid_argument("it is about plants that jump");
+    if (!plant.mode().A_d) {
+      throw std::invalid_argument(
+          "it is about jump maps by matrices; design/A_d may state that of the error");
+    }
     if (!plant.sampled.empty()) {
       throw std::invalid_argument("it is about outputs in flow and at jumps, not sampled ones");
     }
@@ -49,9 +54,10 @@ class SynchronizedTimerTheorem : public TimerDependentTheorem {
     return all;
   }
 
-  std::unique_ptr<const ErrorBound> error_bound(const CertificateSubject&, const NamedMatrices&,
-                                                const ErrorAssumptions&) const override {
-    return nullptr;
+  std::unique_ptr<const ErrorBound> error_bound(
+      const CertificateSubject& subject, const NamedMatrices& values,
+      const ErrorAssumptions& assumptions) const override {
+    return timer_dependent_jump_bound(function(subject), subject, values, assumptions);
   }
 
  protected:

@@ -78,7 +78,7 @@ class GivenGains : public DesignMethod {
     if (has_gamma(theorem_, subject) && gain_has_meaning(theorem_, subject))
       all.insert(all.begin(), Objective::kMinGamma);
     if (!theorem_.decay_parameter().empty()) all.push_back(Objective::kMaxDecay);
-    if (has_final_error_level(theorem_)) all.push_back(Objective::kMinFinalError);
+    if (has_final_error_level(theorem_, subject)) all.push_back(Objective::kMinFinalError);
     return all;
   }
 
@@ -226,7 +226,7 @@ Design analyze(const AnalysisProblem& problem, const SynthesisOptions& options) 
 Design prove_final_error(const Design& design, const ErrorAssumptions& assumptions,
                          const SynthesisOptions& options) {
   const Theorem& theorem = *design.certificate.theorem;
-  if (!has_final_error_level(theorem)) return design;
+  if (!has_final_error_level(theorem, design.certificate.subject)) return design;
   AnalysisProblem problem = final_error_problem(design.certificate, assumptions);
   problem.accepts_slow = false;
   const auto figure = [&](const Design& of) {
@@ -254,7 +254,7 @@ std::shared_ptr<const Design> own_proof_for_run_time(const Design& design,
   constexpr double kWorthwhile = 0.99;
   const Certificate& certificate = design.certificate;
   const Theorem& theorem = *certificate.theorem;
-  if (!has_final_error_level(theorem)) return nullptr;
+  if (!has_final_error_level(theorem, certificate.subject)) return nullptr;
   AnalysisProblem problem = final_error_problem(certificate, assumptions);
   PlantMatrices& plant = problem.subject.plant;
   plant.C_p.resize(0, plant.states());

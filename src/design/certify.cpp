@@ -155,7 +155,7 @@ DesignCandidate certify_final_error(const Theorem& theorem, const CertificateSub
     return program;
   };
   DesignCandidate candidate;
-  if (!has_final_error_level(theorem)) {
+  if (!has_final_error_level(theorem, subject)) {
     candidate = certify_here(theorem, subject, fixed, Objective::kMinGamma);
     if (candidate.is_verified()) {
       candidate.cost = final_error(theorem, subject, candidate.values, assumptions);

@@ -36,7 +36,7 @@ bool has_bound_for(const Certificate& certificate, const ErrorAssumptions& assum
 bool bounds_disturbances(const Theorem& theorem);
 
 /// Whether the theorem's final error has a level that semidefinite programs can minimize.
-bool has_final_error_level(const Theorem& theorem);
+bool has_final_error_level(const Theorem& theorem, const CertificateSubject& subject);
 
 /// Minimizes the level in a program with the theorem's multipliers as variables, and its gains and
 /// parameters fixed; or keeps it below parameters[kFinalErrorLevel], where there is one.

@@ -31,7 +31,7 @@ class Unscaling {
     const bool acts_at_samples = theorem_.observer_types().front() == "ConstantGainObserver";
     if (is_rate(base)) return value / time;
     if (base == "gamma") return gamma_unit() * value;
-    if (base == "noise_size" || base == kNoise) return scaling_.output(0) * value;
+    if (base == "noise_size" || base == kNoise) return unit_of_noise() * value;
     if (base == "disturbance_size" || base == kDisturbance) return scaling_.disturbance * value;
     if (base == "chi") {
       return value * (level_ / (time * scaling_.nonlinearity * scaling_.nonlinearity));
@@ -45,8 +45,7 @@ class Unscaling {
       return level_ * (from_y_.asDiagonal() * value * from_y_.asDiagonal());
     }
     if (base == "nu") {
-      const bool is_at_jumps = scaling_.sampled.empty();
-      const double y = is_at_jumps ? scaling_.jump_output(0) : output_of(name)(0);
+      const double y = scaling_.sampled.empty() ? unit_of_noise() : output_of(name)(0);
       return level_ * value / (y * y);
     }
     if (base == "timers") return time * value;
@@ -64,6 +63,10 @@ class Unscaling {
   }
 
  private:
+  /// Of outputs whose unit is one: those that are sampled, or else measured at jumps.
+  double unit_of_noise() const {
+    return scaling_.output.size() > 0 ? scaling_.output(0) : scaling_.jump_output(0);
+  }
   /// What V is measured in. With P > I, the least eigenvalue of P stays as it is, as it does by
   /// itself where all states have one factor; where multiples of V are all the same, flows of V are
   /// to be compared with |y_p|².

@@ -142,5 +142,18 @@ TEST(TimerDependentProof, IsAboutExactProducts) {
   EXPECT_FALSE(is_flow_proved);
 }
 
+TEST(TimerDependentTheorem, IsNotAboutJumpMapsByALipschitzConstant) {
+  CertificateSubject subject =
+      linear_subject(-Eigen::MatrixXd::Identity(2, 2), Eigen::MatrixXd(0, 2), 0.2, 0.4);
+  ModeMatrices& mode = subject.plant.modes.front();
+  subject.plant.sampled.clear();
+  mode.C_d = Eigen::MatrixXd::Identity(1, 2);
+  subject.plant.lipschitz_jump = LipschitzJump{1.5, Eigen::MatrixXd::Identity(2, 2)};
+  const Theorem& theorem = *find_theorem("timer_dependent_synchronized");
+  EXPECT_THROW(require_subject(theorem, subject), std::invalid_argument);
+  mode.A_d = Eigen::MatrixXd::Identity(2, 2);
+  EXPECT_NO_THROW(require_subject(theorem, subject));
+}
+
 }  // namespace
 }  // namespace sampled_data_observers::test

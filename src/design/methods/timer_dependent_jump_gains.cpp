@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -115,12 +114,6 @@ class GainAtJumps : public JumpGainDesign {
                                    std::nullopt};
     return program_of(subject, parameters, objective, synchronized_error, products,
                       std::move(program));
-  }
-
-  std::vector<Objective> objectives(const CertificateSubject& subject) const override {
-    std::vector<Objective> all = timer_dependent_objectives(subject);
-    all.erase(std::remove(all.begin(), all.end(), Objective::kMinFinalError), all.end());
-    return all;
   }
 
  protected:
