@@ -27,7 +27,10 @@ std::vector<EventChannel> event_channels(const ObserverConfig& config) {
     const Sensor& sensor = config.plant->sensors()[i];
     add(kind_of(sensor.timing), static_cast<int>(i), sensor.name, *config.sensors[i]);
   }
-  if (config.input) add(EventKind::kInput, 0, "input", *config.input);
+  for (std::size_t i = 0; i < config.inputs.size(); ++i) {
+    const std::string& name = config.plant->input_channels()[i].name;
+    add(EventKind::kInput, static_cast<int>(i), name, config.inputs[i]);
+  }
   if (config.jumps) add(EventKind::kJump, 0, "jumps", *config.jumps);
   return channels;
 }

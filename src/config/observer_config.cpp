@@ -115,7 +115,7 @@ ObserverConfig read_observer_config(const ConfigNode& tree, const PlantPluginLoa
   if (const auto error = objection_to_step(root, plant, *config.law, false)) {
     throw ConfigError(*error);
   }
-  if (plant.inputs() > 0) config.input = read_input_source(root, plant);
+  config.inputs = read_input_sources(root, plant);
   LawLayers layers;
   if (plant.jumps()) {
     config.jumps = read_jumps(root, plant_config, layers, config.options.jump_stamp_error);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "config/expression_config.h"
+#include "config/input_channels.h"
 #include "config/mode_config.h"
 #include "config/size_limits.h"
 #include "plant/bias_states.h"
@@ -90,6 +91,7 @@ class PlantReader {
     if (sensors_.keys().empty()) throw root.error("sensors", "at least one sensor", "none");
     for (const std::string& name : sorted_keys(sensors_)) read_sensor(name);
     check_outputs_of_modes();
+    plant_.input_channels = read_input_channels(root, names_.u, sorted_keys(sensors_));
     require_bounded(variables_of(plant_) + biases_.size(), plant_.modes.size(), kMostVariables,
                     root, "plant");
   }

@@ -1,11 +1,15 @@
 #include "sampled_data_observers/config/topic_config.h"
 
+#include <utility>
+
 namespace sampled_data_observers {
 namespace {
 
 const char kMeasurementType[] = "sampled_data_observers/Measurement";
 const char kInputType[] = "sampled_data_observers/Input";
 const char kJumpType[] = "sampled_data_observers/JumpEvent";
+
+const char kInputs[] = "inputs";
 
 constexpr double kLongestInterval = 1e6;  // s
 
@@ -33,14 +37,30 @@ TopicSource read_source(ConfigSection& section, const std::string& topic, const 
 }
 
 /// The source of values that are always there.
+/// @param fields  where they were read already
 TopicSource read_value_source(ConfigSection& section, const std::string& topic,
-                              const std::string& type, std::size_t size) {
+                              const std::string& type, std::size_t size,
+                              std::vector<std::string> fields = {}) {
   TopicSource source = read_source(section, topic, type);
   source.size = size;
-  if (section.has("fields")) source.fields = section.texts("fields", size);
+  source.fields = std::move(fields);
+  if (source.fields.empty() && section.has("fields")) {
+    source.fields = section.texts("fields", size);
+  }
   source.min_interval = from_seconds(section.number_in("min_interval", 0.0, kLongestInterval, 0.0));
   section.finish();
   return source;
+}
+
+/// The fields of a map that names inputs, in the order of the channel's.
+std::vector<std::string> read_input_fields(ConfigSection& section, const InputChannel& channel,
+                                           const Plant& plant) {
+  ConfigSection map = section.section("fields");
+  std::vector<std::string> fields;
+  for (const Eigen::Index input : channel.inputs) {
+    fields.push_back(map.text(plant.input_names()[static_cast<std::size_t>(input)]));
+  }
+  return fields;
 }
 
 /// Jumps that a detector finds.
@@ -89,11 +109,26 @@ std::vector<std::optional<TopicSource>> read_sensor_sources(ConfigSection& root,
   return sources;
 }
 
-TopicSource read_input_source(ConfigSection& root, const Plant& plant) {
-  ConfigSection section = root.section_or_empty("input");
-  TopicSource source = read_value_source(section, "input", kInputType, plant.input_names().size());
-  if (source.origin.empty()) source.origin = root.origin();  // there is no such section
-  return source;
+std::vector<TopicSource> read_input_sources(ConfigSection& root, const Plant& plant) {
+  std::vector<TopicSource> sources;
+  if (plant.inputs() == 0) return sources;
+  if (!root.has(kInputs)) {
+    ConfigSection section = root.section_or_empty("input");
+    sources.push_back(
+        read_value_source(section, "input", kInputType, plant.input_names().size()));
+    if (sources.back().origin.empty()) sources.back().origin = root.origin();  // no such section
+    return sources;
+  }
+  ConfigSection sections = root.section(kInputs);
+  for (const InputChannel& channel : plant.input_channels()) {
+    ConfigSection section = sections.section(channel.name);
+    std::vector<std::string> fields;
+    if (section.is_map("fields")) fields = read_input_fields(section, channel, plant);
+    const auto size = static_cast<std::size_t>(channel.size());
+    sources.push_back(read_value_source(section, "", kInputType, size, std::move(fields)));
+  }
+  sections.finish();
+  return sources;
 }
 
 TopicSource read_detector_source(ConfigSection section) {

@@ -96,7 +96,7 @@ Eigen::Index PlantObserver::event_size(EventKind kind, std::size_t sensor) const
   };
   switch (kind) {
     case EventKind::kInput:
-      return plant_->inputs() > 0 ? plant_->inputs() : -1;
+      return sensor < plant_->input_channels().size() ? plant_->input_channels()[sensor].size() : -1;
     case EventKind::kOutput:
       return outputs(SensorTiming::kContinuous);
     case EventKind::kJumpOutput:
@@ -148,7 +148,7 @@ Effect PlantObserver::reset(const Event& event, double* state, double* workspace
   Effect effect = Effect::kApplied;
   switch (event.kind) {
     case EventKind::kInput:
-      u_.set(event.values, state);
+      take_input(event, state);
       break;
     case EventKind::kOutput:
       y_c_.part(output_offset(sensor), event.size).set(event.values, state);
@@ -173,6 +173,14 @@ Effect PlantObserver::reset(const Event& event, double* state, double* workspace
   }
   complete(held(state), state, workspace);
   return effect;
+}
+
+/// The inputs of its channel; the others go on holding.
+void PlantObserver::take_input(const Event& event, double* state) const {
+  const InputChannel& channel = plant_->input_channels()[static_cast<std::size_t>(event.sensor)];
+  for (std::size_t i = 0; i < channel.inputs.size(); ++i) {
+    u_.of(state)[channel.inputs[i]] = event.values[i];
+  }
 }
 
 Effect PlantObserver::begin_jump(const Event& event, double* state, double* workspace) const {

@@ -1,6 +1,7 @@
 #include "sampled_data_observers/plant/plant.h"
 
 #include <algorithm>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 
@@ -22,9 +23,33 @@ void check_map(const std::shared_ptr<const VectorMap>& map, Eigen::Index size, E
           name + " must have one column per input");
 }
 
+/// Each of p inputs is in one channel, and channels are in the order of their first inputs.
+bool are_in_order(const std::vector<InputChannel>& channels, Eigen::Index p) {
+  std::vector<bool> is_there(static_cast<std::size_t>(p), false);
+  Eigen::Index first_before = -1;
+  for (const InputChannel& channel : channels) {
+    if (channel.inputs.empty() || channel.inputs.front() <= first_before) return false;
+    first_before = channel.inputs.front();
+    Eigen::Index before = -1;
+    for (const Eigen::Index input : channel.inputs) {
+      if (input <= before || input >= p || is_there[static_cast<std::size_t>(input)]) return false;
+      is_there[static_cast<std::size_t>(input)] = true;
+      before = input;
+    }
+  }
+  return std::find(is_there.begin(), is_there.end(), false) == is_there.end();
+}
+
 PlantDescription checked(PlantDescription plant) {
   const auto n = static_cast<Eigen::Index>(plant.state_names.size());
   const auto p = static_cast<Eigen::Index>(plant.input_names.size());
+  if (plant.input_channels.empty() && p > 0) {
+    InputChannel all{"input", std::vector<Eigen::Index>(plant.input_names.size())};
+    std::iota(all.inputs.begin(), all.inputs.end(), Eigen::Index{0});
+    plant.input_channels.push_back(std::move(all));
+  }
+  require(are_in_order(plant.input_channels, p),
+          "each input in one channel, in ascending order, as the channels' first inputs");
   require(n > 0, "at least one state");
   require(!plant.modes.empty(), "at least one mode");
   require(plant.integration.step > 0, "the integration step must be positive");

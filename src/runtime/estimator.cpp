@@ -124,6 +124,7 @@ Estimator::Estimator(std::shared_ptr<const ObserverLaw> law, const Options& opti
       innovation_(law_->max_event_size()),
       is_sampled_(law_->observer().plant().outputs(SensorTiming::kSampled) > 0),
       has_other_events_(law_->observer().plant().inputs() > 0 || law_->observer().plant().jumps()),
+      input_unknown_since_(law_->observer().plant().input_channels().size()),
       answer_(make_estimate()) {
   if (!options_.sampling.are_valid()) {
     throw std::invalid_argument("Estimator: 0 <= T1 <= T2 must hold");
@@ -186,7 +187,7 @@ EventReport Estimator::submit(const Event& event, Stamp now) {
                               event.kind == EventKind::kJump && event.index == 0 &&
                               law_->lets_jumps_coincide();
   if (report.outcome == EventOutcome::kTooOld || may_be_another) note_rejected(event, now);
-  if (is_in_log && event.kind == EventKind::kInput) learn_input(event.stamp);
+  if (is_in_log && event.kind == EventKind::kInput) learn_input(event);
   if (report.used() && inserted.previous) {
     report.interval = event.stamp - *inserted.previous;
     if (event.kind == EventKind::kSample || !is_sampled_) {
@@ -225,7 +226,7 @@ void Estimator::note_rejected(const Event& event, Stamp now) {
   const Stamp stamp = event.stamp > 0 ? std::min(event.stamp, now) : now;
   if (stamp <= 0) return;
   if (kind == EventKind::kInput) {
-    miss_input(stamp);
+    miss_input(event.sensor, stamp);
   } else if (stamp <= began_at_.value_or(0) && !law_->observer().plant().switches()) {
     return;  // Somebody vouches for what came after this jump, but not for the mode.
   }
@@ -239,12 +240,20 @@ void Estimator::note_rejected(const Event& event, Stamp now) {
   }
 }
 
-void Estimator::learn_input(Stamp stamp) {
-  if (stamp > input_unknown_since_.value_or(stamp)) input_unknown_since_.reset();
+void Estimator::learn_input(const Event& input) {
+  std::optional<Stamp>& unknown_since = input_unknown_since_[static_cast<std::size_t>(input.sensor)];
+  if (input.stamp > unknown_since.value_or(input.stamp)) unknown_since.reset();
 }
 
-void Estimator::miss_input(Stamp stamp) {
-  input_unknown_since_ = std::max(stamp, input_unknown_since_.value_or(stamp));
+void Estimator::miss_input(int channel, Stamp stamp) {
+  std::optional<Stamp>& unknown_since = input_unknown_since_[static_cast<std::size_t>(channel)];
+  unknown_since = std::max(stamp, unknown_since.value_or(stamp));
+}
+
+/// Whether the last input of some channel is not known.
+bool Estimator::lacks_an_input() const {
+  return std::any_of(input_unknown_since_.begin(), input_unknown_since_.end(),
+                     [](const auto& since) { return since.has_value(); });
 }
 
 /// Where the law minds.
@@ -333,7 +342,7 @@ void Estimator::begin(Stamp stamp) {
   began_at_ = stamp;
   taken_over_at_.reset();
   timeline_.restart(stamp, restart_state_);
-  if (input_unknown_since_) insert_rejected(EventKind::kInput, 0, stamp + 1);
+  if (lacks_an_input()) insert_rejected(EventKind::kInput, 0, stamp + 1);
   awaits_sample_ = false;
 }
 
@@ -351,7 +360,7 @@ void Estimator::begin_at(const Event& sample) {
   began_at_ = start;
   taken_over_at_.reset();
   timeline_.rebase(start, restart_state_);
-  if (input_unknown_since_) insert_rejected(EventKind::kInput, 0, sample.stamp);
+  if (lacks_an_input()) insert_rejected(EventKind::kInput, 0, sample.stamp);
   awaits_sample_ = false;
 }
 
@@ -366,7 +375,7 @@ void Estimator::resume(Stamp stamp) {
 void Estimator::clear() {
   timeline_.clear();
   if (options_.start) timeline_.begin(*options_.start);
-  input_unknown_since_.reset();
+  std::fill(input_unknown_since_.begin(), input_unknown_since_.end(), std::nullopt);
   began_at_.reset();
   // A jump of that stamp comes after the start.
   if (options_.start) began_at_ = *options_.start - 1;

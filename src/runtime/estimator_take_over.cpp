@@ -35,9 +35,9 @@ EventReport Estimator::submit_earlier(Event event, Stamp now) {
   }
   if (event.kind == EventKind::kInput) {
     if (report.used()) {
-      learn_input(event.stamp);
+      learn_input(event);
     } else {
-      miss_input(event.stamp);
+      miss_input(event.sensor, event.stamp);
     }
   }
   if (report.outcome == EventOutcome::kTooOld) {

@@ -54,7 +54,8 @@ struct SignalScenario {
 
 /// The known input: evaluated at a fixed rate and held in between, for plant and observer alike.
 struct InputScenario {
-  std::string topic;
+  /// One per channel of the plant's inputs.
+  std::vector<std::string> topics;
   Duration period = 0;
   /// Of (t, x): p entries.
   std::shared_ptr<const VectorMap> formulas;

@@ -129,7 +129,9 @@ class ScenarioReader {
   void read_input() {
     ConfigSection section = section_.section("input");
     InputScenario input;
-    input.topic = simulated_topic(read_input_source(root_, plant()), "Input");
+    for (const TopicSource& source : read_input_sources(root_, plant())) {
+      input.topics.push_back(simulated_topic(source, "Input"));
+    }
     input.period = from_seconds(1.0 / section.number_in("rate", 1e-3, 1e5, 100.0));
     input.formulas = ExpressionReader(timed_names(section, "formulas", true))
                          .read_map(section, "formulas", plant().input_names());

@@ -16,7 +16,13 @@ Simulator::Simulator(Scenario scenario)
   using Kind = SimulatedChannel::Kind;
   for (std::size_t i = 0; i < scenario_.sensors.size(); ++i) add_sensor(i);
   for (const SignalScenario& signal : scenario_.signals) add_signal(signal);
-  if (scenario_.input) input_channel_ = add_channel(Kind::kInput, scenario_.input->topic);
+  if (scenario_.input) {
+    for (const std::string& topic : scenario_.input->topics) {
+      const std::size_t input_channel = input_channels_.size();
+      input_channels_.push_back(add_channel(Kind::kInput, topic));
+      channels_.back().input_channel = input_channel;
+    }
+  }
   if (scenario_.jumps) {
     jump_channel_ = add_channel(Kind::kJump, scenario_.jumps_topic);
     if (scenario_.jumps->schedule) {
@@ -29,7 +35,7 @@ Simulator::Simulator(Scenario scenario)
 }
 
 std::size_t Simulator::add_channel(SimulatedChannel::Kind kind, const std::string& topic) {
-  channels_.push_back({kind, topic, {}});
+  channels_.push_back({kind, topic, {}, 0});
   return channels_.size() - 1;
 }
 
@@ -137,7 +143,13 @@ void Simulator::change_input() {
   Eigen::VectorXd u(plant_.input().size());
   scenario_.input->formulas->evaluate(arguments.data(), nullptr, u.data());
   plant_.set_input(u);
-  send(message_now(input_channel_, {u.data(), u.data() + u.size()}), {now()});
+  for (std::size_t i = 0; i < input_channels_.size(); ++i) {
+    std::vector<double> values;
+    for (const Eigen::Index input : scenario_.plant->input_channels()[i].inputs) {
+      values.push_back(u(input));
+    }
+    send(message_now(input_channels_[i], std::move(values)), {now()});
+  }
   next_input_ += scenario_.input->period;
 }
 

@@ -22,6 +22,8 @@ struct SimulatedChannel {
   std::string topic;
   /// Of the truth: names of the states.
   std::vector<std::string> names;
+  /// Of inputs: which of the plant's channels it is.
+  std::size_t input_channel = 0;
 };
 
 /// A message that a robot's sensors would send.
@@ -131,7 +133,7 @@ class Simulator {
   SimulatedPlant plant_;
   std::vector<SimulatedChannel> channels_;
   std::vector<SensorStream> sensors_;
-  std::size_t input_channel_ = 0;
+  std::vector<std::size_t> input_channels_;
   std::size_t jump_channel_ = 0;
   std::size_t truth_channel_ = 0;
   Duration next_input_ = 0;

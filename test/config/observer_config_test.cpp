@@ -60,7 +60,7 @@ TEST(ObserverConfigTest, ReadsEveryKey) {
   EXPECT_EQ(1.0, mode.outputs[0]->affine()->M()(0, 2));
   EXPECT_EQ("geometry_msgs/PointStamped", config.sensors[0]->type);
   EXPECT_EQ("sampled_data_observers/Measurement", config.sensors[1]->type);
-  EXPECT_EQ("input", config.input->topic);
+  EXPECT_EQ("input", config.inputs[0].topic);
   EXPECT_EQ("jumps", config.jumps->topic);
   EXPECT_EQ(20000000, config.period);
   EXPECT_EQ(10000000, config.publish_delay);
@@ -104,7 +104,7 @@ gains: {L: [[0.5]]}
   EXPECT_FALSE(config.reset_on_time_jump_back);
   EXPECT_EQ(kNanosecondsPerSecond, config.jump_back_tolerance);
   EXPECT_EQ("", config.gains_directory);
-  EXPECT_FALSE(config.input);
+  EXPECT_TRUE(config.inputs.empty());
   EXPECT_FALSE(config.jumps);
 }
 

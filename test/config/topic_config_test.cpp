@@ -39,9 +39,10 @@ TEST(TopicConfigTest, ReadsSourcesOfStandardTypes) {
   EXPECT_EQ(250'000'000, sensor.min_interval);
   EXPECT_FALSE(sensor.stamped_on_receipt);
   EXPECT_FALSE(sensor.of_jumps);
-  EXPECT_EQ("force", config.input->topic);
-  EXPECT_EQ("std_msgs/Float64", config.input->type);
-  EXPECT_TRUE(config.input->stamped_on_receipt);
+  ASSERT_EQ(1u, config.inputs.size());
+  EXPECT_EQ("force", config.inputs[0].topic);
+  EXPECT_EQ("std_msgs/Float64", config.inputs[0].type);
+  EXPECT_TRUE(config.inputs[0].stamped_on_receipt);
   EXPECT_EQ("std_msgs/Header", config.jumps->type);
   EXPECT_TRUE(config.jumps->of_jumps);
   EXPECT_TRUE(config.jumps->fields.empty());
@@ -52,8 +53,8 @@ TEST(TopicConfigTest, SourcesHaveDefaults) {
       replaced(kSources, "type: std_msgs/Float64, fields: [data], stamp: receipt", "");
   const ObserverConfig config =
       parse(replaced(text, "jumps: {topic: contact, type: std_msgs/Header}", ""));
-  EXPECT_EQ("sampled_data_observers/Input", config.input->type);
-  EXPECT_FALSE(config.input->stamped_on_receipt);
+  EXPECT_EQ("sampled_data_observers/Input", config.inputs[0].type);
+  EXPECT_FALSE(config.inputs[0].stamped_on_receipt);
   EXPECT_EQ("jumps", config.jumps->topic);
   EXPECT_EQ("sampled_data_observers/JumpEvent", config.jumps->type);
   EXPECT_EQ("test.yaml:2", config.jumps->origin);
@@ -77,6 +78,55 @@ TEST(TopicConfigTest, FaultsSayWhatIsExpected) {
   };
   for (const Fault& change : faults) {
     const std::string message = fault(replaced(kSources, change.from, change.to));
+    EXPECT_EQ("", test::missing_parts(change, message)) << message;
+  }
+}
+
+const char kInputs[] = R"(
+observer: ConstantGainObserver
+plant: {states: [p], inputs: [u, v, w], A: [[0]], B: [[1, 2, 3]]}
+sensors: {s: {C: [[1]], source: {topic: s}}}
+inputs:
+  imu: {topic: imu, type: sensor_msgs/Imu, fields: {w: angular_velocity.z, u: linear_acceleration.x}}
+  v: {topic: odom, type: nav_msgs/Odometry, fields: [twist.twist.linear.x], min_interval: 0.25}
+sampling: {T1: 0.1, T2: 0.2}
+gains: {L: [[0.5]]}
+)";
+
+TEST(TopicConfigTest, InputsMayComeFromSeveralTopics) {
+  const ObserverConfig config = parse(kInputs);
+  const std::vector<InputChannel>& channels = config.plant->input_channels();
+  ASSERT_EQ(2u, channels.size());
+  EXPECT_EQ("imu", channels[0].name);
+  EXPECT_EQ((std::vector<Eigen::Index>{0, 2}), channels[0].inputs);
+  EXPECT_EQ("v", channels[1].name);
+  EXPECT_EQ((std::vector<Eigen::Index>{1}), channels[1].inputs);
+  ASSERT_EQ(2u, config.inputs.size());
+  // In the order of u, not of the map.
+  EXPECT_EQ((std::vector<std::string>{"linear_acceleration.x", "angular_velocity.z"}),
+            config.inputs[0].fields);
+  EXPECT_EQ("odom", config.inputs[1].topic);
+  EXPECT_EQ(250'000'000, config.inputs[1].min_interval);
+}
+
+TEST(TopicConfigTest, FaultsOfInputsSayWhatIsExpected) {
+  const std::vector<Fault> faults = {
+      {"  v: {", "  y: {", {"inputs/y", "an input of the plant (u, v, w)", "fields: {INPUT"}},
+      {"w: angular", "ww: angular", {"inputs/imu/fields/ww", "(u, v, w)", "'ww'"}},
+      {", u: linear_acceleration.x", "", {"inputs: expected a source of each input", "'u'"}},
+      {"u: linear", "v: linear", {"inputs/v: expected each input in one", "imu has, too"}},
+      {"fields: {w: angular_velocity.z, u: linear_acceleration.x}", "fields: {}",
+       {"inputs/imu/fields: expected at least one input"}},
+      {"  imu:", "  s:", {"inputs/s: expected a name that no other source"}},
+      {"  imu:", "  jumps:", {"inputs/jumps: expected a name that no other source"}},
+      {"inputs:\n", "input: {topic: all}\ninputs:\n", {"one of input", "both"}},
+      {"inputs: [u, v, w], A: [[0]], B: [[1, 2, 3]]", "A: [[0]]", {"the plant has no inputs"}},
+      {"topic: odom, ", "", {"inputs/v/topic"}},
+      {"[twist.twist.linear.x]", "[a, b]", {"inputs/v/fields", "1 scalars"}},
+      {", min_interval", ", min_intervall", {"inputs/v/min_intervall", "unknown key"}},
+  };
+  for (const Fault& change : faults) {
+    const std::string message = fault(replaced(kInputs, change.from, change.to));
     EXPECT_EQ("", test::missing_parts(change, message)) << message;
   }
 }

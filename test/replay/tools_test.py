@@ -31,6 +31,8 @@ publish_delay: DELAY
 sampling: {T1: 0.1, T2: 0.1}
 gains: {L: [[0.5], [0.5]]}
 """
+TWO_INPUTS = SCENARIO.replace("inputs: [u]", "inputs: [u, w]").replace(
+    "B: [[0], [1]]", "B: [[0, 0.1], [1, 0]]").replace('{u: "sin(t)"}', '{u: "sin(t)", w: "cos(t)"}')
 JUMPING = SCENARIO.replace("B: [[0], [1]]}",
                            "B: [[0], [1]], jump_map: {A_d: [[1, 0], [0, 1]]}}\njumps: {}")
 
@@ -204,6 +206,24 @@ class ToolsTest(FolderTest):
         with open(self.path("summary.json")) as summary:
             self.assertEqual(json.load(summary)["not_recorded"], {"input": "/none"})
         self.assertNotIn("none:", self.succeed("replay", *self.replay("--no-input")))
+
+    def test_inputs_from_several_topics_give_the_estimates_of_one_topic(self):
+        self.scenario = self.write("scenario.yaml", TWO_INPUTS)
+        self.simulate()
+        together = self.summary()
+        self.scenario = self.write("scenario.yaml", TWO_INPUTS.replace(
+            "input: {topic: input}", "inputs: {w: {topic: wind}, u: {topic: push}}", 1))
+        self.simulate()
+        apart = self.summary()
+        self.assertEqual(apart["final_state"], together["final_state"])
+        self.assertEqual(apart["events_used"] - together["events_used"], 61)
+        text = self.fault("replay", *self.replay("wind:=/none"))
+        self.assertIn("inputs/w: the bag has no topic /none", text)
+
+    def summary(self):
+        self.succeed("replay", *self.replay("--json", self.path("summary.json")))
+        with open(self.path("summary.json")) as summary:
+            return json.load(summary)
 
     def test_a_bag_without_jumps_will_do_and_the_summary_says_so(self):
         self.scenario = self.write("jumping.yaml", JUMPING)

@@ -156,6 +156,39 @@ TEST_F(EstimatorTest, ARestartKeepsTheInput) {
   EXPECT_EQ(Eigen::Vector2d(7.0, -3.0), input_in(estimate));
 }
 
+TEST_F(EstimatorTest, EachChannelOfInputsIsHeldUntilItsOwnNextStamp) {
+  const std::shared_ptr<const Plant> example = test::example_plant();
+  const auto plant = std::make_shared<const Plant>(PlantDescription{
+      example->state_names(), example->input_names(), example->sensors(), example->modes(),
+      example->integration(), {{"force", {0}}, {"torque", {1}}}});
+  const auto law = std::make_shared<const ConstantGainObserver>(
+      ObserverContext{plant, Eigen::Vector3d::Zero(), Eigen::Vector2d(0.1, 0.2)},
+      test::example_gains());
+  Estimator estimator(law, options());
+  now_ = kStart + kSecond;
+  const auto take = [&](Duration after, int channel, std::vector<double> values) {
+    const OwnedEvent event{kStart + after, EventKind::kInput, channel, std::move(values)};
+    return estimator.submit(event.view(), now_).outcome;
+  };
+  const auto held = [&](Duration after) {
+    Estimate estimate = estimator.make_estimate();
+    estimator.estimate_at(kStart + after, estimate);
+    return Eigen::Vector2d(Eigen::Map<const Eigen::Vector2d>(
+        law->observer().held_part(estimate.state.data())));
+  };
+  EXPECT_EQ(EventOutcome::kUsed, take(10, 0, {7.0}));
+  EXPECT_EQ(Eigen::Vector2d(7.0, 0.2), held(10));
+  EXPECT_EQ(EventOutcome::kUsed, take(30, 1, {-3.0}));
+  EXPECT_EQ(Eigen::Vector2d(7.0, -3.0), held(30));
+  EXPECT_EQ(EventOutcome::kUsedLate, take(20, 0, {8.0}));
+  EXPECT_EQ(EventOutcome::kUsedLate, take(10, 1, {-4.0}));
+  EXPECT_EQ(EventOutcome::kDuplicate, take(20, 0, {8.0}));
+  EXPECT_EQ(Eigen::Vector2d(7.0, -4.0), held(10));
+  EXPECT_EQ(Eigen::Vector2d(8.0, -4.0), held(20));
+  EXPECT_EQ(Eigen::Vector2d(8.0, -3.0), held(30));
+  EXPECT_EQ(EventOutcome::kWrongSize, take(40, 1, {1.0, 2.0}));
+}
+
 TEST_F(EstimatorTest, EventsAndEstimatesAllocateNothing) {
   if (!test::allocations_are_counted()) GTEST_SKIP() << "a sanitizer owns the allocator";
   std::mt19937_64 generator(5);

@@ -71,7 +71,7 @@ TEST(ScenarioConfigTest, ReadsEveryKey) {
   EXPECT_EQ("real", scenario.truth_topic);
   EXPECT_EQ(20000000, scenario.truth_period);
   ASSERT_TRUE(scenario.input);
-  EXPECT_EQ("force", scenario.input->topic);
+  EXPECT_EQ(std::vector<std::string>{"force"}, scenario.input->topics);
   EXPECT_EQ(100000000, scenario.input->period);
   const double arguments[] = {0.0, 2.0, 0.0};  // t, p, v
   double u = 0.0;

@@ -65,6 +65,7 @@ class Runner {
         return;
       case SimulatedChannel::Kind::kInput:
         event.kind = EventKind::kInput;
+        event.sensor = static_cast<int>(channel.input_channel);
         break;
       case SimulatedChannel::Kind::kJump:
         event.kind = EventKind::kJump;

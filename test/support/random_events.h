@@ -48,16 +48,21 @@ inline std::shared_ptr<const Plant> example_plant() {
   return make_linear_plant(plant);
 }
 
-/// A law of it.
-inline std::shared_ptr<const ConstantGainObserver> example_law() {
+/// Of a law of it.
+inline std::vector<Eigen::MatrixXd> example_gains() {
   std::vector<Eigen::MatrixXd> L(2);
   L[0].resize(3, 1);
   L[0] << 0.6, 0.4, 0.05;
   L[1].resize(3, 2);
   L[1] << 0.3, 0.0, 0.2, 0.1, 0.0, 0.7;
+  return L;
+}
+
+/// A law of it.
+inline std::shared_ptr<const ConstantGainObserver> example_law() {
   return std::make_shared<const ConstantGainObserver>(
       ObserverContext{example_plant(), Eigen::Vector3d(0.3, -0.2, 3.0), Eigen::Vector2d(0.1, 0.0)},
-      L);
+      example_gains());
 }
 
 /// `size` events for example_law() in [start, start + span], some with equal stamps, no two equal.

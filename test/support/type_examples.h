@@ -16,6 +16,7 @@ namespace sampled_data_observers::test {
 inline std::vector<std::string> type_examples() {
   return {"constant_gain",
           "constant_gain_delayed",
+          "constant_gain_inputs",
           "constant_gain_nonlinear",
           "high_gain_linear",
           "high_gain_original",
@@ -76,8 +77,9 @@ inline std::vector<OwnedEvent> random_events_for(const ObserverLaw& law, std::mt
   };
   for (const EventKind kind : {EventKind::kInput, EventKind::kOutput, EventKind::kJump,
                                EventKind::kJumpOutput, EventKind::kSample}) {
-    const bool is_measured = kind != EventKind::kInput && kind != EventKind::kJump;
-    for (std::size_t sensor = 0; sensor < (is_measured ? observer.sensors() : 1); ++sensor) {
+    std::size_t sources = kind == EventKind::kJump ? 1 : observer.sensors();
+    if (kind == EventKind::kInput) sources = observer.plant().input_channels().size();
+    for (std::size_t sensor = 0; sensor < sources; ++sensor) {
       const Eigen::Index size = observer.event_size(kind, sensor);
       if (size < 0) continue;
       if (kind == EventKind::kJump && size > 0) add(kind, sensor, 0);

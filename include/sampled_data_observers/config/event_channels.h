@@ -13,8 +13,8 @@ namespace sampled_data_observers {
 struct EventChannel {
   /// Of the events that its messages become.
   EventKind kind = EventKind::kSample;
-  int sensor = 0;  ///< index of it, for what is measured
-  /// Name in EventStatus: the sensor's, "input" or "jumps".
+  int sensor = 0;  ///< index of it, for what is measured; of a channel of inputs
+  /// Name in EventStatus: the sensor's, that of a channel of inputs, or "jumps".
   std::string name;
   /// The topic, and how its messages are read.
   TopicSource source;
@@ -25,7 +25,7 @@ struct EventChannel {
 /// What the values of a sensor are as events.
 EventKind kind_of(SensorTiming timing);
 
-/// All channels of a configuration: the sensors in order, then input and jumps where there are any.
+/// All channels of a configuration: the sensors in order, then inputs and jumps where there are any.
 std::vector<EventChannel> event_channels(const ObserverConfig& config);
 
 /// Whether the data of some channel are to be transformed.

@@ -30,8 +30,8 @@ struct ObserverConfig : RuntimeSetup {
   /// One per sensor, in the order of the plant's sensors. Empty for a sensor that measures at jumps
   /// and whose outputs the jump events carry.
   std::vector<std::optional<TopicSource>> sensors;
-  /// Set when the plant has inputs.
-  std::optional<TopicSource> input;
+  /// One per channel of inputs, in the order of the plant's.
+  std::vector<TopicSource> inputs;
   /// Set when the plant jumps; its size is the number of outputs measured at jumps.
   std::optional<TopicSource> jumps;
   /// Set where the estimate is also given in standard messages.

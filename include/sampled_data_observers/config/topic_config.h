@@ -50,8 +50,9 @@ struct TopicSource {
 std::vector<std::optional<TopicSource>> read_sensor_sources(ConfigSection& root,
                                                             const Plant& plant);
 
-/// Reads the source of inputs, the section `input`.
-TopicSource read_input_source(ConfigSection& root, const Plant& plant);
+/// Reads the sources of the plant's channels of inputs: the section `input` of all, or each of
+/// `inputs`.
+std::vector<TopicSource> read_input_sources(ConfigSection& root, const Plant& plant);
 
 /// Reads a section `detector`: the source whose messages show jumps, and how to detect them.
 TopicSource read_detector_source(ConfigSection section);

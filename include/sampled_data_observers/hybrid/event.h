@@ -29,9 +29,10 @@ struct Event {
   Stamp stamp = 0;
   /// Decides what else means something.
   EventKind kind = EventKind::kSample;
-  /// Of what is measured: the index of its sensor.
+  /// Of what is measured: the index of its sensor; of inputs: that of their channel
+  /// (Plant::input_channels()).
   int sensor = 0;
-  /// u of inputs, y of what is measured, y_d of jumps that come with it.
+  /// u of the inputs of a channel, y of what is measured, y_d of jumps that come with it.
   const double* values = nullptr;
   /// Number of values.
   Eigen::Index size = 0;

@@ -54,8 +54,8 @@ class PlantObserver : public ObserverLaw {
   void flow(Duration duration, double* state, double* workspace) const override;
   Effect reset(const Event& event, double* state, double* workspace) const override;
 
-  /// Number of values that events of the kind, and sensor, carry; -1 where there are no such. Jumps
-  /// may come with the outputs measured at them, all or none.
+  /// Number of values that events of the kind, and sensor or channel of inputs, carry; -1 where
+  /// there are no such. Jumps may come with the outputs measured at them, all or none.
   Eigen::Index event_size(EventKind kind, std::size_t sensor = 0) const;
 
   /// Whether the plant has the mode that a jump event names. @pre accepts(event)
@@ -219,6 +219,7 @@ class PlantObserver : public ObserverLaw {
  private:
   class Field;
 
+  void take_input(const Event& event, double* state) const;
   Effect begin_jump(const Event& event, double* state, double* workspace) const;
   Effect apply_jump(std::size_t next, double* state, double* workspace) const;
   Effect pair_with_jump(const Event& output, double* state, double* workspace) const;

@@ -36,6 +36,16 @@ struct PlantMode {
   std::shared_ptr<const VectorMap> flow_set = nullptr;
 };
 
+/// Inputs whose values come together: those of one topic.
+struct InputChannel {
+  std::string name;
+  /// Positions in u, in ascending order.
+  std::vector<Eigen::Index> inputs;
+
+  /// Number of values.
+  Eigen::Index size() const { return static_cast<Eigen::Index>(inputs.size()); }
+};
+
 /// What a plant that flows, is measured and may jump is made of. A switched plant has several
 /// modes; it starts in the first, and its jump events say which one follows.
 struct PlantDescription {
@@ -47,6 +57,9 @@ struct PlantDescription {
   std::vector<PlantMode> modes;
   /// For flows that are not affine.
   Integration integration;
+  /// Each input in one of them, ordered by their first inputs. Empty: all come together, in a
+  /// channel named "input".
+  std::vector<InputChannel> input_channels = {};
 };
 
 /// A checked description. Immutable.
@@ -63,6 +76,8 @@ class Plant {
   const std::vector<std::string>& state_names() const { return description_.state_names; }
   /// p names, in the order of u.
   const std::vector<std::string>& input_names() const { return description_.input_names; }
+  /// Where inputs come from; none where the plant has no inputs.
+  const std::vector<InputChannel>& input_channels() const { return description_.input_channels; }
   /// Their positions are the channels of what is measured.
   const std::vector<Sensor>& sensors() const { return description_.sensors; }
   /// The plant starts in the first.

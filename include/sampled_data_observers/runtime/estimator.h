@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "sampled_data_observers/hybrid/split_flow.h"
 #include "sampled_data_observers/hybrid/timeline.h"
@@ -205,8 +206,9 @@ class Estimator {
   EventReport submit_earlier(Event event, Stamp now);
   bool prepare_take_over();
   void go_on_from_earlier();
-  void learn_input(Stamp stamp);
-  void miss_input(Stamp stamp);
+  void learn_input(const Event& input);
+  void miss_input(int channel, Stamp stamp);
+  bool lacks_an_input() const;
   Estimator& responsible_for(Stamp stamp);
   double* workspace_of(const ObserverLaw& law);
 
@@ -224,8 +226,9 @@ class Estimator {
   bool is_sampled_;
   /// Whether something else than samples may come late.
   bool has_other_events_;
-  /// Stamp of the last rejected input, until a later one is there: no start knows it.
-  std::optional<Stamp> input_unknown_since_;
+  /// For each channel of inputs: stamp of the last that was rejected, until a later one is there:
+  /// no start knows it.
+  std::vector<std::optional<Stamp>> input_unknown_since_;
   /// Where the estimate began last: jumps of before play no part.
   std::optional<Stamp> began_at_;
   /// What estimate_at() gives out.

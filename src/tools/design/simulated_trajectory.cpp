@@ -32,9 +32,10 @@ class Recorder {
         start_(scenario.start),
         now_(scenario.start) {}
 
-  void change_input(const SimulatedMessage& message) {
+  void change_input(std::size_t channel, const SimulatedMessage& message) {
     flow_to(message.stamp);
-    u_ = Eigen::Map<const Eigen::VectorXd>(message.values.data(), plant_.inputs());
+    const std::vector<Eigen::Index>& inputs = plant_.input_channels()[channel].inputs;
+    for (std::size_t i = 0; i < inputs.size(); ++i) u_(inputs[i]) = message.values[i];
   }
 
   void see_truth(const SimulatedMessage& message) {
@@ -95,9 +96,10 @@ std::vector<TrajectoryStep> simulated_trajectory(Scenario scenario, std::size_t 
   Recorder recorder(scenario);
   Simulator simulator(scenario);
   while (const std::optional<SimulatedMessage> message = simulator.next()) {
-    switch (simulator.channels()[message->channel].kind) {
+    const SimulatedChannel& channel = simulator.channels()[message->channel];
+    switch (channel.kind) {
       case SimulatedChannel::Kind::kInput:
-        recorder.change_input(*message);
+        recorder.change_input(channel.input_channel, *message);
         break;
       case SimulatedChannel::Kind::kJump:
         recorder.jump(*message);
