@@ -136,7 +136,7 @@ void declare(Arguments& arguments, sdo::CommandLine& tool) {
               "jumps/stamp_error)")
       .check(sdo::number_between(0.0, 1e6));
   tool.flag("--no-input", options.may_lack_input,
-            "The bag need not have the topic of the input, which is zero then");
+            "The bag need not have the topics of inputs, which are zero then");
   tool.option("--plot FILE", arguments.plot,
               "Draw truth, samples and estimate into this file (.png, .pdf, .svg)")
       .check(sdo::picture_file());
