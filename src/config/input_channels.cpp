@@ -17,8 +17,8 @@ std::string listed_inputs(const std::vector<std::string>& names) {
   return text;
 }
 
-std::optional<Eigen::Index> position_of(const std::string& name,
-                                        const std::vector<std::string>& inputs) {
+std::optional<Eigen::Index> place_of_input(const std::string& name,
+                                           const std::vector<std::string>& inputs) {
   const auto found = std::find(inputs.begin(), inputs.end(), name);
   if (found == inputs.end()) return std::nullopt;
   return found - inputs.begin();
@@ -34,7 +34,7 @@ InputChannel read_channel(ConfigSection& channels, const std::string& name,
   InputChannel channel{name, {}};
   ConfigSection section = channels.section(name);
   if (!section.is_map(kFields)) {
-    const std::optional<Eigen::Index> input = position_of(name, inputs);
+    const std::optional<Eigen::Index> input = place_of_input(name, inputs);
     if (!input) {
       throw channels.error(name,
                            "the name of an input of the plant (" + listed_inputs(inputs) +
@@ -48,7 +48,7 @@ InputChannel read_channel(ConfigSection& channels, const std::string& name,
   const ConfigSection fields = section.section(kFields);
   if (fields.keys().empty()) throw section.error(kFields, "at least one input", "none");
   for (const std::string& key : fields.keys()) {
-    const std::optional<Eigen::Index> input = position_of(key, inputs);
+    const std::optional<Eigen::Index> input = place_of_input(key, inputs);
     if (!input) {
       throw fields.error(key, "the name of an input of the plant (" + listed_inputs(inputs) + ")",
                          quoted_or_meant(key, inputs));
@@ -80,9 +80,9 @@ std::vector<InputChannel> read_input_channels(ConfigSection& root,
     for (const Eigen::Index input : result.back().inputs) {
       std::string& channel = channel_of[static_cast<std::size_t>(input)];
       if (!channel.empty()) {
-        throw channels.error(name, "each input in one of them",
-                             "'" + inputs[static_cast<std::size_t>(input)] + "', which " + channel +
-                                 " has, too");
+        throw channels.error(
+            name, "each input in one of them",
+            "'" + inputs[static_cast<std::size_t>(input)] + "', which " + channel + " has, too");
       }
       channel = name;
     }

@@ -114,8 +114,7 @@ std::vector<TopicSource> read_input_sources(ConfigSection& root, const Plant& pl
   if (plant.inputs() == 0) return sources;
   if (!root.has(kInputs)) {
     ConfigSection section = root.section_or_empty("input");
-    sources.push_back(
-        read_value_source(section, "input", kInputType, plant.input_names().size()));
+    sources.push_back(read_value_source(section, "input", kInputType, plant.input_names().size()));
     if (sources.back().origin.empty()) sources.back().origin = root.origin();  // no such section
     return sources;
   }

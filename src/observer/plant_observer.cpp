@@ -96,7 +96,8 @@ Eigen::Index PlantObserver::event_size(EventKind kind, std::size_t sensor) const
   };
   switch (kind) {
     case EventKind::kInput:
-      return sensor < plant_->input_channels().size() ? plant_->input_channels()[sensor].size() : -1;
+      return sensor < plant_->input_channels().size() ? plant_->input_channels()[sensor].size()
+                                                      : -1;
     case EventKind::kOutput:
       return outputs(SensorTiming::kContinuous);
     case EventKind::kJumpOutput:

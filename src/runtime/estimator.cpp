@@ -241,7 +241,8 @@ void Estimator::note_rejected(const Event& event, Stamp now) {
 }
 
 void Estimator::learn_input(const Event& input) {
-  std::optional<Stamp>& unknown_since = input_unknown_since_[static_cast<std::size_t>(input.sensor)];
+  std::optional<Stamp>& unknown_since =
+      input_unknown_since_[static_cast<std::size_t>(input.sensor)];
   if (input.stamp > unknown_since.value_or(input.stamp)) unknown_since.reset();
 }
 

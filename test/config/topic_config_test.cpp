@@ -115,14 +115,15 @@ TEST(TopicConfigTest, FaultsOfInputsSayWhatIsExpected) {
       {"w: angular", "ww: angular", {"inputs/imu/fields/ww", "(u, v, w)", "'ww'"}},
       {", u: linear_acceleration.x", "", {"inputs: expected a source of each input", "'u'"}},
       {"u: linear", "v: linear", {"inputs/v: expected each input in one", "imu has, too"}},
-      {"fields: {w: angular_velocity.z, u: linear_acceleration.x}", "fields: {}",
+      {"fields: {w: angular_velocity.z, u: linear_acceleration.x}",
+       "fields: {}",
        {"inputs/imu/fields: expected at least one input"}},
       {"  imu:", "  s:", {"inputs/s: expected a name that no other source"}},
       {"  imu:", "  jumps:", {"inputs/jumps: expected a name that no other source"}},
       {"inputs:\n", "input: {topic: all}\ninputs:\n", {"one of input", "both"}},
       {"inputs: [u, v, w], A: [[0]], B: [[1, 2, 3]]", "A: [[0]]", {"the plant has no inputs"}},
       {"topic: odom, ", "", {"inputs/v/topic"}},
-      {"[twist.twist.linear.x]", "[a, b]", {"inputs/v/fields", "1 scalars"}},
+      {"[twist.twist.linear.x]", "[a, b]", {"inputs/v/fields", "list of 1"}},
       {", min_interval", ", min_intervall", {"inputs/v/min_intervall", "unknown key"}},
   };
   for (const Fault& change : faults) {

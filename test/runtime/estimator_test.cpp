@@ -158,9 +158,13 @@ TEST_F(EstimatorTest, ARestartKeepsTheInput) {
 
 TEST_F(EstimatorTest, EachChannelOfInputsIsHeldUntilItsOwnNextStamp) {
   const std::shared_ptr<const Plant> example = test::example_plant();
-  const auto plant = std::make_shared<const Plant>(PlantDescription{
-      example->state_names(), example->input_names(), example->sensors(), example->modes(),
-      example->integration(), {{"force", {0}}, {"torque", {1}}}});
+  const auto plant =
+      std::make_shared<const Plant>(PlantDescription{example->state_names(),
+                                                     example->input_names(),
+                                                     example->sensors(),
+                                                     example->modes(),
+                                                     example->integration(),
+                                                     {{"force", {0}}, {"torque", {1}}}});
   const auto law = std::make_shared<const ConstantGainObserver>(
       ObserverContext{plant, Eigen::Vector3d::Zero(), Eigen::Vector2d(0.1, 0.2)},
       test::example_gains());
@@ -173,8 +177,8 @@ TEST_F(EstimatorTest, EachChannelOfInputsIsHeldUntilItsOwnNextStamp) {
   const auto held = [&](Duration after) {
     Estimate estimate = estimator.make_estimate();
     estimator.estimate_at(kStart + after, estimate);
-    return Eigen::Vector2d(Eigen::Map<const Eigen::Vector2d>(
-        law->observer().held_part(estimate.state.data())));
+    return Eigen::Vector2d(
+        Eigen::Map<const Eigen::Vector2d>(law->observer().held_part(estimate.state.data())));
   };
   EXPECT_EQ(EventOutcome::kUsed, take(10, 0, {7.0}));
   EXPECT_EQ(Eigen::Vector2d(7.0, 0.2), held(10));

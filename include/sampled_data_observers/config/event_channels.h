@@ -25,7 +25,8 @@ struct EventChannel {
 /// What the values of a sensor are as events.
 EventKind kind_of(SensorTiming timing);
 
-/// All channels of a configuration: the sensors in order, then inputs and jumps where there are any.
+/// All channels of a configuration: the sensors in order, then inputs and jumps where there are
+/// any.
 std::vector<EventChannel> event_channels(const ObserverConfig& config);
 
 /// Whether the data of some channel are to be transformed.

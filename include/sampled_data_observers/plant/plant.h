@@ -38,6 +38,7 @@ struct PlantMode {
 
 /// Inputs whose values come together: those of one topic.
 struct InputChannel {
+  /// Unlike those of other sources of events.
   std::string name;
   /// Positions in u, in ascending order.
   std::vector<Eigen::Index> inputs;
