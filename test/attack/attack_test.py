@@ -57,6 +57,22 @@ BREAKS = [
 ]
 
 
+DENSE_PLANT = """plant: {states: [x1, x2], A: [[0, 1], [-1, 0]]}
+sensors:
+"""
+DENSE = ["  first: {C: [[1, 0]], source: {topic: first}, sampling: {T1: 0, T2: 0.5}}\n",
+         "  second: {C: [[0, 1]], source: {topic: second}, sampling: {T1: 0, T2: 0.3}}\n"]
+
+# Of a claim for two sensors by timers.
+TIMER_BREAKS = [
+    (("certificate", "lambda_t"), times(100)), (("certificate", "P", 2), times(3)),
+    (("certificate", "nu", "gps"), times(1e-6)), (("certificate", "nu", "wheel"), times(-1)),
+    (("gains", "L", "gps"), times(-1)), (("gains", "L", "wheel"), times(3)),
+    (("certificate", "sensors", "wheel", "T1"), times(0.5)),
+    (("certificate", "sensors", "gps", "T2"), times(2)),
+]
+
+
 class MatrixTest(unittest.TestCase):
     def test_exponential_of_a_rotation_and_of_bad_units(self):
         mp.dps = 60
@@ -106,6 +122,37 @@ class ClaimTest(unittest.TestCase):
             found = answers(path)
             self.assertGreaterEqual(len(found), 4, path)
             self.assertEqual({"holds"}, set(found), f"{path}: {found}")
+
+    def test_claims_of_timers_hold_and_broken_ones_do_not(self):
+        paths = glob.glob(os.path.join(ROOT, "test/certificate/**/*timer_dependent*.yaml"), recursive=True)
+        two_sensors = os.path.join(ROOT, "test/certificate/two_sensors.yaml")
+        self.assertGreaterEqual(len(paths), 4)
+        for path in paths + [two_sensors]:
+            self.assertEqual({"holds"}, set(answers(path)), path)
+        with tempfile.TemporaryDirectory() as folder:
+            plant = os.path.join(folder, "plant.yaml")
+            gains = os.path.join(folder, "gains.yaml")
+            for method, sensors in (("timer_dependent_constant_gain", DENSE[:1]),
+                                    ("timer_dependent_scheduled_gain", DENSE)):
+                with open(plant, "w", encoding="utf-8") as stream:
+                    stream.write(DENSE_PLANT + "".join(sensors))
+                subprocess.run([DESIGN, "synthesize", plant, "-o", gains, "--method", method, "--cells", "2",
+                                "--objective", "feasible"], stdout=subprocess.DEVNULL, check=True)
+                self.assertEqual({"holds"}, set(answers(gains)), method)
+        with open(two_sensors, encoding="utf-8") as stream:
+            whole = yaml.safe_load(stream)
+        plant = os.path.join(os.path.dirname(two_sensors), whole["certificate"]["plant"]["file"])
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "gains.yaml")
+            for keys, change in TIMER_BREAKS:
+                document = copy.deepcopy(whole)
+                section = document
+                for key in keys[:-1]:
+                    section = section[key]
+                section[keys[-1]] = change(section[keys[-1]])
+                with open(path, "w", encoding="utf-8") as stream:
+                    yaml.safe_dump(document, stream)
+                self.assertIn("violated", answers(path, plant), keys)
 
     def test_each_broken_value_is_refused(self):
         folder = os.path.join(ROOT, "config/examples/ferrante2019_oscillator")

@@ -43,6 +43,7 @@ class Claim:
     states: int
     modes: list
     C: list = field(default_factory=list)
+    sampled: list = field(default_factory=list)  # of each sampled sensor its name and its C
     C_c: list = field(default_factory=list)
     C_d: list = field(default_factory=list)
     G: list = None
@@ -130,21 +131,25 @@ def read_claim(path, gain_file, certificate, plant_path):
     names = []
     for name, sensor in sorted(document.get("sensors", {}).items()):
         timing = sensor.get("measured", "sampled")
-        by_timing[timing].append(sensor)
+        by_timing[timing].append((name, sensor))
         names += [bias for bias in sensor.get("bias", []) if bias not in names]
     own = len(plant["states"])
     total = own + len(names)
+    is_of_several = certificate["theorem"].startswith("timer_dependent")
+
+    def output_of(sensor):
+        if "C" not in sensor:
+            return []
+        biases = [names.index(bias) for bias in sensor.get("bias", [])]
+        return with_biases(numbers(sensor["C"]), biases, own, total)
 
     def output(timing):
-        sensors = by_timing[timing]
+        sensors = [sensor for _, sensor in by_timing[timing]]
         if not sensors:
             return []
-        if len(sensors) > 1:
+        if len(sensors) > 1 and not (timing == "sampled" and is_of_several):
             raise Unreadable(f"several sensors that are {timing}")
-        if "C" not in sensors[0]:
-            return []
-        biases = [names.index(bias) for bias in sensors[0].get("bias", [])]
-        return with_biases(numbers(sensors[0]["C"]), biases, own, total)
+        return [row for sensor in sensors for row in output_of(sensor)]
 
     def jump_map(section):
         if section is None:
@@ -168,15 +173,18 @@ def read_claim(path, gain_file, certificate, plant_path):
     if certificate.get("A_d") is not None:
         modes[0].A_d = numbers(certificate["A_d"])
 
-    has_dwell_time = "T2" not in certificate
+    intervals = list(certificate.get("sensors", {}).values())
+    if "T2" in certificate:
+        intervals.append(certificate)
     claim = Claim(
         theorem=certificate["theorem"],
         observer=gain_file["observer"],
-        T1=mpf(0) if has_dwell_time else number(certificate["T1"]),
-        T2=mpf("inf") if has_dwell_time else number(certificate["T2"]),
+        T1=min((number(interval["T1"]) for interval in intervals), default=mpf(0)),
+        T2=max((number(interval["T2"]) for interval in intervals), default=mpf("inf")),
         states=total,
         modes=modes,
         C=output("sampled"),
+        sampled=[(name, output_of(sensor)) for name, sensor in by_timing["sampled"]],
         C_c=output("continuous"),
         C_d=output("at_jumps"),
         gains=gain_file["gains"],

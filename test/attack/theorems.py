@@ -9,7 +9,8 @@ from formulas import lipschitz_constant_is_refuted, vertices_are_refuted
 from high_precision import (exponential, identity, inverse, minus, null_space, pivots_and_factor, plus,
                             product, products, solved, stacked, symmetrized, times, transposed, zeros)
 from timer_dependent import (timer_dependent_constant_gain, timer_dependent_intersample_injection,
-                             timer_dependent_sample_and_hold, timer_dependent_scheduled_gain)
+                             timer_dependent_sample_and_hold, timer_dependent_scheduled_gain,
+                             timer_dependent_synchronized)
 
 
 def root_of(P):
@@ -578,6 +579,7 @@ OBSERVERS = {
     timer_dependent_scheduled_gain: "TimeVaryingGainObserver",
     timer_dependent_intersample_injection: "IntersampleInjectionObserver",
     timer_dependent_sample_and_hold: "SampleAndHoldObserver",
+    timer_dependent_synchronized: "SynchronizedObserver",
 }
 
 

@@ -1,10 +1,57 @@
-"""Lyapunov functions e'P(τ)e, P affine between nodes of the time τ since the last sample of one sensor."""
+"""Lyapunov functions e'P(τ)e, P multi-affine between nodes of the times τ since the last events of each timer."""
+
+import itertools
+from dataclasses import dataclass
 
 from mpmath import mpf
 
-from claim import Unreadable, numbers
+from claim import Unreadable, number, numbers
 from conditions import Fixed, Number, Statement
-from high_precision import identity, minus, plus, product, stacked, symmetrized, times, transposed, zeros
+from high_precision import (identity, inverse, minus, plus, product, products, stacked, symmetrized, times,
+                            transposed, zeros)
+
+
+@dataclass
+class Resets:
+    """What events of one timer do: e⁺ = (J - K C) e - K noise, K a function of the node before it."""
+    name: str
+    T1: object
+    T2: object
+    J: list
+    C: list
+    K: object
+    Z: object = None  # of P K = C'Z, where the timer may be 0 at an event and K is not given
+
+
+class Grid:
+    """Nodes of several timers, numbered with the last timer changing fastest."""
+
+    def __init__(self, nodes):
+        self.nodes = nodes
+        self.places = list(itertools.product(*(range(len(of_timer)) for of_timer in nodes)))
+        self.number_of = {place: number for number, place in enumerate(self.places)}
+
+    def time(self, node, timer):
+        return self.nodes[timer][self.places[node][timer]]
+
+    def after(self, node, timer):
+        place = list(self.places[node])
+        place[timer] = 0
+        return self.number_of[tuple(place)]
+
+    def cells(self):
+        """Of each cell, its corners; of each corner the node and the two ends of its edges."""
+        for lowest in itertools.product(*(range(len(of_timer) - 1) for of_timer in self.nodes)):
+            corners = []
+            for steps in itertools.product((0, 1), repeat=len(lowest)):
+                place = [low + step for low, step in zip(lowest, steps)]
+                edges = []
+                for timer, low in enumerate(lowest):
+                    ends = [tuple(place[:timer] + [at] + place[timer + 1:]) for at in (low, low + 1)]
+                    length = self.nodes[timer][low + 1] - self.nodes[timer][low]
+                    edges.append(tuple(self.number_of[end] for end in ends) + (length,))
+                corners.append((self.number_of[tuple(place)], edges))
+            yield corners
 
 
 def slopes(claim):
@@ -12,21 +59,72 @@ def slopes(claim):
     return [plus(claim.A, vertex) for vertex in claim.vertices] or [claim.A]
 
 
-def timer_dependent(claim, fields, reset, noise_of, nodes):
-    """e' = F e + N w + G phi; at a sample e⁺ = reset e + noise η, noise a function of the node."""
-    if claim.T1 == 0:
-        raise Unreadable("samples one right after another")
+def fall_at_once(name, resets, P, level, Z):
+    """V does not grow by an event right after another one of its timer, with P K = C'Z."""
+    C, m = resets.C, len(Z)
+    Q = products(transposed(Z), C, inverse(P), transposed(C), Z)
+    across = minus(Z, Q)
+    return Fixed(name, stacked([[minus(symmetrized(Z), Q), across],
+                                [transposed(across), minus(times(level, identity(m)), Q)]]))
+
+
+def fall_of_measured(name, resets, X, level):
+    """The same where V is X in what is measured, and else in what the gain K leaves as it is."""
+    M = product(resets.C, resets.K(0))
+    kept = minus(identity(len(M)), M)
+    across = products(transposed(kept), X, M)
+    return Fixed(name, stacked([
+        [minus(X, products(transposed(kept), X, kept)), across],
+        [transposed(across), minus(times(level, identity(len(M))), products(transposed(M), X, M))]]))
+
+
+def fall(name, resets, P, P_after, K, level):
+    m = len(resets.C)
+    kept = product(transposed(minus(resets.J, product(K, resets.C)) if m else resets.J), P_after)
+    if m == 0:
+        return Fixed(name, stacked([[P, kept], [transposed(kept), P_after]]))
+    heard = times(mpf(-1), product(transposed(K), P_after))
+    return Fixed(name, stacked([[P, zeros(len(P), m), kept],
+                                [zeros(m, len(P)), times(level, identity(m)), heard],
+                                [transposed(kept), transposed(heard), P_after]]))
+
+
+def matrices_of(claim, grid, timers):
+    """P of each node; P/0 from its parts, where the only timer may be 0 at an event."""
+    first = timers[0]
+    has_parts = first.T1 == 0 and first.Z is None
+    P = [None if has_parts and node == 0 else claim.value(f"P/{node}")
+         for node in range(len(grid.places))]
+    if has_parts:
+        K, C = first.K(0), first.C
+        rest = minus(identity(len(K)), products(K, inverse(product(C, K)), C))
+        P[0] = plus(products(transposed(C), claim.value("P_measured"), C),
+                    products(transposed(rest), claim.value("P_rest"), rest))
+    return P
+
+
+def timer_dependent(claim, fields, timers, nodes):
+    """e' = F e + N w + G phi between events, and those of each timer."""
     n, size = claim.states, len(fields[0])
-    rate, level = claim.value("lambda_t"), claim.value("nu")
+    rate = claim.value("lambda_t")
     is_lipschitz = claim.G is not None and not claim.vertices
-    P = [claim.value(f"P/{node}") for node in range(len(nodes))]
-    yield Statement("0 < T1 <= T2", bool(0 < claim.T1 <= claim.T2))
-    yield Statement("nodes from 0 to T2, T1 among them", nodes == sorted(set(nodes)) and nodes[0] == 0
-                    and nodes[-1] == claim.T2 and claim.T1 in nodes)
     yield Number("lambda_t >= 0", rate, may_be_zero=True)
-    yield Number("nu > 0", level)
+    for timer, of_timer in zip(timers, nodes):
+        may_coincide = of_timer[0] == timer.T1 == 0 and timer.J == identity(size)
+        may_coincide = may_coincide and (len(timers) == 1 or timer.Z is not None)
+        yield Statement(f"{timer.name}: 0 < T1 <= T2, or 0 = T1", bool(
+            (timer.T1 > 0 or may_coincide) and timer.T1 <= timer.T2 and timer.T2 > 0))
+        yield Statement(f"{timer.name}: nodes from 0 to T2, T1 among them",
+                        of_timer == sorted(set(of_timer)) and of_timer[0] == 0
+                        and of_timer[-1] == timer.T2 and timer.T1 in of_timer)
+        if timer.C:
+            yield Number(f"nu/{timer.name} > 0", claim.value(f"nu/{timer.name}"))
+    grid = Grid(nodes)
+    P = matrices_of(claim, grid, timers)
     for node, value in enumerate(P):
         yield Fixed(f"P/{node} > 0", value)
+        if is_lipschitz:
+            yield Number(f"chi/{node} > 0", claim.value(f"chi/{node}"))
 
     def below(rows):
         return rows + zeros(size - n, len(rows[0]))
@@ -54,72 +152,117 @@ def timer_dependent(claim, fields, reset, noise_of, nodes):
                 zeros(len(matrix[0]), len(other[0])) for other, _ in inputs])
         return times(mpf(-1), stacked(rows))
 
-    for cell, (low, high) in enumerate(zip(nodes, nodes[1:])):
-        change = times(1 / (high - low), minus(P[cell + 1], P[cell]))
-        for node in (cell, cell + 1):
-            if is_lipschitz:
-                yield Number(f"chi/{node} > 0", claim.value(f"chi/{node}"))
+    for cell, corners in enumerate(grid.cells()):
+        for node, edges in corners:
+            change = zeros(size, size)
+            for low, high, length in edges:
+                change = plus(change, times(1 / length, minus(P[high], P[low])))
             for F in fields:
                 yield Fixed(f"flow of cell {cell} at node {node}", flow(node, change, F))
-    for node, tau in enumerate(nodes):
-        if tau < claim.T1:
-            continue
-        noise = noise_of(node)
-        m = len(noise[0])
-        kept = product(transposed(reset(node)), P[0])
-        heard = product(transposed(noise), P[0])
-        yield Fixed(f"sample at node {node}", stacked([
-            [P[node], zeros(size, m), kept],
-            [zeros(m, size), times(level, identity(m)), heard],
-            [transposed(kept), transposed(heard), P[0]]]))
+    for index, timer in enumerate(timers):
+        level = claim.value(f"nu/{timer.name}") if timer.C else None
+        for node, value in enumerate(P):
+            tau = grid.time(node, index)
+            name = f"event of {timer.name} at node {node}"
+            if tau < timer.T1:
+                continue
+            if tau > 0:
+                K = timer.K(node) if timer.C else None
+                yield fall(name, timer, value, P[grid.after(node, index)], K, level)
+            elif timer.Z is not None:
+                yield fall_at_once(name, timer, value, level, timer.Z(node))
+            else:
+                yield fall_of_measured(name, timer, claim.value("P_measured"), level)
 
 
-def nodes_of(claim, source, key):
-    by_sensor = source.get(key)
-    if not isinstance(by_sensor, dict) or len(by_sensor) != 1:
-        raise Unreadable(f"{key} of one sensor were expected")
-    [(sensor, nodes)] = by_sensor.items()
-    levels = claim.values.get("nu")
-    if not isinstance(levels, dict) or list(levels) != [sensor]:
-        raise Unreadable(f"nu/{sensor} was expected")
-    claim.values = dict(claim.values, nu=levels[sensor])
-    return numbers([nodes])[0], sensor
+def nodes_of(source, key, names):
+    by_name = source.get(key)
+    if not isinstance(by_name, dict) or sorted(by_name) != sorted(names):
+        raise Unreadable(f"{key} of {', '.join(names)} were expected")
+    return [numbers([by_name[name]])[0] for name in names]
+
+
+def times_of(claim, name):
+    if len(claim.sampled) < 2:
+        return claim.T1, claim.T2
+    of_sensor = claim.values["sensors"][name]
+    return number(of_sensor["T1"]), number(of_sensor["T2"])
+
+
+def of_sensor(claim, symbol, name):
+    return claim.value(symbol if len(claim.sampled) == 1 else f"{symbol}/{name}")
+
+
+def names_of(claim):
+    return [name for name, _ in claim.sampled]
 
 
 def timer_dependent_constant_gain(claim):
-    nodes, _ = nodes_of(claim, claim.values, "timer_nodes")
-    L = claim.value("L")
-    kept = minus(identity(claim.states), product(L, claim.C))
-    yield from timer_dependent(claim, slopes(claim), lambda _: kept,
-                               lambda _: times(mpf(-1), L), nodes)
+    timers = []
+    for name, C in claim.sampled:
+        L = of_sensor(claim, "L", name)
+        timers.append(Resets(name, *times_of(claim, name), identity(claim.states), C,
+                             lambda _, L=L: L))
+    yield from timer_dependent(claim, slopes(claim), timers,
+                               nodes_of(claim.values, "timer_nodes", names_of(claim)))
 
 
 def timer_dependent_scheduled_gain(claim):
-    """Y/NODE = P/0 K/NODE is affine in between, and so is the gain's condition."""
-    nodes, sensor = nodes_of(claim, claim.gains, "timers")
+    """The sums of P/NODE K/NODE, P just after the event, are affine in between, as is the condition of the gain."""
+    nodes = nodes_of(claim.gains, "timers", names_of(claim))
+    yield Statement("the gains' nodes are the proof's",
+                    nodes == nodes_of(claim.values, "timer_nodes", names_of(claim)))
+    timers = []
+    for name, C in claim.sampled:
+        T1, T2 = times_of(claim, name)
+        Z = None if T1 > 0 else lambda node, name=name: claim.value(f"Z/{name}/{node}")
+        timers.append(Resets(name, T1, T2, identity(claim.states), C,
+                             lambda node, name=name: claim.value(f"K/{name}/{node}"), Z))
+    yield from timer_dependent(claim, slopes(claim), timers, nodes)
 
-    def gain(node):
-        return claim.value(f"K/{sensor}/{node}")
 
-    yield from timer_dependent(
-        claim, slopes(claim), lambda node: minus(identity(claim.states), product(gain(node), claim.C)),
-        lambda node: times(mpf(-1), gain(node)), nodes)
-
-
-def injected(claim, L, H):
-    """e = (x - x_hat, theta)"""
-    n, m = claim.states, len(claim.C)
-    nodes, _ = nodes_of(claim, claim.values, "timer_nodes")
+def injected(claim, sign, has_H):
+    """e = (x - x_hat, theta of each sensor): x_hat' = f + sign L theta"""
+    n = claim.states
+    rows = [len(C) for _, C in claim.sampled]
+    m, size = sum(rows), n + sum(rows)
+    L, H, timers = zeros(n, 0), zeros(m, m), []
+    first = 0
+    for (name, C), count in zip(claim.sampled, rows):
+        gain = times(mpf(-sign), of_sensor(claim, "L", name))
+        L = [left + right for left, right in zip(L, gain)]
+        if has_H:
+            for i, row in enumerate(of_sensor(claim, "H", name)):
+                H[first + i][first:first + count] = row
+        # theta⁺ = C e + noise
+        wide = [row + [mpf(0)] * m for row in C]
+        K = zeros(size, count)
+        for i in range(count):
+            wide[i][n + first + i] = mpf(-1)
+            K[n + first + i][i] = mpf(-1)
+        timers.append(Resets(name, *times_of(claim, name), identity(size), wide, lambda _, K=K: K))
+        first += count
     fields = [stacked([[A, L], [zeros(m, n), H]]) for A in slopes(claim)]
-    reset = stacked([[identity(n), zeros(n, m)], [claim.C, zeros(m, m)]])
-    noise = zeros(n, m) + identity(m)
-    yield from timer_dependent(claim, fields, lambda _: reset, lambda _: noise, nodes)
+    yield from timer_dependent(claim, fields, timers,
+                               nodes_of(claim.values, "timer_nodes", names_of(claim)))
 
 
 def timer_dependent_intersample_injection(claim):
-    yield from injected(claim, times(mpf(-1), claim.value("L")), claim.value("H"))
+    yield from injected(claim, 1, True)
 
 
 def timer_dependent_sample_and_hold(claim):
-    m = len(claim.C)
-    yield from injected(claim, claim.value("L"), zeros(m, m))
+    yield from injected(claim, -1, False)
+
+
+def timer_dependent_synchronized(claim):
+    """The timer is the time since the last jump of the plant."""
+    if claim.A_d is None:
+        raise Unreadable("the jump map is not given by a matrix")
+    fields = slopes(claim)
+    if claim.C_c:
+        fields = [minus(F, product(claim.value("L_c"), claim.C_c)) for F in fields]
+    timer = Resets("jumps", claim.T1, claim.T2, claim.A_d, claim.C_d, lambda _: claim.value("L_d"))
+    yield Statement("T1 > 0", bool(claim.T1 > 0))
+    yield from timer_dependent(claim, fields, [timer],
+                               nodes_of(claim.values, "timer_nodes", ["jumps"]))
