@@ -1,6 +1,9 @@
 #include "certificate/error_system.h"
 
+#include <memory>
 #include <utility>
+
+#include "certificate/timer_grid.h"
 
 namespace sampled_data_observers {
 namespace {
@@ -126,13 +129,35 @@ ErrorSystem constant_gain_error(const CertificateSubject& subject) {
   return system;
 }
 
+bool has_Z(const CertificateSubject& subject, const TensorGrid& grid, std::size_t sensor,
+           std::size_t node) {
+  return times_of_timers(subject)[sensor].T1 == 0.0 && grid.position(node, sensor) == 0;
+}
+
 ErrorSystem scheduled_gain_error(const CertificateSubject& subject) {
-  const auto gain = [sampled = subject.plant.sampled, n = subject.plant.states()](
-                        std::size_t sensor, std::size_t node) {
-    return symbol("K/" + sampled[sensor].sensor + "/" + std::to_string(node), n,
-                  sampled[sensor].rows);
+  const auto own = std::make_shared<const CertificateSubject>(subject);
+  const auto grid = std::make_shared<const TensorGrid>(grid_of(subject));
+  const auto Z = [own](std::size_t sensor, std::size_t node) {
+    const SampledOutputs& outputs = own->plant.sampled[sensor];
+    return symbol("Z/" + outputs.sensor + "/" + std::to_string(node), outputs.rows, outputs.rows);
   };
-  return corrected_at_samples(subject, gain, false);
+  const auto gain = [own, grid, Z](std::size_t sensor, std::size_t node) -> MatrixExpression {
+    const SampledOutputs& outputs = own->plant.sampled[sensor];
+    const Eigen::Index n = own->plant.states();
+    const std::string number = std::to_string(node);
+    if (!has_Z(*own, *grid, sensor, node)) {
+      return symbol("K/" + outputs.sensor + "/" + number, n, outputs.rows);
+    }
+    const MatrixExpression C = rows_of(outputs, own->plant.C());
+    return inverse(symbol("P/" + number, n, n)) * transpose(C) * Z(sensor, node);
+  };
+  ErrorSystem system = corrected_at_samples(subject, gain, false);
+  const std::vector<SamplingTimes> times = times_of_timers(subject);
+  for (std::size_t i = 0; i < system.resets.size(); ++i) {
+    if (times[i].T1 > 0.0) continue;
+    system.resets[i].Z = [Z, i](std::size_t node) { return Z(i, node); };
+  }
+  return system;
 }
 
 ErrorSystem injection_error(const CertificateSubject& subject) {

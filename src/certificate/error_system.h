@@ -9,6 +9,7 @@
 
 #include "certificate/certificate.h"
 #include "certificate/matrix_expression.h"
+#include "linear_algebra/tensor_grid.h"
 
 namespace sampled_data_observers {
 
@@ -24,6 +25,9 @@ struct ErrorReset {
   /// them where the gain is constant.
   std::function<MatrixExpression(std::size_t node)> K;
   bool is_constant = true;
+  /// m x m, of gains that are not constant at nodes at which the timer is 0, where another event
+  /// may follow at once: P K = Cᵀ Z. None where T1 > 0.
+  std::function<MatrixExpression(std::size_t node)> Z = nullptr;
 };
 
 /// The error of an observer as a hybrid system that is linear between events up to a nonlinearity:
@@ -43,6 +47,11 @@ struct ErrorSystem {
   bool is_linear() const { return G.cols() == 0; }
 };
 
+/// Whether a node is one of a sensor with T1 = 0 at which its timer is 0, so that a gain that is
+/// interpolated between nodes is given there by its Z.
+bool has_Z(const CertificateSubject& subject, const TensorGrid& grid, std::size_t sensor,
+           std::size_t node);
+
 /// What the plant's own flow is in the convex hull of, n x n each: A, or A + Ψ_v with each vertex,
 /// formulas since the sum of doubles is rounded.
 std::vector<MatrixExpression> plant_flows(const PlantMatrices& plant);
@@ -57,7 +66,8 @@ std::string gain_of_sensor(const std::string& symbol, const CertificateSubject& 
 /// x̂⁺ = x̂ + L_i (y_i − C_i x̂): e = x − x̂, gains L (n x m_i).
 ErrorSystem constant_gain_error(const CertificateSubject& subject);
 
-/// The same with gains that are interpolated between nodes of the timers: gains K/SENSOR/NODE.
+/// The same with gains that are interpolated between nodes of the timers: gains K/SENSOR/NODE, or
+/// Z/SENSOR/NODE at the nodes of has_Z().
 ErrorSystem scheduled_gain_error(const CertificateSubject& subject);
 
 /// x̂' = f + Σ L_i θ_i, θ̇_i = H_i θ_i, θ_i⁺ = y_i − C_i x̂: e = (x − x̂, θ), gains L and H.

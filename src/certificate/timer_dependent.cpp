@@ -61,12 +61,12 @@ class SampledTimerTheorem : public TimerDependentTheorem {
       }
       throw std::invalid_argument("it is about times between samples with 0 <= T1 <= T2 < ∞");
     }
-    if (times.size() == 1 && !variant_.is_scheduled) return;
+    if (times.size() == 1 || variant_.is_scheduled) return;
     for (const SamplingTimes& of_sensor : times) {
       if (of_sensor.T1 > 0.0) continue;
       throw std::invalid_argument(
-          "for several sensors, and for gains that depend on timers, it needs T1 > 0 of each, "
-          "however short");
+          "for several sensors with constant gains it needs T1 > 0 of each, however short "
+          "(timer_dependent_scheduled_gain does not)");
     }
   }
 
@@ -89,10 +89,13 @@ class SampledTimerTheorem : public TimerDependentTheorem {
     for (std::size_t k = 0; k < grid.size(); ++k) {
       all.push_back(symmetric_shape("P/" + std::to_string(k), n));
     }
-    for (const SampledOutputs& outputs : plant.sampled) {
+    for (std::size_t i = 0; i < plant.sampled.size(); ++i) {
+      const SampledOutputs& outputs = plant.sampled[i];
       for (std::size_t k = 0; k < grid.size(); ++k) {
-        all.push_back(
-            matrix_shape("K/" + outputs.sensor + "/" + std::to_string(k), n, outputs.rows));
+        const std::string of_node = outputs.sensor + "/" + std::to_string(k);
+        all.push_back(has_Z(subject, grid, i, k)
+                          ? matrix_shape("Z/" + of_node, outputs.rows, outputs.rows)
+                          : matrix_shape("K/" + of_node, n, outputs.rows));
       }
     }
     return all;

@@ -73,8 +73,9 @@ double gain_rounding_of(const std::vector<Eigen::MatrixXd>& P, const TensorGrid&
   }
   const double share = 64.0 * n * n * std::numeric_limits<double>::epsilon() +
                        static_cast<double>(TensorGrid::kMaxVertices) * n * weight_rounding;
-  // Of one timer P⁺ is P_0 everywhere, and the gain the plain mean.
-  return share * std::sqrt(n) * largest / (grid.dimensions() > 1 ? least : 1.0);
+  // Of one timer P⁺ is P_0 everywhere, and the gain the plain mean of what is given.
+  const bool solves = grid.dimensions() > 1 || reset.Z;
+  return share * std::sqrt(n) * largest / (solves ? least : 1.0);
 }
 
 /// Not less than P⁻¹, whatever rounding has done to the value of P.

@@ -21,8 +21,7 @@ TimerDependentFunction::TimerDependentFunction(ErrorSystem system, TensorGrid gr
     : system_(std::move(system)),
       grid_(std::move(grid)),
       shortest_(std::move(shortest)),
-      products_(std::move(products)),
-      has_coinciding_events_(shortest_.size() == 1 && shortest_.front() == 0.0) {}
+      products_(std::move(products)) {}
 
 bool TimerDependentFunction::is_foreseen(std::size_t timer, std::size_t node) const {
   return grid_.nodes(timer)[grid_.position(node, timer)] >= shortest_[timer];
@@ -114,10 +113,11 @@ MatrixExpression TimerDependentFunction::jump(std::size_t timer, std::size_t nod
        {after}});
 }
 
-MatrixExpression TimerDependentFunction::coinciding_jump(const MatrixExpression& Z) const {
-  const ErrorReset& reset = system_.resets.front();
+MatrixExpression TimerDependentFunction::coinciding_jump(std::size_t timer, std::size_t node,
+                                                         const MatrixExpression& Z) const {
+  const ErrorReset& reset = system_.resets[timer];
   const MatrixExpression Zt_C = transpose(Z) * MatrixExpression(reset.C);
-  return symmetric_blocks({{He(Z), Z, Zt_C}, {noise_level(reset), Zt_C}, {P(0)}});
+  return symmetric_blocks({{He(Z), Z, Zt_C}, {noise_level(reset), Zt_C}, {P(node)}});
 }
 
 MatrixExpression TimerDependentFunction::coinciding_jump() const {
@@ -131,8 +131,10 @@ MatrixExpression TimerDependentFunction::coinciding_jump() const {
 }
 
 MatrixExpression TimerDependentFunction::jump_condition(std::size_t timer, std::size_t node) const {
-  if (!has_coinciding_events_ || node != 0) return jump(timer, node);
-  return products_ ? coinciding_jump(*products_->Z) : coinciding_jump();
+  if (shortest_[timer] > 0.0 || grid_.position(node, timer) != 0) return jump(timer, node);
+  if (products_) return coinciding_jump(timer, node, products_->Z(timer, node));
+  const ErrorReset& reset = system_.resets[timer];
+  return reset.Z ? coinciding_jump(timer, node, reset.Z(node)) : coinciding_jump();
 }
 
 std::vector<Condition> TimerDependentFunction::conditions() const {

@@ -17,16 +17,18 @@ namespace sampled_data_observers {
 struct GainProducts {
   /// P⁺ K, N x m, at a node of the grid, P⁺ being P after the reset of the timer.
   std::function<MatrixExpression(std::size_t timer, std::size_t node)> P_K;
-  /// Z of P_0 K = Cᵀ Z, m x m, which is all that a coinciding event leaves to choose.
-  std::optional<MatrixExpression> Z;
+  /// Z of P_k K = Cᵀ Z, m x m, which is all that is left to choose at a node at which an event may
+  /// coincide with another one of its timer; none where that is so of no timer.
+  std::function<MatrixExpression(std::size_t timer, std::size_t node)> Z = nullptr;
 };
 
 /// A Lyapunov function V(e, τ) = eᵀ P(τ) e of an error, multi-affine in the timers τ between the
 /// nodes of a grid, and what must hold of it: doc/timer_dependent.md has the theorem and its proof.
 ///
-/// At the node k, P_k is the symbol P/k. Where the only timer may be 0 at an event (T1 = 0), the
-/// jump condition there is an equality in the directions that are not measured. So that rounding
-/// does not decide it, P_0 is what makes it one for any numbers,
+/// At the node k, P_k is the symbol P/k. Where a timer may be 0 at an event (T1 = 0), the jump
+/// condition there is an equality in the directions that are not measured. So that rounding does
+/// not decide it, the gain is of a form that makes it one for any numbers, P_k K = Cᵀ Z (ErrorReset
+/// has Z), or, of one timer and a gain that is given as K, P_0 is:
 ///   P_0 = Cᵀ X C + Πᵀ Y Π, Π = I − K (C K)⁻¹ C,
 /// with the symbols P_measured for X (m x m) and P_rest for Y (N x N): then K does not show in
 /// Π e⁺ = Π e, and C e⁺ = (I − C K) C e.
@@ -34,6 +36,7 @@ class TimerDependentFunction {
  public:
   /// @param shortest  of each timer [s]
   /// @param products  in place of the gains, where those are to be found; P_0 is P/0 then
+  /// @pre where several timers have T1 = 0, their gains are of that form
   TimerDependentFunction(ErrorSystem system, TensorGrid grid, std::vector<double> shortest,
                          std::optional<GainProducts> products = std::nullopt);
 
@@ -49,10 +52,8 @@ class TimerDependentFunction {
   MatrixExpression P(std::size_t node) const;
   /// Whether P/k is a symbol of its own.
   bool is_free(std::size_t node) const {
-    return products_ || !(has_coinciding_events_ && node == 0);
+    return products_ || node != 0 || shortest_.front() > 0.0 || system_.resets.front().Z;
   }
-  /// Whether the only timer may be 0 at an event.
-  bool has_coinciding_events() const { return has_coinciding_events_; }
 
   /// P/k, P_measured, P_rest, a noise level nu/NAME of each reset with outputs, and chi/k where the
   /// error has a nonlinearity.
@@ -68,13 +69,13 @@ class TimerDependentFunction {
   MatrixExpression jump(std::size_t timer, std::size_t node) const;
   MatrixExpression jump_condition(std::size_t timer, std::size_t node) const;
   MatrixExpression coinciding_jump() const;
-  MatrixExpression coinciding_jump(const MatrixExpression& Z) const;
+  MatrixExpression coinciding_jump(std::size_t timer, std::size_t node,
+                                   const MatrixExpression& Z) const;
 
   ErrorSystem system_;
   TensorGrid grid_;
   std::vector<double> shortest_;
   std::optional<GainProducts> products_;
-  bool has_coinciding_events_;
 };
 
 }  // namespace sampled_data_observers

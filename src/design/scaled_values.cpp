@@ -50,6 +50,10 @@ class Unscaling {
     }
     if (base == "timers") return time * value;
     if (base == "K" && has_norm_of_noise(theorem_)) return gain(1.0, value, output_of(name));
+    if (base == "Z" && has_norm_of_noise(theorem_)) {
+      const Eigen::VectorXd from = output_of(name).cwiseInverse();
+      return level_ * (from.asDiagonal() * value * from.asDiagonal());
+    }
     if (base == "S") return form_of_output_at_switches(value);
     if (base == "P2") return level_ * (from_y_.asDiagonal() * value * from_y_.asDiagonal());
     if (base == "L") return gain(acts_at_samples ? 1.0 : time, value, output_of(name));

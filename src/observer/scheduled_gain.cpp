@@ -40,6 +40,14 @@ Eigen::MatrixXd checked_metric(const std::string& name, const Eigen::MatrixXd& P
   return symmetric;
 }
 
+/// C_i of a sensor for whose gain a Z stands.
+Eigen::MatrixXd linear_output(const Plant& plant, std::size_t sensor, const std::string& name) {
+  const AffineMap* map = plant.modes().front().outputs[sensor]->affine();
+  demand(map != nullptr && !plant.switches(), name,
+         "be of a sensor with a linear output (C), of a plant that does not switch");
+  return map->M();
+}
+
 /// M ← M + w A
 void add_scaled(const Eigen::MatrixXd& A, double w, double* M) {
   const double* entries = A.data();
@@ -52,6 +60,7 @@ ScheduledGain::ScheduledGain(ScheduledGains gains, const Plant& plant)
     : grid_(make_grid(gains.timers, plant)),
       n_(plant.states()),
       K_(std::move(gains.K)),
+      Z_(std::move(gains.Z)),
       metric_(workspace_.vector(n_ * n_)),
       correction_(workspace_.vector(n_ * plant.max_outputs())),
       product_(workspace_.vector(n_ * plant.max_outputs())) {
@@ -60,13 +69,19 @@ ScheduledGain::ScheduledGain(ScheduledGains gains, const Plant& plant)
     P_.push_back(checked_metric("P/" + std::to_string(node), gains.P[node], n_));
   }
   demand(K_.size() == plant.sensors().size(), "K", "have one entry per sensor");
+  Z_.resize(K_.size());
   for (std::size_t i = 0; i < K_.size(); ++i) {
     const std::string name = "K/" + plant.sensors()[i].name;
     const Eigen::Index m = plant.sensors()[i].outputs();
     demand(K_[i].size() == grid_.size(), name, "have one matrix per node");
     std::vector<Eigen::MatrixXd>& products = PK_.emplace_back();
+    Z_[i].resize(grid_.size());
     for (std::size_t node = 0; node < grid_.size(); ++node) {
-      const Eigen::MatrixXd& K = K_[i][node];
+      Eigen::MatrixXd& K = K_[i][node];
+      if (Z_[i][node].size() > 0) {
+        products.push_back(product_of_Z(plant, i, node, K));
+        continue;
+      }
       const std::string of_node = name + "/" + std::to_string(node);
       demand(K.rows() == n_ && K.cols() == m, of_node,
              "have one row per state, one column per "
@@ -76,6 +91,26 @@ ScheduledGain::ScheduledGain(ScheduledGains gains, const Plant& plant)
       demand(PK.allFinite(), of_node, "be finite, and its product with P");
     }
   }
+}
+
+/// C_iᵀ Z, and the gain that it is the product of.
+Eigen::MatrixXd ScheduledGain::product_of_Z(const Plant& plant, std::size_t sensor,
+                                            std::size_t node, Eigen::MatrixXd& K) const {
+  const std::string name = "Z/" + plant.sensors()[sensor].name + "/" + std::to_string(node);
+  const Eigen::MatrixXd& Z = Z_[sensor][node];
+  const Eigen::MatrixXd Ct = linear_output(plant, sensor, name).transpose();
+  const Eigen::Index m = Ct.cols();
+  demand(grid_.position(node, sensor) == 0, name, "be of a node at which the sensor's time is 0");
+  demand(Z.rows() == m && Z.cols() == m, name, "have one row and one column per output");
+  Eigen::MatrixXd product(n_, m);
+  multiply(Ct.data(), n_, m, Z.data(), m, product.data());
+  demand(product.allFinite(), name, "be finite, and its product with C");
+  Eigen::MatrixXd metric = P_[node];
+  factor_cholesky(metric.data(), n_);  // never fails: see kLeastEigenvalue
+  K = product;
+  solve_lower(metric.data(), n_, n_, K.data(), m);
+  solve_lower_transposed(metric.data(), n_, n_, K.data(), m);
+  return product;
 }
 
 void ScheduledGain::evaluate(std::size_t sensor, const double* tau, double* K,
@@ -120,7 +155,12 @@ void ScheduledGain::list(const Plant& plant, LawGains* gains) const {
   }
   for (std::size_t i = 0; i < K_.size(); ++i) {
     for (std::size_t node = 0; node < K_[i].size(); ++node) {
-      gains->add("K/" + plant.sensors()[i].name + "/" + std::to_string(node), K_[i][node]);
+      const std::string of_node = plant.sensors()[i].name + "/" + std::to_string(node);
+      if (Z_[i][node].size() > 0) {
+        gains->add("Z/" + of_node, Z_[i][node]);
+      } else {
+        gains->add("K/" + of_node, K_[i][node]);
+      }
     }
   }
 }

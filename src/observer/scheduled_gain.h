@@ -18,8 +18,11 @@ struct ScheduledGains {
   std::vector<std::vector<double>> timers;
   /// For each node, n x n, symmetric positive definite.
   std::vector<Eigen::MatrixXd> P;
-  /// For each sensor i and each node, n x m_i.
+  /// For each sensor i and each node, n x m_i; empty where Z has one.
   std::vector<std::vector<Eigen::MatrixXd>> K;
+  /// For each sensor i, of a linear output y = C_i x + b, and each node k with τ_i = 0 where it
+  /// stands for the gain: m_i x m_i, P_k K_i,k = C_iᵀ Z_i,k. Empty at others, or all.
+  std::vector<std::vector<Eigen::MatrixXd>> Z = {};
 };
 
 /// Gains K_i(τ) of sampled sensors that depend on the times τ since the last sample of each sensor,
@@ -31,7 +34,9 @@ struct ScheduledGains {
 /// It is the mean of the gains at the vertices in the metric of P just after the sample, and at a
 /// node the gain given there. With V = eᵀ P(τ) e of the error e, P(τ) = Σ w_k P_k, it makes linear
 /// conditions for V to fall at a sample multi-affine in τ: they hold everywhere where they hold at
-/// the nodes. With one sensor it is piecewise linear in τ.
+/// the nodes. With one sensor it is piecewise linear in τ. Where samples of a sensor may follow one
+/// another at once, V just after the second is V just before it in all directions that are not
+/// measured: gains P_k⁻¹ C_iᵀ Z_i,k make that so for any numbers.
 ///
 /// Immutable; evaluate() allocates nothing and throws nothing.
 class ScheduledGain {
@@ -50,15 +55,19 @@ class ScheduledGain {
   /// @param tau  one per sensor [s], >= 0
   void evaluate(std::size_t sensor, const double* tau, double* K, double* workspace) const;
 
-  /// Adds timers/SENSOR (its nodes, 1 x N), P/k, and K/SENSOR/k to a law's gains.
+  /// Adds timers/SENSOR (its nodes, 1 x N), P/k, and K/SENSOR/k or Z/SENSOR/k to a law's gains.
   void list(const Plant& plant, LawGains* gains) const;
 
  private:
+  Eigen::MatrixXd product_of_Z(const Plant& plant, std::size_t sensor, std::size_t node,
+                               Eigen::MatrixXd& K) const;
+
   TensorGrid grid_;
   Eigen::Index n_;
   std::vector<Eigen::MatrixXd> P_;                ///< P_k, symmetric to the bit
   std::vector<std::vector<Eigen::MatrixXd>> K_;   ///< K_i,k
   std::vector<std::vector<Eigen::MatrixXd>> PK_;  ///< P_k° K_i,k
+  std::vector<std::vector<Eigen::MatrixXd>> Z_;   ///< as ScheduledGains has it
 
   StateLayout workspace_;
   VectorSlot metric_;      ///< Σ w_k P_k°

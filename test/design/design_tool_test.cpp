@@ -623,8 +623,8 @@ TEST_F(DesignTool, ReadsTheTimesOfEachSensor) {
     EXPECT_NE(0, fine.status);
     EXPECT_TRUE(fine.says("--cells: expected at most 1000 nodes of the grid")) << fine.output;
   }
-  const ToolRun coinciding =
-      run("synthesize " + plant(kGps, "sampling: {wheel: {T1: 0, T2: 1}}\n") + output);
+  const ToolRun coinciding = run("synthesize --method timer_dependent_alternating_gain " +
+                                 plant(kGps, "sampling: {wheel: {T1: 0, T2: 1}}\n") + output);
   EXPECT_NE(0, coinciding.status);
   EXPECT_TRUE(coinciding.says("it needs T1 > 0 of each")) << coinciding.output;
 }

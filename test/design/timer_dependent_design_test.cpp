@@ -67,6 +67,24 @@ TEST(TimerDependentDesign, FusesTwoSensorsByGainsOfBothTimers) {
   }
 }
 
+TEST(TimerDependentDesign, FusesSensorsThatAreSampledAsDenselyAsOneLikes) {
+  CertificateSubject subject = triple_integrator();
+  set_sensor_times(subject, {{0.0, 1.0}, {0.0, 0.2}});
+  const Design design = design_by("timer_dependent_scheduled_gain", with_cells(subject, 3),
+                                  {{"lambda_t", 0.05}}, Objective::kMinGamma);
+  // Fewer samples were foreseen in the other test.
+  EXPECT_LE(gamma_of(design), 0.1);
+  EXPECT_EQ(design.certificate.values.count("K/speed/0"), 0u);
+  // Samples of one sensor one right after another: each changes what is measured alone.
+  const Eigen::MatrixXd& P = design.certificate.values.at("P/0");
+  const Eigen::MatrixXd C = Eigen::MatrixXd::Identity(3, 3).row(1);
+  const double Z = design.certificate.values.at("Z/speed/0")(0, 0);
+  const Eigen::Matrix3d reset = Eigen::Matrix3d::Identity() - P.inverse() * C.transpose() * Z * C;
+  const Eigen::Matrix3d fall = P - reset.transpose() * P * reset;
+  EXPECT_GT(fall(1, 1), 0.0);
+  EXPECT_LT((fall - fall(1, 1) * C.transpose() * C).norm(), 1e-9 * P.norm());
+}
+
 /// x1' = 0.5 x1 + w, x2' = x2 + w, with a sensor of each.
 CertificateSubject two_unstable_states() {
   const Eigen::MatrixXd A = Eigen::Vector2d(0.5, 1.0).asDiagonal();

@@ -69,6 +69,12 @@ const Scene kScenes[] = {
      "timer_dependent_scheduled_gain",
      {{0.2, 1.0}, {0.05, 0.2}},
      3},
+    {"scheduled_densely", kOscillator, "timer_dependent_scheduled_gain", {{0.0, 0.4}}, 4},
+    {"two_sensors_densely",
+     kIntegrator,
+     "timer_dependent_scheduled_gain",
+     {{0.0, 1.0}, {0.0, 0.2}},
+     3},
     {"lipschitz", kPendulum, "timer_dependent_constant_gain", {{0.0, 0.3}}, 4},
     {"vertices", kPolytopicPendulum, "timer_dependent_constant_gain", {{0.1, 0.4}}, 4},
 };

@@ -182,6 +182,33 @@ TEST(ScheduledGainTest, WithOneSensorItIsPiecewiseLinear) {
   EXPECT_LT((0.5 * K[1] + 0.5 * K[2] - evaluate(gain, 0, 2, {1.25})).norm(), 1e-15);
 }
 
+TEST(ScheduledGainTest, WhereSamplesMayFollowAtOnceZStandsForIt) {
+  LinearPlantDescription description;
+  description.state_names = {"a", "b", "c"};
+  description.A = Eigen::MatrixXd::Zero(3, 3);
+  description.B = Eigen::MatrixXd::Zero(3, 0);
+  const Eigen::MatrixXd C = random(2, 3);
+  description.sensors = {{"s0", C, {false, false}}};
+  const ObserverContext context{make_linear_plant(description), Eigen::VectorXd::Zero(3),
+                                Eigen::VectorXd::Zero(0)};
+  ScheduledGains gains = random_gains(context, {{0.0, 0.5, 2.0}});
+  gains.K[0][0] = Eigen::MatrixXd();
+  gains.Z = {{random(2, 2), Eigen::MatrixXd(), Eigen::MatrixXd()}};
+  const ScheduledGain gain(gains, *context.plant);
+  const Eigen::MatrixXd K = evaluate(gain, 0, 2, {0.0});
+  EXPECT_LT((gains.P[0] * K - C.transpose() * gains.Z[0][0]).norm(), 1e-13);
+  EXPECT_LT((0.75 * K + 0.25 * gains.K[0][1] - evaluate(gain, 0, 2, {0.125})).norm(), 1e-14);
+  const LawGains listed = ScheduledGainObserver(context, gains).gains();
+  EXPECT_EQ(gains.Z[0][0], listed.find("Z/s0/0")->value);
+  EXPECT_EQ(nullptr, listed.find("K/s0/0"));
+  std::swap(gains.Z[0][0], gains.Z[0][1]);
+  std::swap(gains.K[0][0], gains.K[0][1]);
+  EXPECT_THROW(ScheduledGain(gains, *context.plant), std::invalid_argument);
+  std::swap(gains.K[0][0], gains.K[0][1]);
+  gains.Z[0] = {random(2, 1), Eigen::MatrixXd(), Eigen::MatrixXd()};
+  EXPECT_THROW(ScheduledGain(gains, *context.plant), std::invalid_argument);
+}
+
 TEST(ScheduledGainTest, ThreeSensorsWithOneGainEachHaveThatEverywhere) {
   const ObserverContext context = still(3, {1, 1, 2});
   ScheduledGains gains = random_gains(context, {{0.0, 1.0}, {0.0, 1.0, 2.0}, {0.0, 3.0}});

@@ -25,13 +25,31 @@ std::vector<double> read_nodes(ConfigSection& timers, const std::string& sensor)
 }
 
 /// One matrix per node of the grid, below its number.
+/// @param instead  other matrices: where one has a node, none is read of it
 std::vector<Eigen::MatrixXd> read_at_nodes(ConfigSection& section, const std::string& key,
-                                           std::size_t nodes, Eigen::Index rows,
-                                           Eigen::Index cols) {
+                                           std::size_t nodes, Eigen::Index rows, Eigen::Index cols,
+                                           const std::vector<Eigen::MatrixXd>& instead = {}) {
   ConfigSection of_nodes = section.section(key);
   std::vector<Eigen::MatrixXd> result;
   for (std::size_t node = 0; node < nodes; ++node) {
-    result.push_back(of_nodes.matrix(std::to_string(node), rows, cols));
+    const bool is_given = node >= instead.size() || instead[node].size() == 0;
+    result.push_back(is_given ? of_nodes.matrix(std::to_string(node), rows, cols)
+                              : Eigen::MatrixXd());
+  }
+  of_nodes.finish();
+  return result;
+}
+
+/// What stands for the gains at some of the nodes; empty at others.
+std::vector<Eigen::MatrixXd> read_instead(ConfigSection& Z, const Sensor& sensor,
+                                          std::size_t nodes) {
+  std::vector<Eigen::MatrixXd> result(nodes);
+  if (!Z.has(sensor.name)) return result;
+  ConfigSection of_nodes = Z.section(sensor.name);
+  for (std::size_t node = 0; node < nodes; ++node) {
+    const std::string key = std::to_string(node);
+    if (!of_nodes.has(key)) continue;
+    result[node] = of_nodes.matrix(key, sensor.outputs(), sensor.outputs());
   }
   of_nodes.finish();
   return result;
@@ -52,9 +70,13 @@ ScheduledGains read_scheduled_gains(ConfigSection& gains, const LawContext& cont
   }
   timers.finish();
   result.P = read_at_nodes(gains, "P", nodes, n, n);
+  ConfigSection Z = gains.section_or_empty("Z");
+  for (const Sensor& sensor : sensors) result.Z.push_back(read_instead(Z, sensor, nodes));
+  Z.finish();
   ConfigSection K = gains.section("K");
-  for (const Sensor& sensor : sensors) {
-    result.K.push_back(read_at_nodes(K, sensor.name, nodes, n, sensor.outputs()));
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    result.K.push_back(
+        read_at_nodes(K, sensors[i].name, nodes, n, sensors[i].outputs(), result.Z[i]));
   }
   K.finish();
   return result;

@@ -61,8 +61,9 @@ class ConstantJumpGain : public JumpGainDesign {
     LmiProgram program;
     GainProducts products;
     if (subject.T1 == 0.0) {
-      products.Z = program.matrix("Z", m, m);
-      const MatrixExpression P_K = transpose(MatrixExpression(subject.plant.C())) * *products.Z;
+      const MatrixExpression Z = program.matrix("Z", m, m);
+      products.Z = [Z](std::size_t, std::size_t) { return Z; };
+      const MatrixExpression P_K = transpose(MatrixExpression(subject.plant.C())) * Z;
       products.P_K = [product = P_K](std::size_t, std::size_t) { return product; };
     } else {
       const MatrixExpression Y = program.matrix("Y", n, m);
@@ -110,8 +111,7 @@ class GainAtJumps : public JumpGainDesign {
     LmiProgram program;
     const MatrixExpression Y =
         program.matrix("Y", subject.plant.states(), subject.plant.mode().C_d.rows());
-    const GainProducts products = {[product = Y](std::size_t, std::size_t) { return product; },
-                                   std::nullopt};
+    const GainProducts products = {[product = Y](std::size_t, std::size_t) { return product; }};
     return program_of(subject, parameters, objective, synchronized_error, products,
                       std::move(program));
   }
@@ -145,11 +145,16 @@ class ScheduledJumpGain : public JumpGainDesign {
     const Eigen::Index n = subject.plant.states();
     for (std::size_t i = 0; i < sampled.size(); ++i) {
       for (std::size_t node = 0; node < grid.size(); ++node) {
-        if (is_foreseen(subject, grid, i, node)) {
+        if (has_Z(subject, grid, i, node)) {
+          program.matrix(name_of_Z(sampled[i].sensor, node), sampled[i].rows, sampled[i].rows);
+        } else if (is_foreseen(subject, grid, i, node)) {
           program.matrix(product_name(sampled[i].sensor, node), n, sampled[i].rows);
         }
       }
     }
+    products.Z = [sampled](std::size_t i, std::size_t node) {
+      return symbol(name_of_Z(sampled[i].sensor, node), sampled[i].rows, sampled[i].rows);
+    };
     products.P_K = [sampled, n](std::size_t i, std::size_t node) {
       return symbol(product_name(sampled[i].sensor, node), n, sampled[i].rows);
     };
@@ -182,6 +187,11 @@ class ScheduledJumpGain : public JumpGainDesign {
       const std::string& sensor = subject.plant.sampled[i].sensor;
       values["timers/" + sensor] = row_of(grid.nodes(i));
       for (std::size_t node = 0; node < grid.size(); ++node) {
+        if (has_Z(subject, grid, i, node)) {
+          const std::string Z = name_of_Z(sensor, node);
+          values[Z] = solution.at(Z);
+          continue;
+        }
         // Sooner than T1 the gain is the one at T1.
         std::size_t from = node;
         while (!is_foreseen(subject, grid, i, from)) from += grid.stride(i);
@@ -196,6 +206,9 @@ class ScheduledJumpGain : public JumpGainDesign {
   static Eigen::MatrixXd row_of(const std::vector<double>& nodes) {
     return Eigen::Map<const Eigen::RowVectorXd>(nodes.data(),
                                                 static_cast<Eigen::Index>(nodes.size()));
+  }
+  static std::string name_of_Z(const std::string& sensor, std::size_t node) {
+    return "Z/" + sensor + "/" + std::to_string(node);
   }
   static std::string product_name(const std::string& sensor, std::size_t node) {
     return "Y/" + sensor + "/" + std::to_string(node);
