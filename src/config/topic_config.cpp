@@ -23,7 +23,8 @@ TopicSource read_source(ConfigSection& section, const std::string& topic, const 
   for (const char* own : {kMeasurementType, kInputType, kJumpType}) {
     const bool is_signal = type.empty() && source.type != kJumpType;
     if (source.type == own && source.type != type && !is_signal) {
-      throw section.error("type", (type.empty() ? "" : type + " or ") + "a standard message type",
+      throw section.error("type",
+                          (type.empty() ? "" : type + " or ") + "a message type of another package",
                           "'" + source.type + "'");
     }
   }

@@ -19,8 +19,9 @@ ros::Subscriber DetectedJumps::subscribe(ros::NodeHandle& handle, std::uint32_t 
   return signal_->subscribe(handle, queue_length, receive);
 }
 
-MessagePointer DetectedJumps::deserialize(std::uint8_t* data, std::uint32_t size) const {
-  return signal_->deserialize(data, size);
+MessagePointer DetectedJumps::deserialize(std::uint8_t* data, std::uint32_t size,
+                                          const Connection& connection) const {
+  return signal_->deserialize(data, size, connection);
 }
 
 Stamp DetectedJumps::stamp_of(const MessagePointer& message, Stamp receipt) const {

@@ -20,8 +20,8 @@ class DetectedJumps : public MessageSource {
 
   ros::Subscriber subscribe(ros::NodeHandle& handle, std::uint32_t queue_length,
                             const Receiver& receive) const override;
-  const char* md5sum() const override { return signal_->md5sum(); }
-  MessagePointer deserialize(std::uint8_t* data, std::uint32_t size) const override;
+  MessagePointer deserialize(std::uint8_t* data, std::uint32_t size,
+                             const Connection& connection) const override;
   Stamp stamp_of(const MessagePointer& message, Stamp receipt) const override;
   Reading read(const MessagePointer& message, Stamp receipt, Event& event) override;
   void name_missing_transform(const MessagePointer& message, Stamp stamp,

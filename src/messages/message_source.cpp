@@ -4,21 +4,36 @@
 
 #include <utility>
 
+#include "messages/decoded_source.h"
+#include "messages/definition/installed_definitions.h"
 #include "messages/detected_jumps.h"
-#include "messages/types/message_types.h"
+#include "messages/own_source.h"
 
 namespace sampled_data_observers {
 namespace {
 
-MessageTypes all_types() {
-  MessageTypes types;
-  add_own_types(types);
-  add_std_types(types);
-  add_geometry_types(types);
-  add_stamped_geometry_types(types);
-  add_nav_types(types);
-  add_sensor_types(types);
-  return types;
+template <class M>
+bool is_of(const TopicSource& source) {
+  return source.type == ros::message_traits::DataType<M>::value();
+}
+
+std::shared_ptr<const MessageDefinition> definition_of(const TopicSource& source) {
+  try {
+    return installed_definition(source.type);
+  } catch (const DefinitionError& error) {
+    throw ConfigError(source.origin, source.path + "/type", "a message type that is installed",
+                      "'" + source.type + "', which " + error.what());
+  }
+}
+
+std::unique_ptr<MessageSource> make_plain_source(
+    const TopicSource& source, std::shared_ptr<const TransformBuffer> transforms,
+    std::shared_ptr<const MessageDefinition> definition) {
+  if (is_of<Measurement>(source)) return std::make_unique<OwnSource<Measurement>>(source);
+  if (is_of<Input>(source)) return std::make_unique<OwnSource<Input>>(source);
+  if (is_of<JumpEvent>(source)) return std::make_unique<OwnSource<JumpEvent>>(source);
+  if (definition == nullptr) definition = definition_of(source);
+  return std::make_unique<DecodedSource>(source, std::move(definition), std::move(transforms));
 }
 
 }  // namespace
@@ -37,6 +52,10 @@ EventOutcome outcome_of(Reading reading) {
       return EventOutcome::kDropped;
     case Reading::kNotFinite:
       return EventOutcome::kNotFinite;
+    case Reading::kOtherDefinition:
+      return EventOutcome::kOtherDefinition;
+    case Reading::kMalformed:
+      return EventOutcome::kMalformed;
     case Reading::kEvent:
     case Reading::kPassedOver:
       break;
@@ -45,24 +64,18 @@ EventOutcome outcome_of(Reading reading) {
 }
 
 std::unique_ptr<MessageSource> make_message_source(
-    const TopicSource& source, std::shared_ptr<const TransformBuffer> transforms) {
+    const TopicSource& source, std::shared_ptr<const TransformBuffer> transforms,
+    std::shared_ptr<const MessageDefinition> definition) {
   std::string fault;
   if (!ros::names::validate(source.topic, fault)) {
     throw ConfigError(source.origin, source.path + "/topic", "a name of a topic",
                       "'" + source.topic + "' (" + fault + ")");
   }
-  static const MessageTypes kTypes = all_types();
-  const auto found = kTypes.find(source.type);
-  if (found != kTypes.end()) {
-    std::unique_ptr<MessageSource> messages = found->second(source, std::move(transforms));
-    if (!source.detector) return messages;
-    return std::make_unique<DetectedJumps>(std::move(messages), source.fields.size(),
-                                           *source.detector);
-  }
-  std::string known;
-  for (const auto& [name, make] : kTypes) known += (known.empty() ? "" : ", ") + name;
-  throw ConfigError(source.origin, source.path + "/type", "one of " + known,
-                    "'" + source.type + "'");
+  std::unique_ptr<MessageSource> messages =
+      make_plain_source(source, std::move(transforms), std::move(definition));
+  if (!source.detector) return messages;
+  return std::make_unique<DetectedJumps>(std::move(messages), source.fields.size(),
+                                         *source.detector);
 }
 
 }  // namespace sampled_data_observers

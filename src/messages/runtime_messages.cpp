@@ -78,6 +78,8 @@ static_assert(EventStatus::DWELL_SHORT == static_cast<int>(DwellCheck::kShort));
 static_assert(EventStatus::DWELL_LONG == static_cast<int>(DwellCheck::kLong));
 static_assert(EventStatus::DWELL_MANY == static_cast<int>(DwellCheck::kMany));
 static_assert(EventStatus::DWELL_FEW == static_cast<int>(DwellCheck::kFew));
+static_assert(EventStatus::OTHER_DEFINITION == static_cast<int>(EventOutcome::kOtherDefinition));
+static_assert(EventStatus::MALFORMED == static_cast<int>(EventOutcome::kMalformed));
 static_assert(EventStatus::INTERVAL_NONE == static_cast<int>(IntervalCheck::kNone));
 static_assert(EventStatus::INTERVAL_WITHIN == static_cast<int>(IntervalCheck::kWithin));
 static_assert(EventStatus::INTERVAL_SHORT == static_cast<int>(IntervalCheck::kShort));

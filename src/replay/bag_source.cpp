@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <map>
 
+#include "messages/definition/plan_compiler.h"
 #include "messages/time_conversion.h"
 #include "replay/bag_check.h"
 #include "replay/bag_records.h"
-#include "replay/message_shape.h"
 
 namespace sampled_data_observers {
 namespace {
@@ -45,35 +45,59 @@ std::vector<std::pair<std::string, std::string>> bag_topics(const rosbag::Bag& b
   return {topics.begin(), topics.end()};
 }
 
+std::shared_ptr<const MessageDefinition> definition_in(const rosbag::Bag& bag,
+                                                       const std::string& topic) {
+  rosbag::View view(bag, rosbag::TopicQuery(topic));
+  const std::vector<const rosbag::ConnectionInfo*> connections = view.getConnections();
+  if (connections.empty()) return nullptr;
+  try {
+    return std::make_shared<const MessageDefinition>(connections.front()->datatype,
+                                                     connections.front()->msg_def);
+  } catch (const DefinitionError& fault) {
+    throw ReplayError(bag.getFileName() + ": on " + topic + ": " + fault.what());
+  }
+}
+
 std::vector<std::uint8_t> checked_bytes(const rosbag::MessageInstance& instance) {
-  static std::map<std::string, MessageShape> shapes;
+  struct Checked {
+    DecodingPlan plan;
+    DecodedMessage room;
+  };
+  static std::map<std::string, Checked> types;
   try {
     const std::string& type = instance.getDataType();
-    auto shape = shapes.find(type + instance.getMD5Sum());
-    if (shape == shapes.end()) {
-      shape = shapes
-                  .emplace(type + instance.getMD5Sum(),
-                           MessageShape(type, instance.getMessageDefinition()))
+    auto known = types.find(type + instance.getMD5Sum());
+    if (known == types.end()) {
+      DecodingPlan plan = PlanCompiler(std::make_shared<const MessageDefinition>(
+                                           type, instance.getMessageDefinition()))
+                              .compile();
+      DecodedMessage room(plan.counts());
+      known = types.emplace(type + instance.getMD5Sum(), Checked{std::move(plan), std::move(room)})
                   .first;
     }
     std::vector<std::uint8_t> bytes(instance.size());
     const auto size = static_cast<std::uint32_t>(bytes.size());
     ros::serialization::OStream stream(bytes.data(), size);
     instance.write(stream);
-    shape->second.require(bytes.data(), bytes.size());
+    Checked& checked = known->second;
+    const Malformation fault = checked.plan.run(bytes.data(), bytes.size(), checked.room.slots());
+    if (fault.any()) throw BagMessageError(instance, fault.describe());
     return bytes;
+  } catch (const BagMessageError&) {
+    throw;
   } catch (const std::exception& fault) {
     throw BagMessageError(instance, fault.what());
   }
 }
 
 MessagePointer instantiate(const MessageSource& source, const rosbag::MessageInstance& instance) {
-  if (instance.getMD5Sum() != source.md5sum()) {
-    throw BagMessageError(instance, "its " + instance.getDataType() +
-                                        " was recorded with another definition than this one's");
-  }
   std::vector<std::uint8_t> bytes = checked_bytes(instance);
-  return source.deserialize(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
+  try {
+    return source.deserialize(bytes.data(), static_cast<std::uint32_t>(bytes.size()),
+                              instance.getConnectionHeader());
+  } catch (const std::exception& fault) {
+    throw BagMessageError(instance, fault.what());
+  }
 }
 
 Reading BagChannel::read(const rosbag::MessageInstance& instance, Event& event) {
@@ -90,7 +114,6 @@ std::vector<BagChannel> bind_channels(const ObserverConfig& config, const rosbag
     BagChannel bound;
     bound.channel = channel;
     bound.topic = ros::names::resolve(channel.source.topic);
-    bound.source = make_message_source(channel.source, transforms);
     const auto found = std::find_if(topics.begin(), topics.end(),
                                     [&](const auto& topic) { return topic.first == bound.topic; });
     bound.is_recorded = found != topics.end();
@@ -111,6 +134,8 @@ std::vector<BagChannel> bind_channels(const ObserverConfig& config, const rosbag
                         channel.source.type + " on " + bound.topic + ", found " + found->second +
                         " in the bag");
     }
+    if (bound.is_recorded) bound.definition = definition_in(bag, bound.topic);
+    bound.source = make_message_source(channel.source, transforms, bound.definition);
     result.push_back(std::move(bound));
   }
   return result;

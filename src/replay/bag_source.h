@@ -48,12 +48,20 @@ void name_in_faults(const std::string& path, const Action& action) {
 /// Datatypes by topic, for all topics of a bag.
 std::vector<std::pair<std::string, std::string>> bag_topics(const rosbag::Bag& bag);
 
+/// The definition of a topic's type as its first connection in the bag has it; null where the bag
+/// has no such topic.
+/// @throws ReplayError for one that is none.
+std::shared_ptr<const MessageDefinition> definition_in(const rosbag::Bag& bag,
+                                                       const std::string& topic);
+
 /// A channel of the observer bound to a topic of a bag.
 struct BagChannel {
   EventChannel channel;
   /// Absolute name of the topic in the bag.
   std::string topic;
   std::shared_ptr<MessageSource> source;
+  /// Of its type, as the bag has it; null where it has none.
+  std::shared_ptr<const MessageDefinition> definition;
   /// Whether the bag has that topic.
   bool is_recorded = false;
 

@@ -54,9 +54,11 @@ Truth truth_from_states(const Plant& plant, const std::map<std::string, std::str
 
 /// What reads the messages of a source, all of them.
 std::function<bool(const rosbag::MessageInstance&, Stamp&, std::vector<double>&)> reader_of(
-    TopicSource config, const std::shared_ptr<const TransformBuffer>& transforms) {
+    TopicSource config, const std::shared_ptr<const TransformBuffer>& transforms,
+    std::shared_ptr<const MessageDefinition> definition) {
   config.min_interval = 0;
-  const std::shared_ptr<MessageSource> source = make_message_source(config, transforms);
+  const std::shared_ptr<MessageSource> source =
+      make_message_source(config, transforms, std::move(definition));
   return
       [source](const rosbag::MessageInstance& instance, Stamp& stamp, std::vector<double>& values) {
         const MessagePointer message = instantiate(*source, instance);
@@ -70,7 +72,8 @@ std::function<bool(const rosbag::MessageInstance&, Stamp&, std::vector<double>&)
 }
 
 Truth truth_from_fields(const Plant& plant, const std::string& type,
-                        const std::map<std::string, std::string>& fields) {
+                        const std::map<std::string, std::string>& fields,
+                        std::shared_ptr<const MessageDefinition> definition) {
   Truth truth;
   TopicSource source;
   source.type = type;
@@ -85,7 +88,7 @@ Truth truth_from_fields(const Plant& plant, const std::string& type,
     throw ReplayError("--compare: expected STATE=FIELD for a truth of type " + type +
                       ", found nothing");
   }
-  truth.read = reader_of(source, nullptr);
+  truth.read = reader_of(source, nullptr, std::move(definition));
   return truth;
 }
 
@@ -101,7 +104,7 @@ Truth truth_from_topic(const ObserverConfig& config, const rosbag::Bag& bag,
   if (type.empty()) throw ReplayError("--truth: the bag has no topic " + name);
   Truth truth = type == "sampled_data_observers/StateEstimate"
                     ? truth_from_states(*config.plant, fields)
-                    : truth_from_fields(*config.plant, type, fields);
+                    : truth_from_fields(*config.plant, type, fields, definition_in(bag, name));
   truth.topic = name;
   return truth;
 }
@@ -127,9 +130,9 @@ Truth truth_from_samples(const ObserverConfig& config, const std::vector<BagChan
     }
     truth.quantities.push_back(std::move(quantity));
   }
-  truth.read = [read = reader_of(bound.channel.source, transforms), size = truth.quantities.size()](
-                   const rosbag::MessageInstance& instance, Stamp& stamp,
-                   std::vector<double>& values) {
+  truth.read = [read = reader_of(bound.channel.source, transforms, bound.definition),
+                size = truth.quantities.size()](const rosbag::MessageInstance& instance,
+                                                Stamp& stamp, std::vector<double>& values) {
     return read(instance, stamp, values) && values.size() == size;
   };
   return truth;

@@ -17,7 +17,7 @@
 
 namespace sampled_data_observers {
 
-/// Detects jumps of a plant in a signal, a field or formula of fields of a standard message type,
+/// Detects jumps of a plant in a signal, a field or formula of fields of any message type,
 /// and publishes a JumpEvent on `jumps` for each.
 ///
 /// Private parameters: the section `detector` of a configuration (read_parameter_tree()).

@@ -53,6 +53,10 @@ constexpr OutcomeText kTexts[kEventOutcomes] = {
     {EventOutcome::kNoSuchJump,
      "no jump of its stamp and number, or mode, was told to be taken back",
      "withdrawals repeat the message of the jump, with its stamp and index"},
+    {EventOutcome::kOtherDefinition, "its publisher has another type, or another definition of it",
+     "compare rosmsg md5 on both hosts, and rostopic info: build all against the same messages"},
+    {EventOutcome::kMalformed, "its bytes are no message of its type",
+     "its publisher is broken, or its messages are cut off"},
 };
 
 constexpr bool is_in_order() {

@@ -85,7 +85,7 @@ void StatisticsRecorder::record_event(std::size_t index, const Event& event,
                                       const EventReport& report, Duration latency) noexcept {
   Channel& channel = channels_[index];
   increment(channel.outcomes[static_cast<std::size_t>(report.outcome)]);
-  if (report.outcome != EventOutcome::kNoStamp) channel.latency.record(latency);
+  if (event.stamp > 0) channel.latency.record(latency);
   if (report.used()) raise(channel.newest, event.stamp);
   if (report.rewound > 0) channel.rewound.record(static_cast<std::int64_t>(report.rewound));
   if (report.came_after_bound) increment(channel.after_bound);

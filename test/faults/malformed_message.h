@@ -15,6 +15,9 @@ struct MalformedMessage {
   std::uint32_t bytes[4] = {0, 1, 0, 1000};
 };
 
+/// What calls itself a sensor_msgs/JointState, of another definition.
+struct OutdatedMessage : MalformedMessage {};
+
 }  // namespace sampled_data_observers::test
 
 namespace ros {
@@ -44,6 +47,20 @@ struct Definition<sampled_data_observers::test::MalformedMessage> {
   }
 };
 
+template <>
+struct MD5Sum<sampled_data_observers::test::OutdatedMessage> {
+  static const char* value() { return "00000000000000000000000000000000"; }
+  static const char* value(const sampled_data_observers::test::OutdatedMessage&) { return value(); }
+};
+
+template <>
+struct DataType<sampled_data_observers::test::OutdatedMessage>
+    : DataType<sampled_data_observers::test::MalformedMessage> {};
+
+template <>
+struct Definition<sampled_data_observers::test::OutdatedMessage>
+    : Definition<sampled_data_observers::test::MalformedMessage> {};
+
 }  // namespace message_traits
 
 namespace serialization {
@@ -59,6 +76,10 @@ struct Serializer<sampled_data_observers::test::MalformedMessage> {
     return sizeof(message.bytes);
   }
 };
+
+template <>
+struct Serializer<sampled_data_observers::test::OutdatedMessage>
+    : Serializer<sampled_data_observers::test::MalformedMessage> {};
 
 }  // namespace serialization
 }  // namespace ros

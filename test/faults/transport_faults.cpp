@@ -64,22 +64,29 @@ void publisher_dies(FaultBench& bench) {
   bench.let_pass(2.0);
 }
 
-void wrong_type(FaultBench& bench) {
+/// For one second, from a publisher that roscpp refuses to connect with.
+template <class M>
+void publish_unconnected(FaultBench& bench, const M& message) {
   bench.end_publisher("joint_states");
   ros::NodeHandle handle;
-  const ros::Publisher wrong = handle.advertise<std_msgs::String>("joint_states", 10);
+  const ros::Publisher wrong = handle.advertise<M>("joint_states", 10);
   for (int i = 0; i < 10; ++i) {
     bench.let_pass(0.1);
-    wrong.publish(std_msgs::String());
+    wrong.publish(message);
     ros::WallDuration(0.02).sleep();
   }
 }
+
+void wrong_type(FaultBench& bench) { publish_unconnected(bench, std_msgs::String()); }
+
+void wrong_definition(FaultBench& bench) { publish_unconnected(bench, OutdatedMessage()); }
 
 void malformed(FaultBench& bench) {
   bench.end_publisher("joint_states");
   for (int i = 0; i < 10; ++i) {
     bench.let_pass(0.1);
-    bench.publish("joint_states", MalformedMessage(), 0);
+    bench.publish("joint_states", MalformedMessage());
+    bench.await_statuses();
   }
   bench.end_publisher("joint_states");
 }
@@ -143,11 +150,16 @@ std::vector<Fault> transport_faults() {
        "a publisher of another type on the topic of a sensor",
        wrong_type,
        {}},
+      {"WrongDefinition",
+       "joint",
+       "a publisher of the right type that was built with another definition of it",
+       wrong_definition,
+       {}},
       {"Malformed",
        "joint",
-       "messages of the right type that end too early: roscpp drops them",
+       "messages of the right type that end too early",
        malformed,
-       {}},
+       {{EventStatus::MALFORMED, 10}}},
       {"LongHeader", "oscillator", "samples with a frame_id of 1 MB", long_header, {}},
   };
 }

@@ -74,10 +74,11 @@ input: {topic: i, type: nav_msgs/Odometry, fields: [twist.twist.linear.x, pose.p
 sensors:
   a: {h: [yaw], angular: [true], source: {topic: a, type: sensor_msgs/Imu, fields: [orientation.yaw], min_interval: 0.3}}
   b: {h: [x], source: {topic: b, type: sensor_msgs/JointState, fields: [position.wheel]}}
+  d: {h: [x], source: {topic: d, type: sensor_msgs/LaserScan, fields: [ranges.3]}}
   c: {h: [y], source: {topic: c, type: std_msgs/Float64MultiArray, fields: [data.1], stamp: receipt}}
 jumps: {detector: {source: {topic: j, type: geometry_msgs/WrenchStamped, fields: {f: wrench.force.z, t: wrench.torque.x}}, signal: f + t^2, threshold: 5, hysteresis: 1}}
 sampling: {T1: 0.1, T2: 1}
-gains: {L: {a: [[0], [0], [1]], b: [[0.5], [0], [0]], c: [[0], [0.5], [0.1]]}}
+gains: {L: {a: [[0], [0], [1]], b: [[0.5], [0], [0]], c: [[0], [0.5], [0.1]], d: [[0.1], [0], [0]]}}
 )yaml"};
 
 /// One observer and its channels, each of which turns bytes into an event.
@@ -90,7 +91,7 @@ class Observer {
       const std::shared_ptr<MessageSource> source = make_message_source(channel.source);
       channels_.push_back([this, channel, source](std::uint8_t* data, std::uint32_t size) {
         allocation_is_limited = true;
-        const MessagePointer message = source->deserialize(data, size);
+        const MessagePointer message = source->deserialize(data, size, nullptr);
         allocation_is_limited = false;
         Event event;
         event.kind = channel.kind;

@@ -5,10 +5,10 @@
 #include <geometry_msgs/PoseStamped.h>
 #include <gtest/gtest.h>
 
-#include <boost/make_shared.hpp>
 #include <string>
 #include <vector>
 
+#include "messages/source_reading.h"
 #include "messages/time_conversion.h"
 #include "support/stamps.h"
 
@@ -51,12 +51,22 @@ class EventIntakeTest : public testing::Test {
             }};
   }
 
-  static MessagePointer point(Stamp stamp) {
-    const auto message = boost::make_shared<geometry_msgs::PointStamped>();
-    message->header.stamp = to_ros_time(stamp);
-    message->header.frame_id = "camera";
-    message->point.x = 1.0;
-    return message;
+  template <class M>
+  MessagePointer sent(const M& message) const {
+    TopicSource source = camera().source;
+    source.type = ros::message_traits::DataType<M>::value();
+    source.frames = {};
+    source.of_jumps = true;  // so they need no fields
+    source.fields.clear();
+    return test::sent(*make_message_source(source), message);
+  }
+
+  MessagePointer point(Stamp stamp) const {
+    geometry_msgs::PointStamped message;
+    message.header.stamp = to_ros_time(stamp);
+    message.header.frame_id = "camera";
+    message.point.x = 1.0;
+    return sent(message);
   }
 
   /// The camera stands in the map at x = 10 per second.
@@ -120,9 +130,9 @@ TEST_F(EventIntakeTest, WhatMayNotWaitIsReportedAtOnceWithTheFrameItHasNot) {
   EventChannel channel = camera();
   channel.source.frames.timeout = 0;
   EventIntake intake = this->intake(channel);
-  const auto message = boost::make_shared<geometry_msgs::PointStamped>();
-  message->header.stamp = to_ros_time(kSecond);
-  intake.take(message, 0, kSecond);
+  geometry_msgs::PointStamped message;
+  message.header.stamp = to_ros_time(kSecond);
+  intake.take(sent(message), 0, kSecond);
   ASSERT_EQ(1u, handled_.size());
   EXPECT_EQ(Reading::kNoTransform, handled_[0].reading);
   EXPECT_EQ(kSecond, handled_[0].stamp);
@@ -137,13 +147,13 @@ TEST_F(EventIntakeTest, OfTwoTransformsThatWhichIsMissingIsNamed) {
   channel.source.frames.body_frame = "base";
   channel.source.frames.timeout = 0;
   EventIntake intake = this->intake(channel);
-  const auto message = boost::make_shared<geometry_msgs::PoseStamped>();
-  message->header.stamp = to_ros_time(kSecond);
-  message->header.frame_id = "camera";
-  message->pose.orientation.w = 1.0;
-  intake.take(message, 0, kSecond);
+  geometry_msgs::PoseStamped message;
+  message.header.stamp = to_ros_time(kSecond);
+  message.header.frame_id = "camera";
+  message.pose.orientation.w = 1.0;
+  intake.take(sent(message), 0, kSecond);
   know_transform_at(kSecond);
-  intake.take(message, 0, kSecond);
+  intake.take(sent(message), 0, kSecond);
   ASSERT_EQ(2u, handled_.size());
   EXPECT_EQ("camera -> map", handled_[0].missing);
   EXPECT_EQ("base -> marker", handled_[1].missing);

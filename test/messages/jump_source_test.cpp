@@ -181,11 +181,12 @@ TEST(DetectedJumpsTest, ReadingAllocatesNothing) {
   detector.options.noise_samples = 50;
   signal.detector = detector;
   const auto source = make_message_source(signal);
-  std::vector<boost::shared_ptr<Measurement>> messages;
+  std::vector<MessagePointer> messages;
   for (int i = 1; i <= 500; ++i) {
-    messages.push_back(boost::make_shared<Measurement>());
-    messages.back()->header.stamp.fromNSec(static_cast<std::uint64_t>(1000 * i));
-    messages.back()->values = {i / 100 % 2 == 0 ? 0.0 : 1.0};
+    Measurement message;
+    message.header.stamp.fromNSec(static_cast<std::uint64_t>(1000 * i));
+    message.values = {i / 100 % 2 == 0 ? 0.0 : 1.0};
+    messages.push_back(test::sent(*source, message));
   }
   // The second time round the clock is set back.
   int jumps = 0;

@@ -1,7 +1,7 @@
-#include "messages/message_fields.h"
-
+// What configurations can take out of messages, by the names of fields.
 #include <geometry_msgs/AccelStamped.h>
 #include <geometry_msgs/PointStamped.h>
+#include <geometry_msgs/Pose2D.h>
 #include <geometry_msgs/PoseStamped.h>
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <geometry_msgs/TransformStamped.h>
@@ -11,13 +11,19 @@
 #include <geometry_msgs/WrenchStamped.h>
 #include <gtest/gtest.h>
 #include <nav_msgs/Odometry.h>
+#include <sampled_data_observers/StateEstimate.h>
 #include <sensor_msgs/FluidPressure.h>
 #include <sensor_msgs/Imu.h>
 #include <sensor_msgs/JointState.h>
+#include <sensor_msgs/LaserScan.h>
 #include <sensor_msgs/MagneticField.h>
+#include <sensor_msgs/NavSatFix.h>
 #include <sensor_msgs/Range.h>
+#include <std_msgs/Bool.h>
+#include <std_msgs/Float32.h>
 #include <std_msgs/Float64.h>
 #include <std_msgs/Float64MultiArray.h>
+#include <std_msgs/Int32.h>
 
 #include <cmath>
 
@@ -187,6 +193,7 @@ TEST(MessageFieldsTest, Imu) {
                       {"linear_acceleration.z", 6.0}});
   imu.orientation_covariance[0] = -1.0;  // it says that it has none
   EXPECT_EQ(Reading::kNoField, read(imu, {"orientation.w"}).reading);
+  EXPECT_EQ(-1.0, read(imu, {"orientation_covariance.0"}).values[0]);
   EXPECT_EQ(Reading::kEvent, read(imu, {"angular_velocity.x"}).reading);
 }
 
@@ -201,7 +208,7 @@ TEST(MessageFieldsTest, JointStateByNameOfTheJoint) {
   EXPECT_EQ(Reading::kNoField, read(joints, {"position.third"}).reading);
   EXPECT_EQ(Reading::kNoField, read(joints, {"effort.left.wheel"}).reading);
   const std::string unknown = fault_of([&] { read(joints, {"torque.left"}); });
-  expect_parts(unknown, {"position.JOINT, velocity.JOINT, effort.JOINT", "'torque.left'"});
+  expect_parts(unknown, {"position.NAME, velocity.NAME, effort.NAME", "'torque.left'"});
   EXPECT_NE("no fault", fault_of([&] { read(joints, {"position."}); }));
 }
 
@@ -247,6 +254,50 @@ TEST(MessageFieldsTest, Numbers) {
   for (const char* path : {"data", "data.", "data.x", "data.-1", "data.1x"}) {
     expect_parts(fault_of([&] { read(array, {path}); }), {"data.INDEX"});
   }
+}
+
+TEST(MessageFieldsTest, TypesThatAreNeverStamped) {
+  geometry_msgs::Pose2D pose;
+  pose.x = 1.0;
+  pose.theta = 0.5;
+  expect_fields(pose, {{"x", 1.0}, {"theta", 0.5}});
+  std_msgs::Float32 number;
+  number.data = 0.1f;
+  expect_fields(number, {{"data", static_cast<double>(0.1f)}});
+  std_msgs::Int32 whole;
+  whole.data = -7;
+  expect_fields(whole, {{"data", -7.0}});
+  std_msgs::Bool truth;
+  truth.data = 1;
+  expect_fields(truth, {{"data", 1.0}});
+}
+
+TEST(MessageFieldsTest, LaserScanByIndex) {
+  sensor_msgs::LaserScan scan;
+  scan.range_max = 30.0f;
+  scan.ranges = {1.0f, 2.0f};
+  scan.intensities = {5.0f};
+  expect_fields(
+      scan, {{"range_max", 30.0}, {"ranges.0", 1.0}, {"ranges.1", 2.0}, {"intensities.0", 5.0}});
+  EXPECT_EQ(Reading::kNoField, read(scan, {"ranges.2"}).reading);
+  EXPECT_EQ(Reading::kNoField, read(scan, {"intensities.1"}).reading);
+}
+
+TEST(MessageFieldsTest, NavSatFixWithAFix) {
+  sensor_msgs::NavSatFix fix;
+  fix.latitude = 47.5;
+  fix.position_covariance[4] = 2.0;
+  expect_fields(fix, {{"latitude", 47.5}, {"position_covariance.4", 2.0}});
+  fix.status.status = sensor_msgs::NavSatStatus::STATUS_NO_FIX;
+  EXPECT_EQ(Reading::kNoField, read(fix, {"latitude"}).reading);
+}
+
+TEST(MessageFieldsTest, StatesOfAnEstimateByTheirNames) {
+  StateEstimate estimate;
+  estimate.names = {"p", "v"};
+  estimate.state = {1.0, 2.0};
+  EXPECT_EQ((std::vector<double>{2.0, 1.0}), read(estimate, {"state.v", "state.p"}).values);
+  EXPECT_EQ(Reading::kNoField, read(estimate, {"state.w"}).reading);
 }
 
 TEST(OrientationTest, AnglesAreThoseOfTheRotation) {

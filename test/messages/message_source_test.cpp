@@ -5,9 +5,13 @@
 #include <nav_msgs/Odometry.h>
 #include <ros/serialization.h>
 #include <sensor_msgs/JointState.h>
+#include <sensor_msgs/LaserScan.h>
 #include <std_msgs/Float64.h>
 
+#include <algorithm>
+#include <boost/make_shared.hpp>
 #include <cmath>
+#include <vector>
 
 #include "messages/source_reading.h"
 #include "support/allocation_counter.h"
@@ -23,13 +27,21 @@ using test::kStamp;
 using test::read;
 using test::source;
 
-TEST(MessageSourceTest, AnUnknownTypeIsRefusedWithAListOfThoseThatExist) {
+TEST(MessageSourceTest, AnUnknownTypeIsRefusedWithWhatToDo) {
   TopicSource other = source<std_msgs::Float64>({"data"});
-  other.type = "std_msgs/String";
-  const std::string message = fault_of([&] { make_message_source(other); });
-  expect_parts(message, {"file.yaml:3", "sensors/s/source/type", "'std_msgs/String'",
-                         "sampled_data_observers/Measurement", "geometry_msgs/PoseStamped",
-                         "sensor_msgs/JointState"});
+  const auto fault_of_type = [&](const std::string& type) {
+    other.type = type;
+    return fault_of([&] { make_message_source(other); });
+  };
+  expect_parts(fault_of_type("no_such_msgs/Wheel"),
+               {"file.yaml:3", "sensors/s/source/type", "'no_such_msgs/Wheel'",
+                "rospack finds no package no_such_msgs", "setup.bash", "ros-no-such-msgs"});
+  expect_parts(fault_of_type("geometry_msgs/PoseStampt"),
+               {"'geometry_msgs/PoseStampt'", "did you mean geometry_msgs/PoseStamped?",
+                "geometry_msgs has Accel, AccelStamped"});
+  for (const char* type : {"Float64", "std_msgs/", "/Float64", "std_msgs/Float/64", "a b/c"}) {
+    expect_parts(fault_of_type(type), {"is no name of a type, package/Type"});
+  }
 }
 
 TEST(MessageSourceTest, ATopicMustHaveANameOfROS) {
@@ -52,17 +64,51 @@ TEST(MessageSourceTest, ATypeWithoutStampNeedsOneByReceipt) {
                {"sensors/s/source/stamp", "receipt", "std_msgs/Float64 carries no stamp"});
 }
 
-TEST(MessageSourceTest, DeserializesWhatRoscppSends) {
+TEST(MessageSourceTest, WhatIsCutOffOrGoesOnIsMalformed) {
   const auto points = make_message_source(source<geometry_msgs::PointStamped>({"point.y"}));
-  EXPECT_STREQ(ros::message_traits::MD5Sum<geometry_msgs::PointStamped>::value(), points->md5sum());
   geometry_msgs::PointStamped message;
+  message.header.stamp.fromNSec(kStamp);
+  message.header.frame_id = "map";
   message.point.y = 2.5;
-  ros::SerializedMessage sent = ros::serialization::serializeMessage(message);
-  const auto size = static_cast<std::uint32_t>(sent.num_bytes - 4);  // without the length
-  Event event;
-  points->read(points->deserialize(sent.message_start, size), kReceipt, event);
-  EXPECT_EQ(2.5, event.values[0]);
-  EXPECT_THROW(points->deserialize(sent.message_start, size - 1), ros::Exception);
+  const ros::SerializedMessage bytes = ros::serialization::serializeMessage(message);
+  const auto size = static_cast<std::uint32_t>(bytes.num_bytes - 4);
+  for (std::uint32_t length = 0; length <= size + 1; ++length) {
+    std::vector<std::uint8_t> copy(bytes.message_start,
+                                   bytes.message_start + std::min(length, size));
+    copy.resize(length);  // a sanitizer sees what is read behind it
+    Event event;
+    const Reading reading =
+        points->read(points->deserialize(copy.data(), length, nullptr), kReceipt, event);
+    EXPECT_EQ(length == size ? Reading::kEvent : Reading::kMalformed, reading) << length;
+    if (length != size) continue;
+    EXPECT_EQ(2.5, event.values[0]);
+  }
+  EXPECT_EQ(EventOutcome::kMalformed, outcome_of(Reading::kMalformed));
+}
+
+TEST(MessageSourceTest, AnotherDefinitionIsNotRead) {
+  const auto points = make_message_source(source<geometry_msgs::PointStamped>({"point.y"}));
+  geometry_msgs::PointStamped message;
+  message.header.stamp.fromNSec(kStamp);
+  const ros::SerializedMessage bytes = ros::serialization::serializeMessage(message);
+  const auto connection = boost::make_shared<ros::M_string>();
+  const auto reading = [&] {
+    Event event;
+    const MessagePointer received = points->deserialize(
+        bytes.message_start, static_cast<std::uint32_t>(bytes.num_bytes - 4), connection);
+    const Reading found = points->read(received, kReceipt, event);
+    EXPECT_EQ(found == Reading::kEvent ? kStamp : 0, points->stamp_of(received, kReceipt));
+    return found;
+  };
+  (*connection)["type"] = "geometry_msgs/PointStamped";
+  (*connection)["md5sum"] = ros::message_traits::MD5Sum<geometry_msgs::PointStamped>::value();
+  EXPECT_EQ(Reading::kEvent, reading());
+  (*connection)["md5sum"] = ros::message_traits::MD5Sum<geometry_msgs::Vector3Stamped>::value();
+  EXPECT_EQ(Reading::kOtherDefinition, reading());
+  (*connection)["md5sum"] = ros::message_traits::MD5Sum<geometry_msgs::PointStamped>::value();
+  (*connection)["type"] = "its/PointStamped";
+  EXPECT_EQ(Reading::kOtherDefinition, reading());
+  EXPECT_EQ(EventOutcome::kOtherDefinition, outcome_of(Reading::kOtherDefinition));
 }
 
 TEST(MessageSourceTest, ReceiptReplacesAStampWhereConfigured) {
@@ -99,15 +145,23 @@ TEST(MessageSourceTest, ReadingAllocatesNothing) {
       source<sensor_msgs::JointState>({"position.a_rather_long_name", "velocity.second"}));
   const auto odometry = make_message_source(
       source<nav_msgs::Odometry>({"pose.pose.position.x", "pose.pose.orientation.yaw"}));
-  const auto joints = boost::make_shared<sensor_msgs::JointState>();
-  joints->name = {"second", "a_rather_long_name"};
-  joints->position = joints->velocity = {1.0, 2.0};
-  const auto pose_and_twist = boost::make_shared<nav_msgs::Odometry>();
+  const auto scan = make_message_source(source<sensor_msgs::LaserScan>({"ranges.2"}));
+  sensor_msgs::JointState joints;
+  joints.header.frame_id = "a_frame_of_a_rather_long_name";
+  joints.name = {"second", "a_rather_long_name"};
+  joints.position = joints.velocity = {1.0, 2.0};
+  sensor_msgs::LaserScan distances;
+  distances.ranges = {1.0f, 2.0f, 3.0f};
+  const MessagePointer sent_joints = test::sent(*joint, joints);
+  const MessagePointer sent_pose = test::sent(*odometry, nav_msgs::Odometry());
+  const MessagePointer sent_scan = test::sent(*scan, distances);
   Event event;
   const std::size_t before = test::allocations();
   for (int i = 0; i < 10; ++i) {
-    joint->read(joints, kReceipt, event);
-    odometry->read(pose_and_twist, kReceipt, event);
+    EXPECT_EQ(Reading::kEvent, joint->read(sent_joints, kReceipt, event));
+    EXPECT_EQ(Reading::kEvent, odometry->read(sent_pose, kReceipt, event));
+    EXPECT_EQ(Reading::kEvent, scan->read(sent_scan, kReceipt, event));
+    scan->stamp_of(sent_scan, kReceipt);
   }
   EXPECT_EQ(before, test::allocations());
 }

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 #include <ros/message_traits.h>
+#include <ros/serialization.h>
 
-#include <boost/make_shared.hpp>
 #include <string>
 #include <vector>
 
@@ -32,6 +32,14 @@ inline void expect_parts(const std::string& text, const std::vector<std::string>
   for (const std::string& part : parts) EXPECT_NE(std::string::npos, text.find(part)) << text;
 }
 
+/// A message as a publisher sends it to a source.
+template <class M>
+MessagePointer sent(const MessageSource& to, const M& message) {
+  const ros::SerializedMessage bytes = ros::serialization::serializeMessage(message);
+  const auto size = static_cast<std::uint32_t>(bytes.num_bytes - 4);  // without the length
+  return to.deserialize(bytes.message_start, size, nullptr);
+}
+
 /// An event with its values.
 struct Read {
   Reading reading = Reading::kEvent;
@@ -44,7 +52,7 @@ Read read(MessageSource& source, const M& message, EventKind kind = EventKind::k
           Stamp receipt = kReceipt) {
   Read result;
   result.event.kind = kind;
-  result.reading = source.read(boost::make_shared<M>(message), receipt, result.event);
+  result.reading = source.read(sent(source, message), receipt, result.event);
   if (result.reading == Reading::kEvent && result.event.size > 0) {
     result.values.assign(result.event.values, result.event.values + result.event.size);
   }

@@ -1,13 +1,25 @@
 // Messages in other frames, against closed forms.
+#include <geometry_msgs/AccelStamped.h>
+#include <geometry_msgs/PointStamped.h>
+#include <geometry_msgs/PoseArray.h>
+#include <geometry_msgs/PoseStamped.h>
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
+#include <geometry_msgs/TransformStamped.h>
+#include <geometry_msgs/TwistStamped.h>
+#include <geometry_msgs/TwistWithCovarianceStamped.h>
+#include <geometry_msgs/Vector3Stamped.h>
+#include <geometry_msgs/WrenchStamped.h>
 #include <gtest/gtest.h>
+#include <nav_msgs/Odometry.h>
+#include <sensor_msgs/Imu.h>
 #include <sensor_msgs/JointState.h>
+#include <sensor_msgs/MagneticField.h>
 
 #include <cmath>
 #include <string>
 
-#include "messages/message_transformer.h"
+#include "messages/source_reading.h"
 #include "messages/time_conversion.h"
-#include "messages/transform_message.h"
 #include "sampled_data_observers/messages/transform_buffer.h"
 #include "support/stamps.h"
 
@@ -54,74 +66,113 @@ geometry_msgs::Quaternion about_z(double angle) {
   return rotation(Eigen::Quaterniond(Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ())));
 }
 
-double yaw(const geometry_msgs::Quaternion& q) {
-  return std::atan2(2.0 * (q.w * q.z + q.x * q.y), 1.0 - 2.0 * (q.y * q.y + q.z * q.z));
+/// A message read in other frames.
+template <class M>
+class Transformed {
+ public:
+  /// @param frames  `frame` or `body_frame`, or both
+  Transformed(const SourceFrames& frames, const Eigen::Isometry3d& pose, M message)
+      : frames_(frames), message_(std::move(message)) {
+    message_.header.frame_id = "F";
+    message_.header.stamp = to_ros_time(kSecond);
+    geometry_msgs::TransformStamped transform;
+    transform.header.frame_id = "G";
+    transform.child_frame_id = "F";
+    transform.transform.translation = made<geometry_msgs::Vector3>(
+        pose.translation().x(), pose.translation().y(), pose.translation().z());
+    transform.transform.rotation = rotation(Eigen::Quaterniond(pose.linear()));
+    tf2_msgs::TFMessage all;
+    all.transforms = {transform};
+    const bool is_static = true;
+    transforms_->take(all, is_static, kSecond);
+  }
+
+  double operator()(const std::string& field) const {
+    TopicSource source = test::source<M>({field});
+    source.frames = frames_;
+    const auto messages = make_message_source(source, transforms_);
+    const test::Read read = test::read(*messages, message_);
+    EXPECT_EQ(Reading::kEvent, read.reading) << field;
+    return read.values.empty() ? std::nan("") : read.values[0];
+  }
+
+  void expect_near(double x, double y, double z, const std::string& vector) const {
+    EXPECT_NEAR(x, (*this)(vector + ".x"), 1e-12) << vector;
+    EXPECT_NEAR(y, (*this)(vector + ".y"), 1e-12) << vector;
+    EXPECT_NEAR(z, (*this)(vector + ".z"), 1e-12) << vector;
+  }
+
+ private:
+  SourceFrames frames_;
+  M message_;
+  std::shared_ptr<TransformBuffer> transforms_ =
+      std::make_shared<TransformBuffer>(std::vector<StaticTransform>());
+};
+
+const SourceFrames kFrame{"G", "", "", 0};
+
+/// @param pose  of the message's frame in that which is wanted
+template <class M>
+Transformed<M> in_frame(const Eigen::Isometry3d& pose, const M& message) {
+  return {kFrame, pose, message};
 }
 
-template <class V>
-void expect_near(double x, double y, double z, const V& found) {
-  EXPECT_NEAR(x, found.x, 1e-12);
-  EXPECT_NEAR(y, found.y, 1e-12);
-  EXPECT_NEAR(z, found.z, 1e-12);
-}
-
-template <class V, class W>
-void expect_near(const V& expected, const W& found) {
-  expect_near(expected.x, expected.y, expected.z, found);
+/// @param body  its pose in the frame of the sensor
+template <class M>
+Transformed<M> of_body(const Eigen::Isometry3d& body, const M& message) {
+  return {{"", "F", "G", 0}, body, message};
 }
 
 TEST(TransformMessageTest, PointsAreRotatedAndMoved) {
   geometry_msgs::PointStamped message;
   message.point = made<geometry_msgs::Point>(1, 0, 0);
-  to_frame(quarter_turn(), message);
-  expect_near(2, 1, 1, message.point);
+  in_frame(quarter_turn(), message).expect_near(2, 1, 1, "point");
 }
 
 TEST(TransformMessageTest, VectorsAreRotatedOnly) {
   geometry_msgs::Vector3Stamped vector;
   vector.vector = made<geometry_msgs::Vector3>(1, 2, 3);
-  to_frame(quarter_turn(), vector);
-  expect_near(-2, 1, 3, vector.vector);
+  in_frame(quarter_turn(), vector).expect_near(-2, 1, 3, "vector");
   sensor_msgs::MagneticField field;
   field.magnetic_field = made<geometry_msgs::Vector3>(1, 2, 3);
-  to_frame(quarter_turn(), field);
-  expect_near(-2, 1, 3, field.magnetic_field);
+  in_frame(quarter_turn(), field).expect_near(-2, 1, 3, "magnetic_field");
   geometry_msgs::AccelStamped accel;
   accel.accel.linear = made<geometry_msgs::Vector3>(1, 0, 0);
   accel.accel.angular = made<geometry_msgs::Vector3>(0, 1, 0);
-  to_frame(quarter_turn(), accel);
-  expect_near(0, 1, 0, accel.accel.linear);
-  expect_near(-1, 0, 0, accel.accel.angular);
+  const auto transformed = in_frame(quarter_turn(), accel);
+  transformed.expect_near(0, 1, 0, "accel.linear");
+  transformed.expect_near(-1, 0, 0, "accel.angular");
 }
 
 TEST(TransformMessageTest, PosesOfAllTypesAreTransformedAlike) {
-  const auto position = made<geometry_msgs::Point>(1, 0, 0);
   geometry_msgs::PoseStamped pose;
-  pose.pose.position = position;
+  pose.pose.position = made<geometry_msgs::Point>(1, 0, 0);
   pose.pose.orientation = about_z(0.5);
   geometry_msgs::PoseWithCovarianceStamped uncertain;
   uncertain.pose.pose = pose.pose;
+  uncertain.pose.covariance[7] = 4.0;
   nav_msgs::Odometry odometry;
   odometry.pose.pose = pose.pose;
   odometry.twist.twist.linear = made<geometry_msgs::Vector3>(1, 2, 3);
   geometry_msgs::TransformStamped transform;
   transform.transform.translation = made<geometry_msgs::Vector3>(1, 0, 0);
   transform.transform.rotation = pose.pose.orientation;
-  to_frame(quarter_turn(), pose);
-  to_frame(quarter_turn(), uncertain);
-  to_frame(quarter_turn(), odometry);
-  to_frame(quarter_turn(), transform);
-  expect_near(2, 1, 1, pose.pose.position);
-  expect_near(2, 1, 1, uncertain.pose.pose.position);
-  expect_near(2, 1, 1, odometry.pose.pose.position);
-  expect_near(2, 1, 1, transform.transform.translation);
-  for (const geometry_msgs::Quaternion& q :
-       {pose.pose.orientation, uncertain.pose.pose.orientation, odometry.pose.pose.orientation,
-        transform.transform.rotation}) {
-    EXPECT_NEAR(0.5 + kPi / 2.0, yaw(q), 1e-12);
-  }
+  geometry_msgs::PoseArray poses;
+  poses.poses = {geometry_msgs::Pose(), pose.pose};
+  const double yaw = 0.5 + kPi / 2.0;
+  const auto expect = [&](const auto& transformed, const std::string& position,
+                          const std::string& orientation) {
+    transformed.expect_near(2, 1, 1, position);
+    EXPECT_NEAR(yaw, transformed(orientation + ".yaw"), 1e-12);
+  };
+  expect(in_frame(quarter_turn(), pose), "pose.position", "pose.orientation");
+  expect(in_frame(quarter_turn(), uncertain), "pose.pose.position", "pose.pose.orientation");
+  expect(in_frame(quarter_turn(), odometry), "pose.pose.position", "pose.pose.orientation");
+  expect(in_frame(quarter_turn(), transform), "transform.translation", "transform.rotation");
+  expect(in_frame(quarter_turn(), poses), "poses.1.position", "poses.1.orientation");
   // The twist is the child's affair.
-  expect_near(1, 2, 3, odometry.twist.twist.linear);
+  in_frame(quarter_turn(), odometry).expect_near(1, 2, 3, "twist.twist.linear");
+  EXPECT_EQ(4.0, in_frame(quarter_turn(), uncertain)("pose.covariance.7"));
 }
 
 TEST(TransformMessageTest, TheVelocityIsThatOfTheOtherPoint) {
@@ -134,23 +185,19 @@ TEST(TransformMessageTest, TheVelocityIsThatOfTheOtherPoint) {
   message.twist.linear = made<geometry_msgs::Vector3>(1, -3, 0);
   geometry_msgs::TwistWithCovarianceStamped uncertain;
   uncertain.twist.twist = message.twist;
-  to_frame(sensor, message);
-  to_frame(sensor, uncertain);
-  for (const geometry_msgs::Twist& twist : {message.twist, uncertain.twist.twist}) {
-    expect_near(0, 0, 0.5, twist.angular);
-    expect_near(3, 0, 0, twist.linear);
-  }
+  in_frame(sensor, message).expect_near(0, 0, 0.5, "twist.angular");
+  in_frame(sensor, message).expect_near(3, 0, 0, "twist.linear");
+  in_frame(sensor, uncertain).expect_near(0, 0, 0.5, "twist.twist.angular");
+  in_frame(sensor, uncertain).expect_near(3, 0, 0, "twist.twist.linear");
 }
 
 TEST(TransformMessageTest, TheTorqueIsThatAboutTheOtherPoint) {
   // 10 N upward, 2 m ahead, pitch the body up: negative about y.
-  Eigen::Isometry3d sensor = quarter_turn();
   geometry_msgs::WrenchStamped message;
   message.wrench.force = made<geometry_msgs::Vector3>(0, 0, 10);
   message.wrench.torque = made<geometry_msgs::Vector3>(1, 0, 0);
-  to_frame(sensor, message);
-  expect_near(0, 0, 10, message.wrench.force);
-  expect_near(0, 1 - 20, 0, message.wrench.torque);
+  in_frame(quarter_turn(), message).expect_near(0, 0, 10, "wrench.force");
+  in_frame(quarter_turn(), message).expect_near(0, 1 - 20, 0, "wrench.torque");
 }
 
 TEST(TransformMessageTest, TwistsAndWrenchesGiveTheSamePowerInEveryFrame) {
@@ -160,17 +207,17 @@ TEST(TransformMessageTest, TwistsAndWrenchesGiveTheSamePowerInEveryFrame) {
   geometry_msgs::WrenchStamped wrench;
   wrench.wrench.force = made<geometry_msgs::Vector3>(-5.0, 3.0, 2.0);
   wrench.wrench.torque = made<geometry_msgs::Vector3>(0.2, 8.0, -1.0);
-  const auto power = [&] {
-    const geometry_msgs::Vector3& v = twist.twist.linear;
-    const geometry_msgs::Vector3& w = twist.twist.angular;
-    const geometry_msgs::Vector3& f = wrench.wrench.force;
-    const geometry_msgs::Vector3& t = wrench.wrench.torque;
-    return v.x * f.x + v.y * f.y + v.z * f.z + w.x * t.x + w.y * t.y + w.z * t.z;
+  const auto power = [&](const Eigen::Isometry3d& pose) {
+    const auto v = in_frame(pose, twist);
+    const auto f = in_frame(pose, wrench);
+    double sum = 0.0;
+    for (const char* axis : {".x", ".y", ".z"}) {
+      sum += v(std::string("twist.linear") + axis) * f(std::string("wrench.force") + axis) +
+             v(std::string("twist.angular") + axis) * f(std::string("wrench.torque") + axis);
+    }
+    return sum;
   };
-  const double before = power();
-  to_frame(some_transform(), twist);
-  to_frame(some_transform(), wrench);
-  EXPECT_NEAR(before, power(), 1e-12);
+  EXPECT_NEAR(power(Eigen::Isometry3d::Identity()), power(some_transform()), 1e-12);
 }
 
 TEST(TransformMessageTest, AnImuSaysWhatTheBodyDoes) {
@@ -185,10 +232,10 @@ TEST(TransformMessageTest, AnImuSaysWhatTheBodyDoes) {
   // Its y axis points up, its x axis to the right, and its z axis backward.
   message.angular_velocity = made<geometry_msgs::Vector3>(0, 0.25, 0);
   message.linear_acceleration = made<geometry_msgs::Vector3>(-0.5, 9.81, -2);
-  to_frame(imu, message);
-  EXPECT_NEAR(heading, yaw(message.orientation), 1e-12);
-  expect_near(0, 0, 0.25, message.angular_velocity);
-  expect_near(2, 0.5, 9.81, message.linear_acceleration);
+  const auto transformed = in_frame(imu, message);
+  EXPECT_NEAR(heading, transformed("orientation.yaw"), 1e-12);
+  transformed.expect_near(0, 0, 0.25, "angular_velocity");
+  transformed.expect_near(2, 0.5, 9.81, "linear_acceleration");
 }
 
 TEST(TransformMessageTest, ThePoseOfASensorBecomesThatOfTheBody) {
@@ -202,16 +249,14 @@ TEST(TransformMessageTest, ThePoseOfASensorBecomesThatOfTheBody) {
   geometry_msgs::TransformStamped transform;
   transform.transform.translation = made<geometry_msgs::Vector3>(10, 7, 1);
   transform.transform.rotation = pose.pose.orientation;
-  to_body(body_in_sensor, pose);
-  to_body(body_in_sensor, uncertain);
-  to_body(body_in_sensor, transform);
-  expect_near(10, 5, 0, pose.pose.position);
-  expect_near(10, 5, 0, uncertain.pose.pose.position);
-  expect_near(10, 5, 0, transform.transform.translation);
-  for (const geometry_msgs::Quaternion& q :
-       {pose.pose.orientation, uncertain.pose.pose.orientation, transform.transform.rotation}) {
-    EXPECT_NEAR(kPi / 2.0, yaw(q), 1e-12);
-  }
+  const auto expect = [&](const auto& body, const std::string& position,
+                          const std::string& orientation) {
+    body.expect_near(10, 5, 0, position);
+    EXPECT_NEAR(kPi / 2.0, body(orientation + ".yaw"), 1e-12);
+  };
+  expect(of_body(body_in_sensor, pose), "pose.position", "pose.orientation");
+  expect(of_body(body_in_sensor, uncertain), "pose.pose.position", "pose.pose.orientation");
+  expect(of_body(body_in_sensor, transform), "transform.translation", "transform.rotation");
 }
 
 TEST(TransformMessageTest, OdometryOfASensorBecomesThatOfTheBody) {
@@ -225,18 +270,19 @@ TEST(TransformMessageTest, OdometryOfASensorBecomesThatOfTheBody) {
   pose.pose = message.pose.pose;
   geometry_msgs::TwistStamped twist;
   twist.twist = message.twist.twist;
-  to_body(sensor.inverse(), message);
-  to_body(sensor.inverse(), pose);
-  to_frame(sensor, twist);
-  expect_near(pose.pose.position, message.pose.pose.position);
-  expect_near(twist.twist.linear, message.twist.twist.linear);
-  expect_near(twist.twist.angular, message.twist.twist.angular);
+  const auto body = of_body(sensor.inverse(), message);
+  const auto expected_pose = of_body(sensor.inverse(), pose);
+  const auto expected_twist = in_frame(sensor, twist);
+  for (const std::string axis : {".x", ".y", ".z"}) {
+    EXPECT_NEAR(expected_pose("pose.position" + axis), body("pose.pose.position" + axis), 1e-12);
+    EXPECT_NEAR(expected_twist("twist.linear" + axis), body("twist.twist.linear" + axis), 1e-12);
+    EXPECT_NEAR(expected_twist("twist.angular" + axis), body("twist.twist.angular" + axis), 1e-12);
+  }
 }
 
 TEST(TransformMessageTest, APoseWithoutOrientationHasNoBody) {
-  geometry_msgs::PoseStamped message;  // its quaternion is all zeros
-  to_body(quarter_turn(), message);
-  EXPECT_TRUE(std::isnan(message.pose.position.x));
+  const geometry_msgs::PoseStamped message;  // its quaternion is all zeros
+  EXPECT_TRUE(std::isnan(of_body(quarter_turn(), message)("pose.position.x")));
 }
 
 tf2_msgs::TFMessage tf(const std::string& frame, const std::string& child, double seconds, double x,
@@ -317,79 +363,54 @@ TEST(TransformBufferTest, TheConfigurationOverrulesTheTopics) {
   EXPECT_EQ(6.0, buffer.find("base_link", "laser", 50 * kSecond)->translation().x());
 }
 
-TopicSource source(const std::string& type, const SourceFrames& frames) {
-  TopicSource result;
-  result.type = type;
-  result.origin = "file.yaml:3";
-  result.path = "sensors/s/source";
-  result.frames = frames;
-  return result;
-}
-
 template <class M>
-std::string fault(const SourceFrames& frames) {
+std::string fault(const SourceFrames& frames, const std::string& field) {
+  TopicSource source = test::source<M>({field});
+  source.frames = frames;
   try {
-    MessageTransformer<M> transformer(source("its/Type", frames));
+    make_message_source(source);
   } catch (const ConfigError& error) {
     return error.what();
   }
   return "no fault";
 }
 
-TEST(MessageTransformerTest, RefusesFramesThatATypeHasNoUseFor) {
+TEST(FramesTest, ThoseThatATypeHasNoUseForAreRefused) {
   const SourceFrames frame{"map", "", "", 0};
   const SourceFrames body{"", "base_link", "", 0};
   const SourceFrames sensor{"", "base_link", "camera", 0};
-  EXPECT_NE(std::string::npos, fault<sensor_msgs::JointState>(frame).find(
-                                   "file.yaml:3: sensors/s/source/frame: expected none (nothing in "
-                                   "its/Type depends on a frame), found 'map'"));
+  const std::string joint = "position.left";
   EXPECT_NE(std::string::npos,
-            fault<geometry_msgs::PointStamped>(body).find("source/body_frame: expected none"));
-  EXPECT_NE(std::string::npos, fault<geometry_msgs::PoseStamped>(body).find(
-                                   "source/sensor_frame: expected the frame"));
-  EXPECT_EQ("no fault", fault<geometry_msgs::PoseStamped>(sensor));
-  EXPECT_EQ("no fault", fault<nav_msgs::Odometry>(body));
-  EXPECT_EQ("no fault", fault<sensor_msgs::Imu>(frame));
-  EXPECT_EQ("no fault", fault<sensor_msgs::JointState>({}));
+            fault<sensor_msgs::JointState>(frame, joint)
+                .find("file.yaml:3: sensors/s/source/frame: expected none (nothing in "
+                      "sensor_msgs/JointState depends on a frame), found 'map'"));
+  EXPECT_NE(std::string::npos, fault<geometry_msgs::Point>(frame, "x").find("depends on a frame"));
+  EXPECT_NE(
+      std::string::npos,
+      fault<geometry_msgs::PointStamped>(body, "point.x").find("source/body_frame: expected none"));
+  EXPECT_NE(std::string::npos, fault<geometry_msgs::PoseStamped>(body, "pose.position.x")
+                                   .find("source/sensor_frame: expected the frame"));
+  EXPECT_EQ("no fault", fault<geometry_msgs::PoseStamped>(sensor, "pose.position.x"));
+  EXPECT_EQ("no fault", fault<nav_msgs::Odometry>(body, "twist.twist.linear.x"));
+  EXPECT_EQ("no fault", fault<sensor_msgs::Imu>(frame, "angular_velocity.x"));
+  EXPECT_EQ("no fault", fault<sensor_msgs::JointState>({}, joint));
 }
 
-TEST(MessageTransformerTest, TransformsAtTheStampOnceTheTransformIsKnown) {
-  TransformBuffer buffer({});
-  MessageTransformer<geometry_msgs::PointStamped> transformer(
-      source("geometry_msgs/PointStamped", {"map", "", "", 0}));
-  geometry_msgs::PointStamped message;
-  message.header.frame_id = "camera";
-  message.point.x = 1.0;
-  const Stamp stamp = kSecond + kSecond / 2;
-  buffer.take(tf("map", "camera", 1.0, 4.0), false, kSecond);
-  EXPECT_EQ(nullptr, transformer.transform(message, stamp, &buffer));
-  buffer.take(tf("map", "camera", 2.0, 6.0), false, kSecond);
-  const geometry_msgs::PointStamped* transformed = transformer.transform(message, stamp, &buffer);
-  ASSERT_NE(nullptr, transformed);
-  EXPECT_NEAR(6.0, transformed->point.x, 1e-12);
-  EXPECT_EQ(1.0, message.point.x);
-}
-
-TEST(MessageTransformerTest, FindsTheSensorOfABodyInTheMessageOrTheConfiguration) {
-  TransformBuffer buffer(
-      {static_transform("base_link", "camera", 1.0), static_transform("base_link", "tag", 2.0)});
+TEST(FramesTest, TheSensorOfABodyIsThatOfTheMessageOrOfTheConfiguration) {
+  const auto transforms = std::make_shared<TransformBuffer>(std::vector<StaticTransform>{
+      static_transform("base_link", "camera", 1.0), static_transform("base_link", "tag", 2.0)});
   nav_msgs::Odometry message;
+  message.header.stamp = to_ros_time(kSecond);
   message.header.frame_id = "odom";
   message.child_frame_id = "camera";
   message.pose.pose.orientation.w = 1.0;
   for (const auto& [sensor, expected] : {std::pair<const char*, double>{"", -1.0}, {"tag", -2.0}}) {
-    MessageTransformer<nav_msgs::Odometry> transformer(
-        source("nav_msgs/Odometry", {"", "base_link", sensor, 0}));
-    const nav_msgs::Odometry* transformed = transformer.transform(message, kSecond, &buffer);
-    ASSERT_NE(nullptr, transformed);
-    EXPECT_NEAR(expected, transformed->pose.pose.position.x, 1e-12);
+    TopicSource source = test::source<nav_msgs::Odometry>({"pose.pose.position.x"});
+    source.frames = {"", "base_link", sensor, 0};
+    const test::Read read = test::read(*make_message_source(source, transforms), message);
+    ASSERT_EQ(1u, read.values.size());
+    EXPECT_NEAR(expected, read.values[0], 1e-12);
   }
-}
-
-TEST(MessageTransformerTest, WithoutFramesTheMessageIsItself) {
-  MessageTransformer<sensor_msgs::JointState> transformer(source("sensor_msgs/JointState", {}));
-  const sensor_msgs::JointState message;
-  EXPECT_EQ(&message, transformer.transform(message, kSecond, nullptr));
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <ros/datatypes.h>
 #include <ros/node_handle.h>
 
 #include <boost/shared_ptr.hpp>
@@ -15,15 +16,19 @@
 
 namespace sampled_data_observers {
 
+class MessageDefinition;
+
 /// What a source made of a message.
 enum class Reading : std::uint8_t {
-  kEvent,       ///< an event
-  kPassedOver,  ///< nothing: the source is thinned, or no jump is detected
-  kNoField,     ///< nothing: the message does not hold a field that is configured
-  kInFuture,    ///< nothing: a detector's signal from beyond the tolerated future
-  kOutOfOrder,  ///< nothing: a detector's signal whose stamp is not after the one before
-  kNotFinite,   ///< nothing: a detector's signal that is NaN or infinite
-  kDropped,     ///< nothing: it was not read, since too many came
+  kEvent,            ///< an event
+  kPassedOver,       ///< nothing: the source is thinned, or no jump is detected
+  kNoField,          ///< nothing: the message does not hold a field that is configured
+  kInFuture,         ///< nothing: a detector's signal from beyond the tolerated future
+  kOutOfOrder,       ///< nothing: a detector's signal whose stamp is not after the one before
+  kNotFinite,        ///< nothing: a detector's signal that is NaN or infinite
+  kDropped,          ///< nothing: it was not read, since too many came
+  kOtherDefinition,  ///< nothing: its publisher has another type, or another definition of it
+  kMalformed,        ///< nothing: its bytes are no message of its type
   kNoTransform  ///< nothing yet: the transform into a configured frame is not known; stamp is set
 };
 
@@ -35,7 +40,8 @@ EventOutcome outcome_of(Reading reading);
 using MessagePointer = boost::shared_ptr<const void>;
 
 /// Messages of one configured type from one topic, and the events that they are. The only place
-/// that knows their type: live observers and replay read them alike.
+/// that knows their type: live observers and replay read them alike. Of any type but the package's
+/// own it takes what the definition says, and nothing is compiled for it.
 class MessageSource {
  public:
   virtual ~MessageSource() = default;
@@ -47,12 +53,18 @@ class MessageSource {
   virtual ros::Subscriber subscribe(ros::NodeHandle& handle, std::uint32_t queue_length,
                                     const Receiver& receive) const = 0;
 
-  /// The checksum of the type's definition.
-  virtual const char* md5sum() const = 0;
+  /// What a publisher, or a bag, says of the connection that messages come on: among other things
+  /// "type" and "md5sum", the sum of its definition.
+  using Connection = boost::shared_ptr<ros::M_string>;
 
   /// The message that these bytes are, as roscpp sends it.
-  /// @throws ros::Exception, std::bad_alloc for bytes that are none
-  virtual MessagePointer deserialize(std::uint8_t* data, std::uint32_t size) const = 0;
+  /// @param data        the bytes, which are copied
+  /// @param size        how many they are
+  /// @param connection  null: they are taken for messages of the source's own definition
+  /// @throws std::exception for bytes that are none, of a type of the package's own; those of
+  ///   others are looked at by read()
+  virtual MessagePointer deserialize(std::uint8_t* data, std::uint32_t size,
+                                     const Connection& connection) const = 0;
 
   /// The stamp of the event that a message is, or of what a detector reads; for any thread.
   /// @param message  one that this source gave
@@ -75,9 +87,11 @@ class MessageSource {
 /// The source that a configuration asks for.
 /// @param source      topic, type and fields
 /// @param transforms  where a source with frames finds what it needs; else it may be null
+/// @param definition  of its type, as a bag has it; null: the one that is installed
 /// @throws ConfigError for a message type, field or stamp that does not exist; it lists those that
-/// do. The same for frames of a type that has none.
+/// do, or says what to install. The same for frames of a type that has none.
 std::unique_ptr<MessageSource> make_message_source(
-    const TopicSource& source, std::shared_ptr<const TransformBuffer> transforms = nullptr);
+    const TopicSource& source, std::shared_ptr<const TransformBuffer> transforms = nullptr,
+    std::shared_ptr<const MessageDefinition> definition = nullptr);
 
 }  // namespace sampled_data_observers

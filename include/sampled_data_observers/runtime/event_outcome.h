@@ -29,11 +29,13 @@ enum class EventOutcome : std::uint8_t {
   kJumpAlone = 19,     ///< a jump taken in without what was measured at it, or a part of it
   kTakenBack = 20,     ///< a withdrawal: the jump that it is about was taken out
   kWithdrawn = 21,     ///< a jump taken in without effect: its withdrawal came before
-  kNoSuchJump = 22     ///< a withdrawal taken in without effect, unless its jump comes yet
+  kNoSuchJump = 22,    ///< a withdrawal taken in without effect, unless its jump comes yet
+  kOtherDefinition = 23,  ///< of a publisher of another type, or another definition of it: no event
+  kMalformed = 24         ///< bytes that are no message of the type: no event
 };
 
 /// How many outcomes there are: their codes lie below.
-constexpr std::size_t kEventOutcomes = static_cast<std::size_t>(EventOutcome::kNoSuchJump) + 1;
+constexpr std::size_t kEventOutcomes = static_cast<std::size_t>(EventOutcome::kMalformed) + 1;
 
 /// The outcome in a few words.
 const char* describe(EventOutcome outcome);

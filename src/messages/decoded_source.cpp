@@ -1,0 +1,136 @@
+#include "messages/decoded_source.h"
+
+#include <ros/message_event.h>
+#include <ros/subscribe_options.h>
+
+#include <array>
+#include <boost/make_shared.hpp>
+#include <utility>
+
+#include "messages/time_conversion.h"
+#include "sampled_data_observers/runtime/estimator.h"
+
+namespace sampled_data_observers {
+namespace {
+
+const RawMessage& raw(const MessagePointer& message) {
+  return *static_cast<const RawMessage*>(message.get());
+}
+
+/// To the stamp that messages carry; nothing for a type without.
+std::optional<MessagePath> path_to_stamp(const MessageDefinition& definition) {
+  if (definition.type() == "std_msgs/Time") return path_to(definition, {}, {"data"});
+  const std::optional<MessagePath> header = find_header(definition);
+  if (!header) return std::nullopt;
+  return path_to(definition, *header, {"stamp"});
+}
+
+/// Its seconds are its number 0, and its nanoseconds number 1.
+DecodingPlan compile_stamp(const TopicSource& source,
+                           const std::shared_ptr<const MessageDefinition>& definition) {
+  PlanCompiler compiler(definition);
+  if (!source.stamped_on_receipt) {
+    const std::optional<MessagePath> path = path_to_stamp(*definition);
+    if (!path) {
+      throw ConfigError(source.origin, source.path + "/stamp",
+                        "receipt (" + source.type + " carries no stamp)", "none");
+    }
+    compiler.want_time(*path);
+  }
+  const bool is_whole = true;
+  return compiler.compile(!is_whole);
+}
+
+}  // namespace
+
+DecodedSource::DecodedSource(const TopicSource& source,
+                             std::shared_ptr<const MessageDefinition> definition,
+                             std::shared_ptr<const TransformBuffer> transforms)
+    : topic_(source.topic),
+      by_receipt_(source.stamped_on_receipt),
+      has_mode_(source.has_mode),
+      definition_(std::move(definition)),
+      transforms_(std::move(transforms)),
+      thinned_(source.min_interval),
+      stamp_plan_(compile_stamp(source, definition_)),
+      parts_(compile(source, definition_)),
+      decoded_(parts_.plan.counts()),
+      values_(parts_.fields.size()) {}
+
+DecodedSource::Parts DecodedSource::compile(
+    const TopicSource& source, const std::shared_ptr<const MessageDefinition>& definition) {
+  PlanCompiler compiler(definition);
+  DecodedFields fields(source, *definition, compiler);
+  FrameBlocks frames(source, *definition, fields.paths(), compiler);
+  return {std::move(fields), std::move(frames), compiler.compile()};
+}
+
+ros::Subscriber DecodedSource::subscribe(ros::NodeHandle& handle, std::uint32_t queue_length,
+                                         const Receiver& receive) const {
+  using Message = const ros::MessageEvent<const RawMessage>&;
+  ros::SubscribeOptions options;
+  options.initByFullCallbackType<Message>(topic_, queue_length, [receive](Message message) {
+    receive(message.getConstMessage(), to_stamp(message.getReceiptTime()));
+  });
+  // So that roscpp refuses publishers of another definition. With "*" it would take on that of the
+  // first publisher, and refuse the right ones.
+  options.datatype = definition_->type();
+  options.md5sum = definition_->md5sum();
+  options.transport_hints.tcpNoDelay();
+  return handle.subscribe(options);
+}
+
+MessagePointer DecodedSource::deserialize(std::uint8_t* data, std::uint32_t size,
+                                          const Connection& connection) const {
+  const auto message = boost::make_shared<RawMessage>();
+  message->bytes.assign(data, data + size);
+  message->connection = connection;
+  return message;
+}
+
+Stamp DecodedSource::own_stamp(const RawMessage& message) const {
+  std::array<double, 2> numbers{};
+  std::array<char, 2> are_held{};
+  const DecodingSlots slots{numbers.data(), are_held.data(), nullptr, nullptr, nullptr};
+  if (stamp_plan_.run(message.bytes.data(), message.bytes.size(), slots).any()) return 0;
+  ros::Time time;
+  time.sec = static_cast<std::uint32_t>(numbers[0]);
+  time.nsec = static_cast<std::uint32_t>(numbers[1]);
+  return to_stamp(time);
+}
+
+Stamp DecodedSource::stamp_of(const MessagePointer& message, Stamp receipt) const {
+  if (!raw(message).is_of(definition_->type(), definition_->md5sum())) return 0;
+  return by_receipt_ ? receipt : own_stamp(raw(message));
+}
+
+Reading DecodedSource::read(const MessagePointer& message, Stamp receipt, Event& event) {
+  const std::vector<std::uint8_t>& bytes = raw(message).bytes;
+  event.stamp = 0;
+  if (!raw(message).is_of(definition_->type(), definition_->md5sum())) {
+    return Reading::kOtherDefinition;
+  }
+  if (parts_.plan.run(bytes.data(), bytes.size(), decoded_.slots()).any())
+    return Reading::kMalformed;
+  event.stamp = stamp_of(message, receipt);
+  const bool has_stamp = event.stamp > 0;
+  if (has_stamp && !parts_.frames.transform(decoded_, event.stamp, transforms_.get())) {
+    return Reading::kNoTransform;
+  }
+  if (!parts_.fields.read(decoded_, values_.data())) return Reading::kNoField;
+  event.values = values_.data() + (has_mode_ ? 1 : 0);
+  event.size = static_cast<Eigen::Index>(values_.size()) - (has_mode_ ? 1 : 0);
+  if (has_mode_) event.mode = values_.front();
+  // What will be rejected does not take the place of the next message.
+  const bool counts = has_stamp && is_admissible(event.vector());
+  return !counts || thinned_.keep(event.stamp) ? Reading::kEvent : Reading::kPassedOver;
+}
+
+void DecodedSource::name_missing_transform(const MessagePointer& message, Stamp stamp,
+                                           std::string& text) const {
+  const std::vector<std::uint8_t>& bytes = raw(message).bytes;
+  parts_.plan.run(bytes.data(), bytes.size(), decoded_.slots());
+  parts_.frames.name_missing(decoded_, stamp, *transforms_, text);
+}
+
+}  // namespace sampled_data_observers
