@@ -41,6 +41,9 @@ struct CertificateSubject {
   /// Of a theorem whose Lyapunov function depends on timers: values of each of them, from 0 to its
   /// longest time, its shortest among them, in increasing order [s].
   std::vector<std::vector<double>> timer_nodes = {};
+  /// In a design, of each state's error in the final error: w of √Σ (w_i e_i)², one over the unit
+  /// of the state. Empty: of the norm, and in its programs what the design finds fit.
+  Eigen::VectorXd error_weights = {};
 };
 
 /// sensor_times; where there are none, those of the only sensor, or of jumps.

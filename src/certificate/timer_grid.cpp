@@ -25,6 +25,7 @@ std::vector<double> even_nodes(const SamplingTimes& times, int cells) {
 
 /// A time at the same place between 0, T1 and T2.
 double moved(double node, const SamplingTimes& from, const SamplingTimes& to) {
+  if (node == 0.0) return 0.0;
   if (node == from.T1) return to.T1;
   if (node == from.T2) return to.T2;
   if (node < from.T1) return node * (to.T1 / from.T1);
@@ -58,6 +59,29 @@ CertificateSubject with_longest_time(CertificateSubject subject, double T2) {
     std::vector<double>& nodes = subject.timer_nodes[i];
     for (double& node : nodes) node = moved(node, before[i], after[i]);
     // None is left between T1 and T2 where these are the same.
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  }
+  return subject;
+}
+
+CertificateSubject with_shortest_time(CertificateSubject subject, double T1) {
+  const std::vector<SamplingTimes> before = times_of_timers(subject);
+  std::vector<SamplingTimes> after = before;
+  for (SamplingTimes& times : after) {
+    const double whole = subject.T1 > 0.0 ? subject.T1 : subject.T2;
+    const double part = times.T1 > 0.0 ? times.T1 : times.T2;
+    times.T1 = std::min(part == whole ? T1 : part * (T1 / whole), times.T2);
+  }
+  if (subject.sensor_times.empty()) {
+    subject.T1 = after.front().T1;
+  } else {
+    set_sensor_times(subject, after);
+  }
+  for (std::size_t i = 0; i < subject.timer_nodes.size(); ++i) {
+    std::vector<double>& nodes = subject.timer_nodes[i];
+    for (double& node : nodes) node = moved(node, before[i], after[i]);
+    nodes.insert(nodes.end(), {after[i].T1, after[i].T2});
+    std::sort(nodes.begin(), nodes.end());
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   }
   return subject;

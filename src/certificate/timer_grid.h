@@ -19,6 +19,10 @@ CertificateSubject with_cells(CertificateSubject subject, int cells = kDefaultCe
 /// longest time. Without nodes, only T2 changes, and the longest times of sensors in proportion.
 CertificateSubject with_longest_time(CertificateSubject subject, double T2);
 
+/// The same with another shortest time, up to T2; those of several timers change by the same
+/// factor, or where they are 0 are that part of T2, and are at most their T2.
+CertificateSubject with_shortest_time(CertificateSubject subject, double T1);
+
 /// The grid of the timers of a subject: its timer_nodes, or those of with_cells().
 TensorGrid grid_of(const CertificateSubject& subject);
 

@@ -56,6 +56,20 @@ void read_design_times(ConfigSection& root, ConfigSection& design, const Plant& 
   take_sampling(sampling, subject);
 }
 
+/// One for each state, of which not all are 0.
+Eigen::VectorXd read_error_weights(ConfigSection& design, const std::vector<std::string>& states) {
+  ConfigSection section = design.section("weights");
+  Eigen::VectorXd weights(static_cast<Eigen::Index>(states.size()));
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    weights(static_cast<Eigen::Index>(i)) = section.number_in(states[i], 0.0, 1e50, std::nullopt);
+  }
+  section.finish();
+  if (weights.maxCoeff() == 0.0) {
+    throw design.error("weights", "one that is not 0", "0 for each state");
+  }
+  return weights;
+}
+
 }  // namespace
 
 DesignConfig read_design_config(const std::vector<std::string>& files,
@@ -81,6 +95,9 @@ DesignConfig read_design_config(const std::vector<std::string>& files,
   require_no_contradiction(*config.plant, stated, plant, section);
   if (section.has("N")) config.subject.plant.N = section.matrix("N", n, -1);
   if (section.has("C_p")) config.subject.plant.C_p = section.matrix("C_p", -1, n);
+  if (section.has("weights")) {
+    config.subject.error_weights = read_error_weights(section, config.plant->state_names());
+  }
   read_design_times(root, section, *config.plant, config.subject);
   ConfigSection parameters = section.section_or_empty("parameters");
   for (const std::string& name : parameters.keys()) {

@@ -25,10 +25,10 @@ struct DesignConfig {
   std::optional<double> disturbance;
 };
 
-/// Reads plant, sensors and the section `design` (sampling, N, C_p, parameters, and A and A_d, see
-/// StatedErrorMaps) of YAML files, and the observer's `sampling` and those of its sensors where
-/// `design` has none, and noise
-/// and disturbance of `error_assumptions`; leaves the other sections alone.
+/// Reads plant, sensors and the section `design` (sampling, N, C_p, weights, parameters, and A and
+/// A_d, see StatedErrorMaps) of YAML files, and the observer's `sampling` and those of its sensors
+/// where `design` has none, and noise and disturbance of `error_assumptions`; leaves the other
+/// sections alone.
 /// @throws ConfigError for the first fault found.
 DesignConfig read_design_config(const std::vector<std::string>& files,
                                 const PlantPluginLoader& load_plugin);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "certificate/timer_dependent.h"
 #include "design/certify.h"
 #include "design/final_error.h"
 #include "design/plant_scaling.h"
@@ -75,6 +76,7 @@ class GivenGains : public DesignMethod {
   std::vector<Objective> objectives(const CertificateSubject& subject) const override {
     std::vector<Objective> all = {Objective::kFeasible};
     if (std::isfinite(subject.T2)) all.push_back(Objective::kMaxT2);
+    if (timer_dependent_function(theorem_, subject)) all.push_back(Objective::kMinT1);
     if (has_gamma(theorem_, subject) && gain_has_meaning(theorem_, subject))
       all.insert(all.begin(), Objective::kMinGamma);
     if (!theorem_.decay_parameter().empty()) all.push_back(Objective::kMaxDecay);
@@ -99,8 +101,9 @@ class GivenGains : public DesignMethod {
     }
     // The bound at run time is one of the norm in the units of the plant file.
     const ErrorAssumptions assumptions = final_error_assumptions(parameters);
-    DesignCandidate found =
-        certify_final_error(theorem_, subject, fixed, scaling.state, assumptions);
+    DesignCandidate found = certify_final_error(
+        theorem_, subject, fixed,
+        subject.error_weights.size() > 0 ? subject.error_weights : scaling.state, assumptions);
     if (!found.is_verified()) return found;
     const PlantScaling file = inverse_of(scaling);
     ErrorAssumptions in_file = assumptions;
@@ -143,6 +146,8 @@ bool is_as_good(const Design& analysis, const Design& design, const std::string&
       return value(analysis, "gamma") <= value(design, "gamma");
     case Objective::kMaxT2:
       return analysis.certificate.subject.T2 >= design.certificate.subject.T2;
+    case Objective::kMinT1:
+      return analysis.certificate.subject.T1 <= design.certificate.subject.T1;
     case Objective::kMaxDecay:
       return value(analysis, decay) >= value(design, decay);
     case Objective::kFeasible:
@@ -307,7 +312,7 @@ Design prove_further(const Design& design, const SynthesisOptions& options) {
   const std::vector<Objective> known = analysis_objectives(*problem.theorem, problem.subject);
   const bool has_meaning = design.objective != Objective::kFeasible &&
                            std::find(known.begin(), known.end(), design.objective) != known.end();
-  if (!has_meaning || design.has_no_maximum) return design;
+  if (!has_meaning || design.search_ended) return design;
   for (const NamedShape& shape : problem.theorem->gains(problem.subject)) {
     problem.gains[shape.name] = certificate.values.at(shape.name);
   }

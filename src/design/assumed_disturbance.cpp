@@ -50,6 +50,9 @@ Eigen::VectorXd shown_within_horizon(const CertificateSubject& subject, const Ei
 }  // namespace
 
 Eigen::VectorXd weights_of_design(const CertificateSubject& subject) {
+  if (subject.error_weights.size() > 0) {
+    return subject.error_weights.cwiseMax(kLeastWeight * subject.error_weights.maxCoeff());
+  }
   constexpr int kSteps = 100;
   const Eigen::MatrixXd flow =
       exponential_of(subject.plant.A() * (kDefaultHorizon * time_scale(subject) / kSteps));

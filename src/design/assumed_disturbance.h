@@ -7,8 +7,9 @@
 
 namespace sampled_data_observers {
 
-/// What each entry of the error makes of the outputs within five times T2: what a level weighs it
-/// by, so that gains do not depend on units and serve the outputs, too.
+/// The weights of the subject, or what each entry of the error makes of the outputs within five
+/// times T2: what a level weighs it by, so that gains do not depend on units and serve the outputs,
+/// too. At least 0.001 of the largest.
 Eigen::VectorXd weights_of_design(const CertificateSubject& subject);
 
 /// Where a state's derivative says more than that it is a multiple of another state, forces and

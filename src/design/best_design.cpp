@@ -105,7 +105,8 @@ std::vector<MethodOutcome> synthesize_by_all(const std::vector<const DesignMetho
       if (has_bound_for(certificate, problem.assumptions)) {
         const RunTimeFigures figures = run_time_figures(*certificate.theorem, certificate.subject,
                                                         certificate.values, problem.assumptions);
-        outcome.final_error = figures.final_error;
+        outcome.final_error = final_error(*certificate.theorem, certificate.subject,
+                                          certificate.values, problem.assumptions);
         outcome.time_to_hundredth = figures.time_to_hundredth;
       }
     } catch (const DesignError& error) {
@@ -121,6 +122,7 @@ const MethodOutcome* best_of(const std::vector<MethodOutcome>& outcomes, Objecti
   const auto cost = [&](const MethodOutcome& outcome) {
     double own = 0.0;
     if (objective == Objective::kMaxT2) own = -outcome.design->certificate.subject.T2;
+    if (objective == Objective::kMinT1) own = outcome.design->certificate.subject.T1;
     if (objective == Objective::kMaxDecay) own = outcome.time_to_hundredth;
     return std::make_tuple(std::isinf(outcome.final_error), own, outcome.final_error);
   };

@@ -19,6 +19,8 @@ const char* to_string(Objective objective) {
       return "min-gamma";
     case Objective::kMaxT2:
       return "max-T2";
+    case Objective::kMinT1:
+      return "min-T1";
     case Objective::kMinFinalError:
       return "min-final-error";
     case Objective::kMaxDecay:

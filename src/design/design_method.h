@@ -24,7 +24,7 @@ class DesignError : public std::runtime_error {
 /// Scalars by name, such as delta or lambda_t.
 using Parameters = std::map<std::string, double>;
 
-enum class Objective { kFeasible, kMinGamma, kMaxT2, kMaxDecay, kMinFinalError };
+enum class Objective { kFeasible, kMinGamma, kMaxT2, kMinT1, kMaxDecay, kMinFinalError };
 const char* to_string(Objective objective);
 
 /// A scalar of a method that is chosen before its inequalities are linear.

@@ -46,22 +46,6 @@ struct Trial {
   Parameters given;
 };
 
-/// Each of `starts` with the value and its two neighbours within the range.
-std::vector<Parameters> neighbours(const std::vector<Parameters>& starts, const NamedRange& named,
-                                   double value, double distance) {
-  const SearchRange& range = named.range;
-  std::vector<Parameters> all;
-  for (const double offset : {0.0, -distance, distance}) {
-    const double moved = range.is_logarithmic ? value * std::exp(offset)
-                                              : value + offset * (range.high - range.low) / 4.0;
-    for (const Parameters& start : starts) {
-      all.push_back(start);
-      all.back()[named.name] = std::clamp(moved, range.low, range.high);
-    }
-  }
-  return all;
-}
-
 class DesignSearch {
  public:
   DesignSearch(const DesignMethod& method, const DesignProblem& problem,
@@ -84,6 +68,9 @@ class DesignSearch {
         maximize(problem_.subject.T2, !problem_.accepts_less, "T2", [this](double T2) {
           return Trial{with_longest_time(problem_.subject, T2), problem_.given};
         });
+        break;
+      case Objective::kMinT1:
+        minimize_shortest_time();
         break;
       case Objective::kMaxDecay: {
         const std::string decay = method_.decay_parameter();
@@ -282,7 +269,7 @@ class DesignSearch {
       low = high;
       high *= 2.0;
       if (++doublings < kMaxDoublings) continue;
-      best_->has_no_maximum = true;
+      best_->search_ended = true;
       return;
     }
     const bool is_refused = is_asked && halvings > 0;
@@ -292,6 +279,42 @@ class DesignSearch {
     }
     if (is_refused) refuse_less_than_asked(what, start, low);
     refine(low, trial_at);
+  }
+
+  /// Shortest T1 for which there is a design: 0, or by halving and bisection.
+  void minimize_shortest_time() {
+    const auto trial_at = [this](double T1) {
+      return Trial{with_shortest_time(problem_.subject, T1), problem_.given};
+    };
+    const auto feasible = [&](double T1) {
+      const Trial trial = trial_at(T1);
+      return search(trial.subject, trial.given, Objective::kFeasible, SearchGoal::kAnySolution);
+    };
+    if (applies_to(trial_at(0.0).subject) && feasible(0.0)) return;
+    const bool has_any_start = problem_.accepts_less || problem_.subject.T1 == 0.0;
+    double high = has_any_start ? problem_.subject.T2 : problem_.subject.T1;
+    if (!feasible(high)) return;
+    double low = high / 2.0;
+    for (int halvings = 1; feasible(low); ++halvings) {
+      high = low;
+      low /= 2.0;
+      if (halvings < kMaxDoublings) continue;
+      best_->search_ended = true;
+      return;
+    }
+    while (high / low > kBisectionRatio) {
+      const double middle = std::sqrt(low * high);
+      (feasible(middle) ? high : low) = middle;
+    }
+  }
+
+  bool applies_to(const CertificateSubject& subject) const {
+    try {
+      method_.require_applicable(subject);
+      return true;
+    } catch (const std::invalid_argument&) {
+      return false;
+    }
   }
 
   /// Near the largest value, only parameters near the best ones have a solution, which no grid

@@ -34,9 +34,9 @@ struct Design {
   std::string solver;
   double seconds = 0.0;
   std::size_t attempts = 0;
-  /// Where T2 or the rate was to be as large as possible: that it could be made 1024 times what the
-  /// search began with, where it ended.
-  bool has_no_maximum = false;
+  /// Where T2 or the rate was to be as large as possible, or T1 as short: that it could be made
+  /// 1024 times what the search began with, or that part of it, where the search ended.
+  bool search_ended = false;
   /// The same gains with the proof that bounds their error at run time better than this one; null
   /// where there is none.
   std::shared_ptr<const Design> for_run_time;
@@ -48,7 +48,9 @@ void require_sense(const DesignMethod& method, const DesignProblem& problem);
 /// Finds gains by a method: chooses what the user left open, searches for the parameters with a
 /// range, and for max-T2 and max-decay by bisection for the largest value (to 0.1 %; it begins with
 /// the T2 or the rate of the problem, less than which is no answer, or with a rate of 0.1/T2, and
-/// ends at 1024 times that). What counts as found is proved in ball arithmetic.
+/// ends at 1024 times that), for min-T1 for the shortest in the same way, from T1 or without one
+/// from T2; it is 0 where the theorem is about any times and finds a proof. What counts as found is
+/// proved in ball arithmetic.
 /// @throws RequestError when the method is not about the plant or the objective, or a parameter
 /// means nothing to it or is not finite; DesignError when the plant can't be observed, or no
 /// attempt led to gains that the theorem's own conditions accept; the message says what was tried

@@ -99,7 +99,8 @@ void write_claim(const Design& design, const GainFileOrigin& origin, std::ostrea
       << proof_record(certificate, design.proved_conditions) << "  method: " << design.method
       << '\n'
       << "  objective: " << to_string(design.objective)
-      << (design.has_no_maximum ? "  # the search ended here: no largest value was found" : "")
+      << (design.search_ended ? "  # the search ended here: no largest or least value was found"
+                              : "")
       << '\n'
       << "  parameters: {";
   const char* separator = "";

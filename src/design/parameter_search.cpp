@@ -52,6 +52,21 @@ std::vector<Parameters> grid(const std::vector<NamedRange>& ranges, const std::v
 
 }  // namespace
 
+std::vector<Parameters> neighbours(const std::vector<Parameters>& starts, const NamedRange& named,
+                                   double value, double distance) {
+  const SearchRange& range = named.range;
+  std::vector<Parameters> all;
+  for (const double offset : {0.0, -distance, distance}) {
+    const double moved = range.is_logarithmic ? value * std::exp(offset)
+                                              : value + offset * (range.high - range.low) / 4.0;
+    for (const Parameters& start : starts) {
+      all.push_back(start);
+      all.back()[named.name] = std::clamp(moved, range.low, range.high);
+    }
+  }
+  return all;
+}
+
 std::size_t search_parameters(const std::vector<NamedRange>& ranges, SearchGoal goal,
                               const BatchCost& cost) {
   if (ranges.empty()) return cost({{}}).size();

@@ -22,4 +22,9 @@ enum class SearchGoal { kLeastCost, kSmallCost, kAnySolution };
 std::size_t search_parameters(const std::vector<NamedRange>& ranges, SearchGoal goal,
                               const BatchCost& cost);
 
+/// Each of `starts` with the value and its two neighbours within the range, at this distance: in
+/// the logarithm where the range is logarithmic.
+std::vector<Parameters> neighbours(const std::vector<Parameters>& starts, const NamedRange& named,
+                                   double value, double distance);
+
 }  // namespace sampled_data_observers

@@ -153,6 +153,7 @@ CertificateSubject scaled(const CertificateSubject& subject, const PlantScaling&
   }
   if (result.dwell_time) result.dwell_time->tau /= scaling.time;
   const Eigen::VectorXd& x = scaling.state;
+  if (result.error_weights.size() > 0) result.error_weights.array() *= x.array();
   PlantMatrices& plant = result.plant;
   for (ModeMatrices& mode : plant.modes) {
     mode.A = scaling.time * in_units(x, mode.A, x);

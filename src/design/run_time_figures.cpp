@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "linear_algebra/matrix_functions.h"
+
 namespace sampled_data_observers {
 namespace {
 
@@ -23,9 +25,12 @@ using EventSources = std::vector<EventSource>;
 /// A bound that the events of some sources drive.
 class Run {
  public:
-  Run(const ErrorBound& bound, bool jumps, EventSources sources)
+  /// @param weights  of the states' errors; none for the norm
+  Run(const ErrorBound& bound, bool jumps, EventSources sources, const Eigen::VectorXd& weights)
       : bound_(bound),
         jumps_(jumps),
+        weights_(weights),
+        ellipsoid_(weights.size(), weights.size()),
         sources_(std::move(sources)),
         taken_(sources_.size(), 0),
         then_(static_cast<std::size_t>(bound.state_size())),
@@ -63,14 +68,20 @@ class Run {
 
  private:
   /// What is no number bounds nothing.
-  double bound(const std::vector<double>& state) const {
+  double bound(const std::vector<double>& state) {
     const double value = bound_.bound(state.data());
     if (std::isnan(value)) return kWithoutBound;
-    return value;
+    if (weights_.size() == 0 || !std::isfinite(value)) return value;
+    bound_.ellipsoid(state.data(), workspace_.data(), ellipsoid_);
+    if (!ellipsoid_.allFinite()) return kWithoutBound;
+    const Eigen::MatrixXd weighted = weights_.asDiagonal() * ellipsoid_ * weights_.asDiagonal();
+    return std::sqrt(std::max(0.0, max_eigenvalue(weighted)));
   }
 
   const ErrorBound& bound_;
   bool jumps_;
+  Eigen::VectorXd weights_;
+  Eigen::MatrixXd ellipsoid_;
   EventSources sources_;
   std::vector<std::size_t> taken_;  // of each source
   std::vector<double> left_;        // until the next of each source [s]
@@ -95,10 +106,11 @@ std::size_t events_of_cycle(const EventSources& sources) {
   return events;
 }
 
-double final_bound(const ErrorBound& bound, bool jumps, const EventSources& sources) {
+double final_bound(const ErrorBound& bound, bool jumps, const EventSources& sources,
+                   const Eigen::VectorXd& weights) {
   constexpr int kMaxCycles = 200000;
   constexpr double kSettled = 1e-9;
-  Run run(bound, jumps, sources);
+  Run run(bound, jumps, sources, weights);
   const std::size_t events = events_of_cycle(sources);
   double before = 0.0;
   for (int cycle = 0; cycle < kMaxCycles; ++cycle) {
@@ -114,7 +126,7 @@ double final_bound(const ErrorBound& bound, bool jumps, const EventSources& sour
 void add_start(const ErrorBound& bound, bool jumps, const EventSources& sources,
                RunTimeFigures& figures) {
   constexpr int kMaxSamples = 1000000;
-  Run run(bound, jumps, sources);
+  Run run(bound, jumps, sources, {});
   for (int i = 0; i < kMaxSamples; ++i) {
     const double largest = run.advance();
     if (std::isinf(largest)) break;
@@ -169,7 +181,9 @@ double shortest_interval(const CertificateSubject& subject) {
 RunTimeFigures run_time_figures(const Theorem& theorem, const CertificateSubject& subject,
                                 const NamedMatrices& values, const ErrorAssumptions& assumptions) {
   RunTimeFigures figures;
-  figures.final_error = final_error(theorem, subject, values, assumptions);
+  CertificateSubject unweighted = subject;
+  unweighted.error_weights.resize(0);
+  figures.final_error = final_error(theorem, unweighted, values, assumptions);
   ErrorAssumptions start;
   start.initial_error = 1.0;
   const auto bound = theorem.error_bound(subject, values, start);
@@ -189,7 +203,8 @@ double final_error(const Theorem& theorem, const CertificateSubject& subject,
   }
   double largest = 0.0;
   for (const EventSources& sources : worst_sources(subject)) {
-    largest = std::max(largest, final_bound(*bound, subject.plant.jumps(), sources));
+    largest = std::max(largest,
+                       final_bound(*bound, subject.plant.jumps(), sources, subject.error_weights));
   }
   return largest;
 }

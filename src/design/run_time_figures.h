@@ -25,7 +25,7 @@ struct RunTimeFigures {
 RunTimeFigures run_time_figures(const Theorem& theorem, const CertificateSubject& subject,
                                 const NamedMatrices& values, const ErrorAssumptions& assumptions);
 
-/// Only the first of the figures.
+/// Only the first of the figures; of the weighted norm where the subject has weights of errors.
 double final_error(const Theorem& theorem, const CertificateSubject& subject,
                    const NamedMatrices& values, const ErrorAssumptions& assumptions);
 

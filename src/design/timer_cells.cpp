@@ -80,6 +80,8 @@ double cost_of(const Design& design, Objective objective, const ErrorAssumptions
       return theorem.gain_figure(certificate.values).value;
     case Objective::kMaxT2:
       return -certificate.subject.T2;
+    case Objective::kMinT1:
+      return certificate.subject.T1;
     case Objective::kMaxDecay:
       return -theorem.decay_figure(certificate.values).value;
     case Objective::kMinFinalError:

@@ -26,7 +26,9 @@ std::vector<DesignParameter> timer_dependent_parameters(const CertificateSubject
 }
 
 std::vector<Objective> timer_dependent_objectives(const CertificateSubject& subject) {
-  return ferrante2019_objectives(subject);
+  std::vector<Objective> all = ferrante2019_objectives(subject);
+  all.push_back(Objective::kMinT1);
+  return all;
 }
 
 CertificateSubject timer_dependent_subject(const CertificateSubject& subject,

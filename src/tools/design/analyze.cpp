@@ -146,10 +146,14 @@ void print_result(Objective objective, const Design& design) {
     separator = ", ";
   }
   const auto& dwell_time = certificate.subject.dwell_time;
+  if (objective == Objective::kMinT1) {
+    std::printf("%sT1 = %.6g s", separator, certificate.subject.T1);
+    separator = ", ";
+  }
   std::printf(dwell_time ? "%stau = %.6g s\n" : "%sT2 = %.6g s\n", separator,
               dwell_time ? dwell_time->tau : certificate.subject.T2);
-  if (design.has_no_maximum) {
-    std::printf("             the search ended here: no largest value was found\n");
+  if (design.search_ended) {
+    std::printf("             the search ended here: no largest or least value was found\n");
   }
 }
 
@@ -225,7 +229,7 @@ void add_analyze(CommandLine& tool, const std::string& command_line) {
   command
       .option("--objective NAME", arguments->objective,
               "What to look for (default: all that have a meaning)")
-      .choices({"feasible", "min-gamma", "max-T2", "max-decay", "min-final-error"});
+      .choices({"feasible", "min-gamma", "max-T2", "min-T1", "max-decay", "min-final-error"});
   command.option("-o, --output FILE", arguments->output,
                  "Gain file to write, with the first of the proofs found");
   add_event_times(command, "the gain file", arguments->times);

@@ -56,8 +56,8 @@ void assign(const std::string& assignment, Parameters& parameters) {
 }
 
 Objective objective_of(const std::string& name) {
-  for (const Objective objective :
-       {Objective::kMinFinalError, Objective::kMinGamma, Objective::kMaxT2, Objective::kMaxDecay}) {
+  for (const Objective objective : {Objective::kMinFinalError, Objective::kMinGamma,
+                                    Objective::kMaxT2, Objective::kMinT1, Objective::kMaxDecay}) {
     if (name == to_string(objective)) return objective;
   }
   return Objective::kFeasible;

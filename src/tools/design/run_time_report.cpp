@@ -103,8 +103,13 @@ void print_run_time_figures(const Design& main, const ErrorAssumptions& assumpti
               to_string(design.objective));
   std::printf("  in the end, for |noise| <= %.6g", bounded.noise);
   if (bounded.disturbance > 0.0) std::printf(" and |disturbance| <= %.6g", bounded.disturbance);
-  std::printf(": %.6g\n  largest, over the initial error: %.6g\n", figures.final_error,
-              figures.factor_on_start);
+  std::printf(": %.6g\n", figures.final_error);
+  if (certificate.subject.error_weights.size() > 0) {
+    std::printf(
+        "  the same, weighted by design/weights: %.6g\n",
+        final_error(*certificate.theorem, certificate.subject, certificate.values, bounded));
+  }
+  std::printf("  largest, over the initial error: %.6g\n", figures.factor_on_start);
   if (std::isfinite(figures.time_to_hundredth)) {
     std::printf("  time until it has fallen to 1/100 of the initial error: %.6g s\n",
                 figures.time_to_hundredth);

@@ -76,11 +76,14 @@ DesignProblem read_problem(const SynthesizeArguments& arguments, const DesignCon
 }
 
 /// With what an objective is about, where that is not the bound on the final error.
-void print_outcomes(const std::vector<MethodOutcome>& outcomes, Objective objective) {
+void print_outcomes(const std::vector<MethodOutcome>& outcomes, Objective objective,
+                    bool is_weighted) {
   const char* figure = "";
   if (objective == Objective::kMaxT2) figure = "T2 [s]";
+  if (objective == Objective::kMinT1) figure = "T1 [s]";
   if (objective == Objective::kMaxDecay) figure = "1/100 after [s]";
-  std::printf("  %-36s %-16s %s\n", "method", figure, "bound on the final error");
+  std::printf("  %-36s %-16s %s\n", "method", figure,
+              is_weighted ? "bound on the weighted final error" : "bound on the final error");
   for (const MethodOutcome& outcome : outcomes) {
     if (!outcome.design) {
       const std::string first_line = outcome.message.substr(0, outcome.message.find('\n'));
@@ -90,6 +93,9 @@ void print_outcomes(const std::vector<MethodOutcome>& outcomes, Objective object
     char number[32] = "";
     if (objective == Objective::kMaxT2) {
       std::snprintf(number, sizeof number, "%.6g", outcome.design->certificate.subject.T2);
+    }
+    if (objective == Objective::kMinT1) {
+      std::snprintf(number, sizeof number, "%.6g", outcome.design->certificate.subject.T1);
     }
     if (objective == Objective::kMaxDecay) {
       std::snprintf(number, sizeof number, "%.6g", outcome.time_to_hundredth);
@@ -137,7 +143,7 @@ Design best_design(const DesignProblem& problem, const SynthesisOptions& options
     for (const MethodOutcome& outcome : outcomes) text += "\n" + outcome.message;
     throw DesignError(text);
   }
-  print_outcomes(outcomes, problem.objective);
+  print_outcomes(outcomes, problem.objective, problem.subject.error_weights.size() > 0);
   std::printf("taken: %s\n\n", best->method.c_str());
   return *best->design;
 }
@@ -258,7 +264,7 @@ void add_synthesize(CommandLine& tool, const std::string& command_line) {
       .option("--objective NAME", arguments->objective,
               "What to look for (default: min-final-error, or feasible where that is not for the "
               "method)")
-      .choices({"min-final-error", "feasible", "min-gamma", "max-T2", "max-decay"});
+      .choices({"min-final-error", "feasible", "min-gamma", "max-T2", "min-T1", "max-decay"});
   add_event_times(command, "design/sampling", arguments->times);
   command.option("--set NAME=NUMBER...", arguments->assignments,
                  "Fix a parameter of the method; may be given several times");
