@@ -235,7 +235,7 @@ TEST(Ferrante2016Corollary1, FindsALargeDecay) {
   // costs a quarter of the rate.
   const Design design = design_by(kMethod, double_integrator(), {}, Objective::kMaxDecay);
   EXPECT_TRUE(all_hold(check(design.certificate)));
-  EXPECT_FALSE(design.has_no_maximum);
+  EXPECT_FALSE(design.search_ended);
   const double decay = scalar_value(design.certificate.values, "decay");
   EXPECT_GT(decay, 0.7 * kLargestDecay);
   EXPECT_LT(decay, kLargestDecay);
