@@ -126,26 +126,39 @@ void Comparison::check(double error, double allowed, BoundCheck& check) {
   if (allowed > 0.0) check.share = std::max(check.share.value_or(0.0), error / allowed);
 }
 
+Comparison::Errors Comparison::errors(const std::vector<double>& truth, const double* x,
+                                      const Bounds& bounds) const {
+  Errors errors;
+  double squares = 0.0;
+  for (std::size_t i = 0; i < quantities_.size(); ++i) {
+    const Quantity& quantity = quantities_[i];
+    errors.values.push_back(error_of(quantity, x, truth[i]));
+    squares += std::pow(errors.values[i], 2);
+    errors.bounds.push_back(bounds.states.size() == 0 ? std::numeric_limits<double>::infinity()
+                                                      : bound_on(quantity, bounds.states));
+    errors.of_hold.push_back(held_[i].value ? difference(quantity, *held_[i].value, truth[i])
+                                            : std::numeric_limits<double>::quiet_NaN());
+  }
+  errors.norm = std::sqrt(squares);
+  errors.norm_bound = weight_ * bounds.norm;
+  return errors;
+}
+
 bool Comparison::add_truth(const std::vector<double>& truth, const double* x,
                            const Bounds& bounds) {
   for (const Held& held : held_) {
     if (held.is_measured && !held.value) return false;
   }
-  double squares = 0.0;
+  const Errors errors = this->errors(truth, x, bounds);
   for (std::size_t i = 0; i < quantities_.size(); ++i) {
-    const double error = error_of(quantities_[i], x, truth[i]);
-    const double square = std::pow(error, 2);
-    squares += square;
-    const double allowed = bounds.states.size() == 0 ? std::numeric_limits<double>::infinity()
-                                                     : bound_on(quantities_[i], bounds.states);
-    if (std::isfinite(allowed)) check(std::abs(error), allowed, bound_checks_[i]);
-    squares_[i] += square;
-    if (held_[i].is_measured) {
-      hold_squares_[i] += std::pow(difference(quantities_[i], *held_[i].value, truth[i]), 2);
+    if (std::isfinite(errors.bounds[i])) {
+      check(std::abs(errors.values[i]), errors.bounds[i], bound_checks_[i]);
     }
+    squares_[i] += std::pow(errors.values[i], 2);
+    if (held_[i].is_measured) hold_squares_[i] += std::pow(errors.of_hold[i], 2);
   }
   ++size_;
-  if (std::isfinite(bounds.norm)) check(std::sqrt(squares), weight_ * bounds.norm, bound_check_);
+  if (std::isfinite(bounds.norm)) check(errors.norm, errors.norm_bound, bound_check_);
   return true;
 }
 

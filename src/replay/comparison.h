@@ -56,6 +56,18 @@ class Comparison {
     Eigen::VectorXd states = {};
   };
 
+  /// What is wrong at one stamp: an entry per quantity, and the norm over all.
+  struct Errors {
+    std::vector<double> values;   ///< estimate − truth
+    std::vector<double> bounds;   ///< on their size (see bound_on()); infinite where there is none
+    std::vector<double> of_hold;  ///< last sample − truth; NaN where there is none
+    double norm = 0.0;
+    double norm_bound = 0.0;  ///< not finite where there is none
+  };
+  /// @param truth  one value per quantity
+  /// @param x      the estimate, n entries
+  Errors errors(const std::vector<double>& truth, const double* x, const Bounds& bounds) const;
+
   /// Compares at one stamp. @param truth one value per quantity @param x the estimate, n entries
   /// Does nothing before each quantity that a sensor measures directly was sampled once, and
   /// returns false then.

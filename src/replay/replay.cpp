@@ -17,6 +17,7 @@
 #include "replay/bag_writer.h"
 #include "replay/comparison.h"
 #include "replay/jump_neighbourhood.h"
+#include "replay/report/run_record.h"
 #include "replay/summary_recorder.h"
 #include "replay/thinning.h"
 #include "replay/truth.h"
@@ -32,7 +33,7 @@ constexpr Duration kClockJump = Duration{24} * 3600 * kNanosecondsPerSecond;
 
 class Replay {
  public:
-  Replay(const ObserverConfig& config, const ReplayOptions& options)
+  Replay(const ObserverConfig& config, const ReplayOptions& options, RunRecord* record)
       : config_(config),
         options_(options),
         runtime_(config),
@@ -60,6 +61,7 @@ class Replay {
       }
     }
     recorder_.emplace(config, std::move(plotted));
+    if (record != nullptr) run_.emplace(config, truth_.quantities, *record);
     for (const BagChannel& bound : channels_) {
       if (!bound.is_recorded) recorder_->add_missing_topic(bound.channel.name, bound.topic);
     }
@@ -206,6 +208,7 @@ class Replay {
     write(channel, event, report, missing, *clock_, status_);
     if (output_) output_->write(resolved("events"), to_ros_time(*clock_), status_);
     recorder_->add_event(event, report, status_.reason);
+    if (run_) run_->add_event(event, report, status_, *clock_);
     const bool is_measurement =
         event.kind == EventKind::kSample || event.kind == EventKind::kOutput;
     if (neighbourhood_ && report.used() && event.kind == EventKind::kJump) {
@@ -241,6 +244,7 @@ class Replay {
       final_is_held_ = estimate->held;
       recorder_->add_estimate(*estimate, runtime_.bound(*estimate).loss,
                               estimate_message_.error_bounds);
+      if (run_) run_->add_estimate(*estimate, estimate_message_);
       if (output_) {
         output_->write(resolved("estimate"), to_ros_time(estimate->stamp + config_.publish_delay),
                        estimate_message_);
@@ -258,11 +262,12 @@ class Replay {
     if (!first_truth_) first_truth_ = stamp;
     recorder_->add_truth(stamp, truth_values_);
     const double elapsed = to_seconds(stamp - *first_truth_);
-    if (elapsed < options_.from || elapsed > options_.to) return;
+    const bool is_counted = elapsed >= options_.from && elapsed <= options_.to;
+    if (!is_counted && !run_) return;
     if (settling_time() == 0) {
-      compare(stamp, truth_values_);
+      compare({stamp, truth_values_, is_counted});
     } else {
-      waiting_truth_.push_back({stamp, truth_values_});
+      waiting_truth_.push_back({stamp, truth_values_, is_counted});
     }
   }
 
@@ -274,13 +279,19 @@ class Replay {
   /// Compares what had to wait until no more events can come before its stamp.
   void compare_waiting(Stamp now) {
     while (!waiting_truth_.empty() && now - waiting_truth_.front().stamp >= settling_time()) {
-      compare(waiting_truth_.front().stamp, waiting_truth_.front().values);
+      compare(waiting_truth_.front());
       waiting_truth_.pop_front();
     }
   }
 
-  void compare(Stamp stamp, const std::vector<double>& values) {
-    const Timeline::Query query = runtime_.estimator().estimate_at(stamp, truth_estimate_);
+  struct TruthAt {
+    Stamp stamp;
+    std::vector<double> values;
+    bool is_counted;  ///< whether the summary is about this stamp; reports are about all
+  };
+
+  void compare(const TruthAt& truth) {
+    const Timeline::Query query = runtime_.estimator().estimate_at(truth.stamp, truth_estimate_);
     if (query != Timeline::Query::kOk && query != Timeline::Query::kHeld) return;
     const double* state = truth_estimate_.state.data();
     Comparison::Bounds bounds{runtime_.bound(truth_estimate_).value};
@@ -288,10 +299,15 @@ class Replay {
       bounds.states.resize(truth_estimate_.law->estimate_size());
       runtime_.state_bounds(truth_estimate_, bounds.states);
     }
-    const bool is_compared = comparison_->add_truth(values, state, bounds);
+    const bool is_compared =
+        truth.is_counted && comparison_->add_truth(truth.values, state, bounds);
+    if (run_) {
+      run_->add_compared(truth.stamp, truth.values,
+                         comparison_->errors(truth.values, state, bounds), is_compared);
+    }
     if (!is_compared || !neighbourhood_) return;
     const PlantObserver& observer = truth_estimate_.law->observer();
-    neighbourhood_->add_truth(stamp, values, state, observer.held_part(state));
+    neighbourhood_->add_truth(truth.stamp, truth.values, state, observer.held_part(state));
   }
 
   void finish(ReplaySummary& summary) const {
@@ -355,14 +371,11 @@ class Replay {
   std::vector<double> truth_values_;
   Estimate truth_estimate_;
   std::optional<Stamp> first_truth_;
-  struct WaitingTruth {
-    Stamp stamp;
-    std::vector<double> values;
-  };
-  std::deque<WaitingTruth> waiting_truth_;
+  std::deque<TruthAt> waiting_truth_;
   std::optional<Comparison> comparison_;
   std::optional<JumpNeighbourhood> neighbourhood_;
   std::optional<SummaryRecorder> recorder_;
+  std::optional<RunRecorder> run_;  ///< only for a report
   std::optional<Stamp> clock_;
   EventStatus status_;
   StateEstimate estimate_message_;
@@ -371,9 +384,10 @@ class Replay {
 
 }  // namespace
 
-ReplaySummary replay(const ObserverConfig& config, const ReplayOptions& options) {
+ReplaySummary replay(const ObserverConfig& config, const ReplayOptions& options,
+                     RunRecord* record) {
   ReplaySummary summary;
-  name_in_faults(options.bag, [&] { summary = Replay(config, options).run(); });
+  name_in_faults(options.bag, [&] { summary = Replay(config, options, record).run(); });
   return summary;
 }
 

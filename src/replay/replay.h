@@ -12,6 +12,8 @@
 
 namespace sampled_data_observers {
 
+struct RunRecord;
+
 struct ReplayOptions {
   std::string bag;
   /// Bag to write: the estimates and event statuses, and the messages that the observer received.
@@ -39,7 +41,9 @@ struct ReplayOptions {
 
 /// Runs the observer over a bag: its messages in the order and at the times in which the bag
 /// received them, without waiting.
+/// @param record  where not null, all that a report shows of the run is written there
 /// @throws ReplayError, ConfigError, OutputError
-ReplaySummary replay(const ObserverConfig& config, const ReplayOptions& options);
+ReplaySummary replay(const ObserverConfig& config, const ReplayOptions& options,
+                     RunRecord* record = nullptr);
 
 }  // namespace sampled_data_observers

@@ -15,8 +15,11 @@
 #include "console/output_checks.h"
 #include "console/tool_main.h"
 #include "console/usage_error.h"
+#include "files/output_file.h"
 #include "messages/plant_plugins.h"
 #include "replay/plot.h"
+#include "replay/report/report_data.h"
+#include "replay/report/report_page.h"
 
 namespace sdo = sampled_data_observers;
 
@@ -37,6 +40,7 @@ struct Arguments {
   std::optional<double> to;    // [s]
   std::string json;
   std::string plot;
+  std::string report;
 };
 
 std::map<std::string, std::string> parse_fields(const std::vector<std::string>& assignments) {
@@ -87,9 +91,10 @@ sdo::ReplayOptions options_of(const Arguments& arguments) {
   if (options.from > options.to) throw sdo::UsageError("--from", "must not be later than --to");
   std::vector<sdo::GivenFile> inputs = sdo::given_files("CONFIG", arguments.config);
   inputs.push_back({"BAG", options.bag});
-  sdo::refuse_overwriting(
-      inputs,
-      {{"--output", options.output}, {"--json", arguments.json}, {"--plot", arguments.plot}});
+  sdo::refuse_overwriting(inputs, {{"--output", options.output},
+                                   {"--json", arguments.json},
+                                   {"--plot", arguments.plot},
+                                   {"--report", arguments.report}});
   return options;
 }
 
@@ -99,10 +104,16 @@ int replay(const Arguments& arguments) {
       sdo::read_observer_config(arguments.config, sdo::load_plant_plugin);
   if (!config.warning.empty()) std::cerr << "replay: " << config.warning << "\n";
   for (const std::string& warning : config.warnings) std::cerr << "replay: " << warning << "\n";
-  const sdo::ReplaySummary summary = sdo::replay(config, options);
+  sdo::RunRecord record;
+  const sdo::ReplaySummary summary =
+      sdo::replay(config, options, arguments.report.empty() ? nullptr : &record);
   sdo::print_table(summary, std::cout);
   if (!arguments.json.empty()) sdo::write_json(summary, arguments.json);
   if (!arguments.plot.empty()) sdo::draw_plot(summary, arguments.plot);
+  if (!arguments.report.empty()) {
+    const nlohmann::json data = sdo::report_data(config, arguments.config, summary, record);
+    sdo::write_output(arguments.report, sdo::report_page(data));
+  }
   if (summary.is_guarantee_broken()) return kGuaranteeBroken;
   return summary.diverged.empty() ? 0 : kDiverged;
 }
@@ -140,6 +151,9 @@ void declare(Arguments& arguments, sdo::CommandLine& tool) {
   tool.option("--plot FILE", arguments.plot,
               "Draw truth, samples and estimate into this file (.png, .pdf, .svg)")
       .check(sdo::picture_file());
+  tool.option("--report FILE", arguments.report,
+              "Write a page for a browser into this file: verdict, errors and bounds, events, "
+              "configuration");
   tool.option("--json FILE", arguments.json, "Write the summary for machines into this file");
 }
 

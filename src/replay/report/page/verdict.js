@@ -1,0 +1,42 @@
+// What stands on top: the verdict, and figures of each state.
+
+function verdictSection() {
+  const made = section("verdict", "Verdict");
+  const findings = element("ul", {className: "findings"});
+  for (const {level, text} of data.verdict) {
+    findings.append(element("li", {className: level, textContent: text}));
+  }
+  made.append(findings);
+}
+
+function cell(value, className = "") {
+  return element("td", {className, textContent: value});
+}
+
+function errorsSection() {
+  if (data.errors.length === 0) return;
+  const made = section("errors", "Errors", "Over the stamps that are counted. Settled: from when on, after the first stamp "
+    + "of the truth, the error stays within 5 % of its largest, or within twice its largest of the second half of the "
+    + "run, where that is more.");
+  const isBounded = data.errors.some((row) => row.bound);
+  const isHeld = data.errors.some((row) => row.hold_rmse !== null);
+  const heads = ["RMSE", ...(isHeld ? ["holding the last sample", "ratio"] : []), "largest", "settled after [s]", "within",
+                 ...(isBounded ? ["bound finite at", "exceeded at", "largest share of it"] : [])];
+  const table = element("table", {}, element("thead", {}, element("tr", {}, element("th", {className: "text", textContent: "state"}),
+    ...heads.map((head) => element("th", {textContent: head})))));
+  const body = element("tbody");
+  for (const row of data.errors) {
+    const ratio = row.hold_rmse > 0 ? row.rmse / row.hold_rmse : null;
+    const cells = [cell(row.name, "text"), cell(shortNumber(row.rmse))];
+    if (isHeld) cells.push(cell(shortNumber(row.hold_rmse)), cell(shortNumber(ratio, 3), ratio === null ? "" : ratio < 1 ? "good" : "warning"));
+    cells.push(cell(shortNumber(row.largest)), cell(row.settling_time === 0 ? "at once" : shortNumber(row.settling_time)), cell(shortNumber(row.settled_within)));
+    if (isBounded) {
+      const {finite, exceeded, largest_share: share} = row.bound;
+      cells.push(cell(`${finite} stamps`), cell(exceeded === 0 ? "none" : `${exceeded} stamps`, exceeded === 0 ? "good" : "bad"),
+                 cell(share === null ? "–" : shortNumber(100 * share, 3) + " %"));
+    }
+    body.append(element("tr", {}, ...cells));
+  }
+  table.append(body);
+  made.append(element("div", {className: "scroll"}, table));
+}

@@ -1,0 +1,211 @@
+#include "replay/report/report_data.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "replay/report/packed_array.h"
+#include "replay/report/report_configuration.h"
+#include "replay/report/report_errors.h"
+#include "replay/report/report_events.h"
+#include "replay/report/report_samples.h"
+#include "replay/report/report_verdict.h"
+
+namespace sampled_data_observers {
+namespace {
+
+using Json = nlohmann::json;
+
+/// Of four bytes each, which base64 makes a third longer: 6.4 MB.
+constexpr std::size_t kMostValues = 1'200'000;
+
+Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
+
+const char* name_of(FindingLevel level) {
+  switch (level) {
+    case FindingLevel::kGood:
+      return "good";
+    case FindingLevel::kWarning:
+      return "warning";
+    case FindingLevel::kBad:
+      return "bad";
+    case FindingLevel::kOpen:
+      break;
+  }
+  return "open";
+}
+
+/// From the first to the last stamp of what is shown over time.
+PackedTime time_of(const RunRecord& record) {
+  std::vector<Stamp> ends;
+  const auto add = [&ends](const std::vector<Stamp>& stamps) {
+    const auto [first, last] = std::minmax_element(stamps.begin(), stamps.end());
+    if (!stamps.empty()) ends.insert(ends.end(), {*first, *last});
+  };
+  add(record.estimates.stamps);
+  add(record.compared.stamps);
+  for (const std::vector<Stamp>& stamps : record.sample_stamps) add(stamps);
+  for (const RunRecord::EventRow& event : record.events) ends.push_back(event.arrival);
+  if (ends.empty()) return {};
+  const auto [first, last] = std::minmax_element(ends.begin(), ends.end());
+  return PackedTime::of_run(*first, *last);
+}
+
+std::size_t stride_of(const RunRecord& record) {
+  const std::size_t columns = record.columns.size();
+  const std::size_t of_estimate =
+      2 + columns + record.estimates.bounds.size() + record.estimates.deviations.size();
+  const std::size_t of_compared = 3 + 4 * record.compared.truth.size();
+  const std::size_t all =
+      of_estimate * record.estimates.stamps.size() + of_compared * record.compared.stamps.size();
+  // Of each bin, two values stay.
+  return all <= kMostValues ? 1 : (2 * all + kMostValues - 1) / kMostValues;
+}
+
+Json columns_of(const RunRecord& record, std::size_t stride) {
+  const ThinnedSeries thinned(stride);
+  Json columns = Json::array();
+  for (std::size_t i = 0; i < record.columns.size(); ++i) {
+    const RunRecord::Column& column = record.columns[i];
+    const Quantity& quantity = column.quantity;
+    Json json = {{"name", quantity.name},
+                 {"angular", quantity.angular},
+                 {"estimate", thinned.values(wrapped(quantity, record.estimates.values[i]))}};
+    if (!record.estimates.bounds.empty()) {
+      json["bound"] = thinned.values(record.estimates.bounds[i]);
+    }
+    if (!record.estimates.deviations.empty()) {
+      json["deviation"] = thinned.values(record.estimates.deviations[i]);
+    }
+    if (column.compared) {
+      const std::size_t k = *column.compared;
+      json["truth"] = thinned.values(wrapped(quantity, record.compared.truth[k]));
+      json["error"] = thinned.values(record.compared.errors[k]);
+      json["error_bound"] = thinned.values(record.compared.bounds[k]);
+      json["hold_error"] = thinned.values(record.compared.hold_errors[k]);
+    }
+    columns.push_back(std::move(json));
+  }
+  return columns;
+}
+
+Json figures_of(const std::string& name, const ErrorFigures& errors,
+                const std::optional<double>& rmse, const std::optional<double>& hold_rmse) {
+  return {{"name", name},
+          {"rmse", or_null(rmse)},
+          {"hold_rmse", or_null(hold_rmse)},
+          {"largest", or_null(errors.largest)},
+          {"settling_time", or_null(errors.settling_time)},
+          {"settled_within", or_null(errors.settled_within)}};
+}
+
+Json bound_of(std::size_t stamps, std::size_t exceeded, const std::optional<double>& share) {
+  return {{"finite", stamps}, {"exceeded", exceeded}, {"largest_share", or_null(share)}};
+}
+
+/// In the order of the model, then the norm.
+Json error_table(const ReplaySummary& summary, const RunRecord& record, const ErrorFigures& norm) {
+  Json rows = Json::array();
+  if (summary.compared.empty()) return rows;
+  for (const RunRecord::Column& column : record.columns) {
+    if (!column.compared) continue;
+    const std::size_t i = *column.compared;
+    rows.push_back(figures_of(summary.compared[i],
+                              error_figures(record.compared, record.compared.errors[i]),
+                              summary.rmse[i], summary.hold_rmse[i]));
+    if (summary.bounded) {
+      const ReplaySummary::StateBound& bound = summary.state_bounds[i];
+      rows.back()["bound"] = bound_of(bound.stamps, bound.exceeded, bound.share);
+    }
+  }
+  rows.push_back(figures_of("norm", norm, summary.rmse_norm, summary.hold_rmse_norm));
+  if (summary.bounded) {
+    rows.back()["bound"] =
+        bound_of(summary.bound_stamps, summary.bound_exceeded, summary.bound_share);
+  }
+  return rows;
+}
+
+/// Where the number of jumps, or the mode, changes from one estimate to the next.
+Json changes_of(const RunRecord::Estimates& estimates, const PackedTime& time) {
+  std::vector<Stamp> stamps;
+  std::vector<std::uint32_t> jumps;
+  Json modes = Json::array();
+  for (std::size_t i = 0; i < estimates.stamps.size(); ++i) {
+    const bool is_jump = i == 0 || estimates.jumps[i] != estimates.jumps[i - 1];
+    const bool is_switch =
+        !estimates.modes.empty() && (i == 0 || estimates.modes[i] != estimates.modes[i - 1]);
+    if (!is_jump && !is_switch) continue;
+    stamps.push_back(estimates.stamps[i]);
+    jumps.push_back(static_cast<std::uint32_t>(estimates.jumps[i]));
+    if (!estimates.modes.empty()) modes.push_back(estimates.modes[i]);
+  }
+  return {{"times", packed(stamps, time)}, {"jumps", packed(jumps)}, {"modes", modes}};
+}
+
+/// From the first to the last stamp that the summary counts [s]; null where it counts all, or none.
+Json counted_span(const RunRecord::Compared& compared, const PackedTime& time) {
+  std::vector<Stamp> counted;
+  for (std::size_t i = 0; i < compared.stamps.size(); ++i) {
+    if (compared.counted[i]) counted.push_back(compared.stamps[i]);
+  }
+  if (counted.empty() || counted.size() == compared.stamps.size()) return nullptr;
+  return {to_seconds(counted.front() - time.origin), to_seconds(counted.back() - time.origin)};
+}
+
+/// Which columns are the position of a body: null for what is no state.
+Json position_of(const ObserverConfig& config) {
+  if (!config.outputs) return nullptr;
+  Json axes = Json::array();
+  for (const BodyNumber& number : config.outputs->body.position) {
+    axes.push_back(number.state ? Json(*number.state) : Json());
+  }
+  return axes;
+}
+
+}  // namespace
+
+nlohmann::json report_data(const ObserverConfig& config, const std::vector<std::string>& files,
+                           const ReplaySummary& summary, const RunRecord& record) {
+  const PackedTime time = time_of(record);
+  const std::size_t stride = stride_of(record);
+  const ThinnedSeries thinned(stride);
+  const ErrorFigures norm = error_figures(record.compared, record.compared.norms);
+
+  Json verdict = Json::array();
+  for (const Finding& finding : verdict_of(summary, norm, config.warning)) {
+    verdict.push_back({{"level", name_of(finding.level)}, {"text", finding.text}});
+  }
+  std::vector<Stamp> jumps;
+  for (const Event& jump : record.jumps) jumps.push_back(jump.stamp);
+  std::sort(jumps.begin(), jumps.end());
+
+  Json data = {
+      {"bag", summary.bag.substr(summary.bag.rfind('/') + 1)},
+      {"observer", summary.observer},
+      {"verdict", verdict},
+      {"origin", to_seconds(time.origin)},
+      {"time_unit", to_seconds(time.unit)},
+      {"stride", stride},
+      {"period", to_seconds(config.period)},
+      {"errors", error_table(summary, record, norm)},
+      {"estimate_times", thinned.times(record.estimates.stamps, time)},
+      {"columns", columns_of(record, stride)},
+      {"changes", changes_of(record.estimates, time)},
+      {"jumps", packed(jumps, time)},
+      {"samples", samples_of(config, record, time)},
+      {"sensors", sensors_of(config, record, time)},
+      {"position", position_of(config)},
+      {"events", events_of(record, time)},
+      {"configuration", configuration_of(config, files)},
+  };
+  if (!record.compared.stamps.empty()) {
+    data["compared_times"] = thinned.times(record.compared.stamps, time);
+    data["norm"] = thinned.values(record.compared.norms);
+    data["norm_bound"] = thinned.values(record.compared.norm_bounds);
+    data["counted"] = counted_span(record.compared, time);
+  }
+  return data;
+}
+
+}  // namespace sampled_data_observers
