@@ -26,15 +26,43 @@ std::optional<double> root_mean(double squares, std::size_t size) {
   return std::sqrt(squares / static_cast<double>(size));
 }
 
+/// Which state an output of a map is, where it is one as it is: a formula may be no more than its
+/// name. Told by points without relation to each other, of either sign.
+std::optional<Eigen::VectorXd> copied_state(const Plant& plant, const VectorMap& map,
+                                            Eigen::Index outputs, Eigen::Index output) {
+  Eigen::VectorXd row = Eigen::VectorXd::Ones(plant.states());
+  for (const double sign : {1.0, -1.0, 0.1}) {
+    Eigen::VectorXd x(plant.states());
+    Eigen::VectorXd u(plant.inputs());
+    for (Eigen::Index i = 0; i < x.size(); ++i)
+      x(i) = sign * std::sqrt(2.0 + static_cast<double>(i));
+    for (Eigen::Index i = 0; i < u.size(); ++i)
+      u(i) = sign * std::cbrt(2.0 + static_cast<double>(i));
+    Eigen::VectorXd y(outputs);
+    map.evaluate(x.data(), u.data(), y.data());
+    for (Eigen::Index i = 0; i < x.size(); ++i) {
+      if (y(output) != x(i)) row(i) = 0.0;
+    }
+  }
+  if (row.sum() != 1.0) return std::nullopt;
+  return row;
+}
+
 /// The row of C, where a sensor has one that holds in every mode.
 std::optional<Eigen::VectorXd> output_row(const Plant& plant, std::size_t sensor,
                                           Eigen::Index output) {
   std::optional<Eigen::VectorXd> row;
   for (const PlantMode& mode : plant.modes()) {
     const AffineMap* map = mode.outputs[sensor]->affine();
-    if (map == nullptr || map->c()(output) != 0.0 || !map->N().isZero(0.0)) return std::nullopt;
-    if (row && *row != map->M().row(output).transpose()) return std::nullopt;
-    row = map->M().row(output).transpose();
+    std::optional<Eigen::VectorXd> of_mode;
+    if (map == nullptr) {
+      of_mode =
+          copied_state(plant, *mode.outputs[sensor], plant.sensors()[sensor].outputs(), output);
+    } else if (map->c()(output) == 0.0 && map->N().isZero(0.0)) {
+      of_mode = map->M().row(output).transpose();
+    }
+    if (!of_mode || (row && *row != *of_mode)) return std::nullopt;
+    row = of_mode;
   }
   return row;
 }

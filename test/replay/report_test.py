@@ -151,6 +151,7 @@ class ReportTest(FolderTest):
                          "took at most [0-9.]+ % of it$")
         row = data["errors"][0]
         self.assertEqual((row["name"], row["bound"]["exceeded"]), ("x", 0))
+        self.assertEqual(values_of(data["columns"][0]["exceeded"]["times"]), [])
         column, = data["columns"]
         errors = values_of(column["error"]["low"])
         bounds = values_of(column["error_bound"]["low"])
@@ -166,7 +167,10 @@ class ReportTest(FolderTest):
         data = self.report()
         self.assertEqual(data["verdict"][0]["level"], "bad")
         self.assertIn("GUARANTEE BROKEN", data["verdict"][0]["text"])
-        self.assertGreater(data["errors"][0]["bound"]["exceeded"], 0)
+        exceeded = data["columns"][0]["exceeded"]
+        self.assertEqual(len(values_of(exceeded["times"])), data["errors"][0]["bound"]["exceeded"])
+        self.assertGreater(min(values_of(exceeded["values"])), -1.01)
+        self.assertLess(max(values_of(exceeded["values"])), 0)
         self.replay(assumed % 2)
         data = self.report()
         self.assertEqual(data["verdict"][0]["level"], "open")

@@ -62,7 +62,22 @@ std::size_t stride_of(const RunRecord& record) {
   return all <= kMostValues ? 1 : (2 * all + kMostValues - 1) / kMostValues;
 }
 
-Json columns_of(const RunRecord& record, std::size_t stride) {
+/// Stamps and errors that are larger than their bound, the first ones.
+Json exceeded_of(const RunRecord::Compared& compared, std::size_t quantity,
+                 const PackedTime& time) {
+  constexpr std::size_t kMost = 10'000;
+  std::vector<Stamp> stamps;
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < compared.stamps.size() && stamps.size() < kMost; ++i) {
+    const double error = compared.errors[quantity][i];
+    if (!(std::abs(error) > compared.bounds[quantity][i])) continue;
+    stamps.push_back(compared.stamps[i]);
+    errors.push_back(error);
+  }
+  return {{"times", packed(stamps, time)}, {"values", packed(errors)}};
+}
+
+Json columns_of(const RunRecord& record, const PackedTime& time, std::size_t stride) {
   const ThinnedSeries thinned(stride);
   Json columns = Json::array();
   for (std::size_t i = 0; i < record.columns.size(); ++i) {
@@ -83,6 +98,7 @@ Json columns_of(const RunRecord& record, std::size_t stride) {
       json["error"] = thinned.values(record.compared.errors[k]);
       json["error_bound"] = thinned.values(record.compared.bounds[k]);
       json["hold_error"] = thinned.values(record.compared.hold_errors[k]);
+      json["exceeded"] = exceeded_of(record.compared, k, time);
     }
     columns.push_back(std::move(json));
   }
@@ -190,7 +206,7 @@ nlohmann::json report_data(const ObserverConfig& config, const std::vector<std::
       {"period", to_seconds(config.period)},
       {"errors", error_table(summary, record, norm)},
       {"estimate_times", thinned.times(record.estimates.stamps, time)},
-      {"columns", columns_of(record, stride)},
+      {"columns", columns_of(record, time, stride)},
       {"changes", changes_of(record.estimates, time)},
       {"jumps", packed(jumps, time)},
       {"samples", samples_of(config, record, time)},

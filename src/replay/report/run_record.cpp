@@ -85,11 +85,11 @@ void RunRecorder::add_estimate(const Estimate& estimate, const StateEstimate& me
   }
 }
 
-std::size_t RunRecorder::position(std::vector<std::string>& names, const std::string& name) {
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
-  names.push_back(name);
-  return names.size() - 1;
+std::size_t RunRecorder::position(const std::string& name, Positions& known,
+                                  std::vector<std::string>& names) {
+  const auto [found, is_new] = known.emplace(name, names.size());
+  if (is_new) names.push_back(name);
+  return found->second;
 }
 
 void RunRecorder::add_event(const Event& event, const EventReport& report,
@@ -97,8 +97,8 @@ void RunRecorder::add_event(const Event& event, const EventReport& report,
   RunRecord::EventRow row;
   row.arrival = arrival;
   row.latency = status.latency;
-  row.source = position(record_.sources, status.source);
-  row.reason = position(record_.reasons, status.reason);
+  row.source = position(status.source, sources_, record_.sources);
+  row.reason = position(status.reason, reasons_, record_.reasons);
   row.kind = status.kind;
   row.outcome = status.outcome;
   row.interval_check = status.interval_check;

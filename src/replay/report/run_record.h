@@ -1,13 +1,15 @@
 #pragma once
 
+#include <sampled_data_observers/EventStatus.h>
+#include <sampled_data_observers/StateEstimate.h>
+
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "replay/comparison.h"
-#include "sampled_data_observers/EventStatus.h"
-#include "sampled_data_observers/StateEstimate.h"
 #include "sampled_data_observers/config/observer_config.h"
 #include "sampled_data_observers/hybrid/event.h"
 #include "sampled_data_observers/runtime/estimator.h"
@@ -103,11 +105,16 @@ class RunRecorder {
                     bool is_counted);
 
  private:
-  static std::size_t position(std::vector<std::string>& names, const std::string& name);
+  /// Texts that were met before, and their positions in the record.
+  using Positions = std::map<std::string, std::size_t>;
+  static std::size_t position(const std::string& name, Positions& known,
+                              std::vector<std::string>& names);
   void add_values(const Event& event, EventOutcome outcome);
 
   const ObserverConfig& config_;
   RunRecord& record_;
+  Positions sources_;
+  Positions reasons_;
 };
 
 }  // namespace sampled_data_observers

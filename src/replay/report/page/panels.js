@@ -14,7 +14,7 @@ function prepareRun() {
   run.range = new TimeRange(Math.min(...ends.map((times) => times[0])),
                             Math.max(...ends.map((times) => times[times.length - 1])));
   run.columns = data.columns.map((column) => {
-    const made = {name: column.name, angular: column.angular};
+    const made = {name: column.name, angular: column.angular, exceeded: column.exceeded};
     for (const key of ["estimate", "bound", "deviation"]) {
       if (column[key]) made[key] = new Series(run.estimateTimes, column[key]);
     }
@@ -134,6 +134,10 @@ function errorChart(column) {
                  label: "of the last sample held"});
   }
   layers.push({kind: "line", series: column.error, colour: "error", label: "error x̂ − x"});
+  const exceeded = {times: unpackTimes(column.exceeded.times), values: unpackValues(column.exceeded.values)};
+  if (exceeded.times.length > 0) {
+    layers.push({kind: "points", ...exceeded, marker: "cross", colour: "bad", label: "beyond its bound"});
+  }
   return new Chart("Error of " + column.name + (column.angular ? " [rad]" : ""), {range: run.range, layers});
 }
 
