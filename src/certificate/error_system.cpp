@@ -169,20 +169,31 @@ ErrorSystem held_injection_error(const CertificateSubject& subject) {
 }
 
 ErrorSystem synchronized_error(const CertificateSubject& subject) {
+  return switched_error(subject, 0);
+}
+
+ErrorSystem switched_error(const CertificateSubject& subject, std::size_t number) {
   const PlantMatrices& plant = subject.plant;
-  const ModeMatrices& mode = plant.mode();
+  const bool switches = plant.modes.size() > 1;
+  const ModeMatrices& mode = plant.modes[number];
   const Eigen::Index n = plant.states();
+  const auto gain = [&](const std::string& name, const Eigen::MatrixXd& C) {
+    return symbol(switches ? of_mode(name, mode) : name, n, C.rows());
+  };
   ErrorSystem system = without_observer(subject, n);
-  for (const MatrixExpression& flow : plant_flows(plant)) {
+  if (switches) system.mode = std::to_string(mode.label);
+  const MatrixExpression A = mode.A;
+  for (const MatrixExpression& flow :
+       switches ? std::vector<MatrixExpression>{A} : plant_flows(plant)) {
     MatrixExpression F = flow;
-    if (mode.C_c.rows() > 0) F = F - symbol("L_c", n, mode.C_c.rows()) * MatrixExpression(mode.C_c);
+    if (mode.C_c.rows() > 0) F = F - gain("L_c", mode.C_c) * MatrixExpression(mode.C_c);
     system.F.push_back(F);
   }
   ErrorReset reset;
   reset.name = "jumps";
   reset.J = jump_of(mode);
   reset.C = mode.C_d;
-  MatrixExpression K = mode.C_d.rows() > 0 ? symbol("L_d", n, mode.C_d.rows()) : zeros(n, 0);
+  MatrixExpression K = mode.C_d.rows() > 0 ? gain("L_d", mode.C_d) : zeros(n, 0);
   reset.K = [K = std::move(K)](std::size_t) { return K; };
   system.resets.push_back(std::move(reset));
   return system;

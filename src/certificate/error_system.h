@@ -43,6 +43,7 @@ struct ErrorSystem {
   Eigen::MatrixXd N;                ///< N x n_w; no columns without disturbance
   Eigen::MatrixXd C_p;              ///< n_p x N
   std::vector<ErrorReset> resets;   ///< of each timer
+  std::string mode;                 ///< of a plant that switches, its label
 
   bool is_linear() const { return G.cols() == 0; }
 };
@@ -79,5 +80,9 @@ ErrorSystem held_injection_error(const CertificateSubject& subject);
 /// x̂' = f + L_c (y_c − C_c x̂), x̂⁺ = A_d x̂ + L_d (y_d − C_d x̂) at jumps: e = x − x̂, gains L_c and
 /// L_d, each where its output is.
 ErrorSystem synchronized_error(const CertificateSubject& subject);
+
+/// The same in one mode of a plant that switches, with gains of that mode, L_c/MODE and L_d/MODE.
+/// @param mode  its position
+ErrorSystem switched_error(const CertificateSubject& subject, std::size_t mode);
 
 }  // namespace sampled_data_observers

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "certificate/timer_dependent_conditions.h"
 
@@ -10,5 +11,8 @@ namespace sampled_data_observers {
 /// @pre the theorem is about the subject
 std::optional<TimerDependentFunction> timer_dependent_function(const Theorem& theorem,
                                                                const CertificateSubject& subject);
+
+/// Those of timer_dependent_switched, one for each mode in the plant's order.
+std::vector<TimerDependentFunction> functions_of_modes(const CertificateSubject& subject);
 
 }  // namespace sampled_data_observers

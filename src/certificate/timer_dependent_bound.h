@@ -47,15 +47,13 @@ class TimerDependentBound : public ErrorBound {
   void ellipsoid(const double* state, double* workspace,
                  Eigen::Ref<Eigen::MatrixXd> Q) const override;
 
- protected:
+  // For bounds that are made of several.
   enum Entry { kW, kTimers };
 
   /// The largest that a node has at the corners of the cell in which the timers are.
   double largest_here(const std::vector<double>& of_nodes, const double* state) const;
   double time_of(std::size_t timer, const double* state) const;
   void advance_timers(double duration, double* state) const;
-  /// At an event of a timer.
-  void reset(std::size_t timer, double* state) const;
   const LateFlow& late_flow() const { return *late_flow_; }
   double shortest(std::size_t timer) const { return shortest_[timer]; }
   double longest(std::size_t timer) const { return longest_[timer]; }
@@ -81,6 +79,7 @@ class TimerDependentBound : public ErrorBound {
 
   /// Where the timers are so much later [s].
   TensorGrid::Interpolation interpolation(const double* state, double later) const;
+  void reset(std::size_t timer, double* state) const;
   void compute_nodes(const TimerDependentFunction& function, const NamedMatrices& values,
                      double disturbance);
 

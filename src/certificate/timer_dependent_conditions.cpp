@@ -27,9 +27,13 @@ bool TimerDependentFunction::is_foreseen(std::size_t timer, std::size_t node) co
   return grid_.nodes(timer)[grid_.position(node, timer)] >= shortest_[timer];
 }
 
+std::string TimerDependentFunction::name_of_P(std::size_t node) const {
+  return at(system_.mode.empty() ? "P" : "P/" + system_.mode, node);
+}
+
 MatrixExpression TimerDependentFunction::P(std::size_t node) const {
   const Eigen::Index N = system_.size;
-  if (is_free(node)) return symbol(at("P", node), N, N);
+  if (is_free(node)) return symbol(name_of_P(node), N, N);
   const ErrorReset& reset = system_.resets.front();
   const MatrixExpression C = reset.C;
   const MatrixExpression K = reset.K(0);
@@ -41,7 +45,7 @@ MatrixExpression TimerDependentFunction::P(std::size_t node) const {
 std::vector<NamedShape> TimerDependentFunction::shapes() const {
   std::vector<NamedShape> all;
   for (std::size_t node = 0; node < grid_.size(); ++node) {
-    if (is_free(node)) all.push_back(symmetric_shape(at("P", node), system_.size));
+    if (is_free(node)) all.push_back(symmetric_shape(name_of_P(node), system_.size));
   }
   if (!is_free(0)) {
     all.push_back(symmetric_shape("P_measured", system_.resets.front().C.rows()));
@@ -99,9 +103,9 @@ MatrixExpression TimerDependentFunction::flow(const CellCorner& corner,
   return symmetric_blocks(rows);
 }
 
-MatrixExpression TimerDependentFunction::jump(std::size_t timer, std::size_t node) const {
+MatrixExpression TimerDependentFunction::jump(std::size_t timer, std::size_t node,
+                                              const MatrixExpression& after) const {
   const ErrorReset& reset = system_.resets[timer];
-  const MatrixExpression after = P(grid_.with_first(node, timer));
   const Eigen::Index m = reset.C.rows();
   const MatrixExpression J = reset.J;
   if (m == 0) return symmetric_blocks({{P(node), transpose(J) * after}, {after}});
@@ -131,19 +135,22 @@ MatrixExpression TimerDependentFunction::coinciding_jump() const {
 }
 
 MatrixExpression TimerDependentFunction::jump_condition(std::size_t timer, std::size_t node) const {
-  if (shortest_[timer] > 0.0 || grid_.position(node, timer) != 0) return jump(timer, node);
+  if (shortest_[timer] > 0.0 || grid_.position(node, timer) != 0) {
+    return jump(timer, node, P(grid_.with_first(node, timer)));
+  }
   if (products_) return coinciding_jump(timer, node, products_->Z(timer, node));
   const ErrorReset& reset = system_.resets[timer];
   return reset.Z ? coinciding_jump(timer, node, reset.Z(node)) : coinciding_jump();
 }
 
-std::vector<Condition> TimerDependentFunction::conditions() const {
+std::vector<Condition> TimerDependentFunction::flow_conditions() const {
+  const std::string in_mode = system_.mode.empty() ? "" : " in mode " + system_.mode;
   std::vector<Condition> all;
   for (const NamedShape& shape : shapes()) {
     if (shape.form == NamedShape::Form::kScalar) all.push_back(positive(shape.name));
   }
   for (std::size_t node = 0; node < grid_.size(); ++node) {
-    all.push_back({at("P", node) + " > 0", P(node), std::nullopt});
+    all.push_back({name_of_P(node) + " > 0", P(node), std::nullopt});
   }
   if (!is_free(0)) {
     // Beyond Π it says nothing, so that nothing is lost.
@@ -154,12 +161,29 @@ std::vector<Condition> TimerDependentFunction::conditions() const {
     for (const CellCorner& corner : corners) {
       for (const MatrixExpression& F : system_.F) {
         all.push_back({"flow of cell " + std::to_string(number) + " at node " +
-                           std::to_string(corner.node) + ", timer_dependent (3)",
+                           std::to_string(corner.node) + in_mode + ", timer_dependent (3)",
                        -flow(corner, F), std::nullopt, Condition::Kind::kDefinite, number});
       }
     }
     ++number;
   }
+  return all;
+}
+
+std::vector<Condition> TimerDependentFunction::jumps_into(const TimerDependentFunction& next,
+                                                          std::size_t timer) const {
+  std::vector<Condition> all;
+  for (std::size_t node = 0; node < grid_.size(); ++node) {
+    if (!is_foreseen(timer, node)) continue;
+    all.push_back({"jump at node " + std::to_string(node) + " from mode " + system_.mode + " to " +
+                       next.system_.mode + ", timer_dependent (4)",
+                   jump(timer, node, next.P(grid_.with_first(node, timer))), std::nullopt});
+  }
+  return all;
+}
+
+std::vector<Condition> TimerDependentFunction::conditions() const {
+  std::vector<Condition> all = flow_conditions();
   for (std::size_t timer = 0; timer < system_.resets.size(); ++timer) {
     for (std::size_t node = 0; node < grid_.size(); ++node) {
       if (!is_foreseen(timer, node)) continue;

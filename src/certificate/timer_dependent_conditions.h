@@ -25,7 +25,8 @@ struct GainProducts {
 /// A Lyapunov function V(e, τ) = eᵀ P(τ) e of an error, multi-affine in the timers τ between the
 /// nodes of a grid, and what must hold of it: doc/timer_dependent.md has the theorem and its proof.
 ///
-/// At the node k, P_k is the symbol P/k. Where a timer may be 0 at an event (T1 = 0), the jump
+/// At the node k, P_k is the symbol P/k, of a plant that switches P/MODE/k: then each mode has a
+/// function, on the same grid. Where a timer may be 0 at an event (T1 = 0), the jump
 /// condition there is an equality in the directions that are not measured. So that rounding does
 /// not decide it, the gain is of a form that makes it one for any numbers, P_k K = Cᵀ Z (ErrorReset
 /// has Z), or, of one timer and a gain that is given as K, P_0 is:
@@ -63,10 +64,16 @@ class TimerDependentFunction {
   /// in the symbols of shapes(), of the gains, lambda_t, and gamma where there is a disturbance.
   std::vector<Condition> conditions() const;
 
+  /// Those but for the jumps.
+  std::vector<Condition> flow_conditions() const;
+  /// The jumps of a timer that lead to the function of another mode.
+  std::vector<Condition> jumps_into(const TimerDependentFunction& next, std::size_t timer) const;
+
  private:
+  std::string name_of_P(std::size_t node) const;
   MatrixExpression derivative(const CellCorner& corner, const MatrixExpression& F) const;
   MatrixExpression flow(const CellCorner& corner, const MatrixExpression& F) const;
-  MatrixExpression jump(std::size_t timer, std::size_t node) const;
+  MatrixExpression jump(std::size_t timer, std::size_t node, const MatrixExpression& after) const;
   MatrixExpression jump_condition(std::size_t timer, std::size_t node) const;
   MatrixExpression coinciding_jump() const;
   MatrixExpression coinciding_jump(std::size_t timer, std::size_t node,

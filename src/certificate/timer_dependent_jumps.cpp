@@ -57,7 +57,7 @@ class SynchronizedTimerTheorem : public TimerDependentTheorem {
   std::unique_ptr<const ErrorBound> error_bound(
       const CertificateSubject& subject, const NamedMatrices& values,
       const ErrorAssumptions& assumptions) const override {
-    return timer_dependent_jump_bound(function(subject), subject, values, assumptions);
+    return timer_dependent_jump_bound({function(subject)}, subject, values, assumptions);
   }
 
  protected:

@@ -20,9 +20,17 @@ constexpr Eigen::Index kMostEntries = 450;
 /// A cell is active where a condition has a margin of at most so many times the least.
 constexpr double kActive = 3.0;
 
-bool is_small_enough(const TimerDependentFunction& function) {
+/// Of a theorem about timers and a subject; nothing for other theorems.
+std::optional<TimerDependentFunction> a_function(const Theorem& theorem,
+                                                 const CertificateSubject& subject) {
+  if (theorem.name() == "timer_dependent_switched") return functions_of_modes(subject).front();
+  return timer_dependent_function(theorem, subject);
+}
+
+bool is_small_enough(const TimerDependentFunction& function, std::size_t modes) {
   const Eigen::Index N = function.system().size;
-  return static_cast<Eigen::Index>(function.grid().size()) * N * (N + 1) / 2 <= kMostEntries;
+  const auto matrices = static_cast<Eigen::Index>(modes * function.grid().size());
+  return matrices * N * (N + 1) / 2 <= kMostEntries;
 }
 
 /// For each timer the intervals between nodes that are to be halved.
@@ -97,7 +105,7 @@ double cost_of(const Design& design, Objective objective, const ErrorAssumptions
 Design solve_on_refined_cells(const Theorem& theorem, const CertificateSubject& subject,
                               Objective objective, const ErrorAssumptions& assumptions,
                               const SolveOnGrid& solve) {
-  const bool has_grid = timer_dependent_function(theorem, subject).has_value();
+  const bool has_grid = a_function(theorem, subject).has_value();
   if (!has_grid || !subject.timer_nodes.empty()) return solve(subject, nullptr);
   std::optional<Design> best;
   double least = std::numeric_limits<double>::infinity();
@@ -134,7 +142,7 @@ Design solve_on_refined_cells(const Theorem& theorem, const CertificateSubject& 
       failure = error;
     }
     next = halved(next, grid, marks);
-    if (is_small_enough(*timer_dependent_function(theorem, next))) continue;
+    if (is_small_enough(*a_function(theorem, next), next.plant.modes.size())) continue;
     if (failure) throw DesignError(*failure);
     return *best;
   }

@@ -10,7 +10,7 @@ from high_precision import (exponential, identity, inverse, minus, null_space, p
                             product, products, solved, stacked, symmetrized, times, transposed, zeros)
 from timer_dependent import (timer_dependent_constant_gain, timer_dependent_intersample_injection,
                              timer_dependent_sample_and_hold, timer_dependent_scheduled_gain,
-                             timer_dependent_synchronized)
+                             timer_dependent_switched, timer_dependent_synchronized)
 
 
 def root_of(P):
@@ -580,6 +580,7 @@ OBSERVERS = {
     timer_dependent_intersample_injection: "IntersampleInjectionObserver",
     timer_dependent_sample_and_hold: "SampleAndHoldObserver",
     timer_dependent_synchronized: "SynchronizedObserver",
+    timer_dependent_switched: "SwitchedObserver",
 }
 
 

@@ -103,28 +103,11 @@ def matrices_of(claim, grid, timers):
     return P
 
 
-def timer_dependent(claim, fields, timers, nodes):
-    """e' = F e + N w + G phi between events, and those of each timer."""
+def flows(claim, fields, grid, P, mode=""):
+    """V falls in each cell, at each of its corners."""
     n, size = claim.states, len(fields[0])
     rate = claim.value("lambda_t")
     is_lipschitz = claim.G is not None and not claim.vertices
-    yield Number("lambda_t >= 0", rate, may_be_zero=True)
-    for timer, of_timer in zip(timers, nodes):
-        may_coincide = of_timer[0] == timer.T1 == 0 and timer.J == identity(size)
-        may_coincide = may_coincide and (len(timers) == 1 or timer.Z is not None)
-        yield Statement(f"{timer.name}: 0 < T1 <= T2, or 0 = T1", bool(
-            (timer.T1 > 0 or may_coincide) and timer.T1 <= timer.T2 and timer.T2 > 0))
-        yield Statement(f"{timer.name}: nodes from 0 to T2, T1 among them",
-                        of_timer == sorted(set(of_timer)) and of_timer[0] == 0
-                        and of_timer[-1] == timer.T2 and timer.T1 in of_timer)
-        if timer.C:
-            yield Number(f"nu/{timer.name} > 0", claim.value(f"nu/{timer.name}"))
-    grid = Grid(nodes)
-    P = matrices_of(claim, grid, timers)
-    for node, value in enumerate(P):
-        yield Fixed(f"P/{node} > 0", value)
-        if is_lipschitz:
-            yield Number(f"chi/{node} > 0", claim.value(f"chi/{node}"))
 
     def below(rows):
         return rows + zeros(size - n, len(rows[0]))
@@ -158,7 +141,32 @@ def timer_dependent(claim, fields, timers, nodes):
             for low, high, length in edges:
                 change = plus(change, times(1 / length, minus(P[high], P[low])))
             for F in fields:
-                yield Fixed(f"flow of cell {cell} at node {node}", flow(node, change, F))
+                yield Fixed(f"flow of cell {cell} at node {node}{mode}", flow(node, change, F))
+
+
+def timer_dependent(claim, fields, timers, nodes):
+    """e' = F e + N w + G phi between events, and those of each timer."""
+    size = len(fields[0])
+    is_lipschitz = claim.G is not None and not claim.vertices
+    yield Number("lambda_t >= 0", claim.value("lambda_t"), may_be_zero=True)
+    for timer, of_timer in zip(timers, nodes):
+        may_coincide = of_timer[0] == timer.T1 == 0 and timer.J == identity(size)
+        may_coincide = may_coincide and (len(timers) == 1 or timer.Z is not None)
+        yield Statement(f"{timer.name}: 0 < T1 <= T2, or 0 = T1", bool(
+            (timer.T1 > 0 or may_coincide) and timer.T1 <= timer.T2 and timer.T2 > 0))
+        yield Statement(f"{timer.name}: nodes from 0 to T2, T1 among them",
+                        of_timer == sorted(set(of_timer)) and of_timer[0] == 0
+                        and of_timer[-1] == timer.T2 and timer.T1 in of_timer)
+        if timer.C:
+            yield Number(f"nu/{timer.name} > 0", claim.value(f"nu/{timer.name}"))
+    grid = Grid(nodes)
+    P = matrices_of(claim, grid, timers)
+    for node, value in enumerate(P):
+        yield Fixed(f"P/{node} > 0", value)
+        if is_lipschitz:
+            yield Number(f"chi/{node} > 0", claim.value(f"chi/{node}"))
+
+    yield from flows(claim, fields, grid, P)
     for index, timer in enumerate(timers):
         level = claim.value(f"nu/{timer.name}") if timer.C else None
         for node, value in enumerate(P):
@@ -266,3 +274,37 @@ def timer_dependent_synchronized(claim):
     yield Statement("T1 > 0", bool(claim.T1 > 0))
     yield from timer_dependent(claim, fields, [timer],
                                nodes_of(claim.values, "timer_nodes", ["jumps"]))
+
+
+def timer_dependent_switched(claim):
+    """P of each mode; a switch leads into any other one."""
+    nodes = nodes_of(claim.values, "timer_nodes", ["jumps"])
+    grid = Grid(nodes)
+    yield Number("lambda_t >= 0", claim.value("lambda_t"), may_be_zero=True)
+    yield Statement("0 < T1 <= T2, nodes from 0 to T2, T1 among them", bool(
+        0 < claim.T1 <= claim.T2 and nodes[0] == sorted(set(nodes[0])) and nodes[0][0] == 0
+        and nodes[0][-1] == claim.T2 and claim.T1 in nodes[0]))
+    level = claim.value("nu/jumps") if claim.C_d else None
+    if claim.C_d:
+        yield Number("nu/jumps > 0", level)
+    P = {mode.label: [claim.value(f"P/{mode.label}/{node}") for node in range(len(nodes[0]))]
+         for mode in claim.modes}
+    for mode in claim.modes:
+        F, K = mode.A, None
+        if claim.C_c:
+            F = minus(F, product(claim.value(f"L_c/{mode.label}"), claim.C_c))
+        if claim.C_d:
+            K = claim.value(f"L_d/{mode.label}")
+        own = P[mode.label]
+        for node, value in enumerate(own):
+            yield Fixed(f"P/{mode.label}/{node} > 0", value)
+        yield from flows(claim, [F], grid, own, f" in mode {mode.label}")
+        J = identity(claim.states) if mode.A_d is None else mode.A_d
+        resets = Resets("jumps", claim.T1, claim.T2, J, claim.C_d, None)
+        for after in claim.modes:
+            if after is mode:
+                continue
+            for node, value in enumerate(own):
+                if nodes[0][node] >= claim.T1:
+                    yield fall(f"switch from {mode.label} to {after.label} at node {node}", resets, value,
+                               P[after.label][0], K, level)

@@ -53,6 +53,8 @@ const FollowedClaim kFollowedClaims[] = {
     {"test/certificate/attack/kicked/bernard2022_corollary4_1.yaml", 0.02, 0.1},
     {"test/certificate/attack/switched/bernard2022_example7_1.yaml", 0.02, 0.1},
     {"config/examples/bernard2022_switched/gains.yaml", 0.02, 0.0},
+    {"test/certificate/attack/switched/timer_dependent_switched.yaml", 0.02, 0.1},
+    {"test/certificate/bernard2022_switched_timer_dependent.yaml", 0.02, 0.0},
     {"test/certificate/attack/switched/bernard2022_equation49_reverse_average_dwell_time.yaml",
      0.02, 0.1},
     {"test/certificate/attack/switched/bernard2022_section7_3_1.yaml", 0.02, 0.1},

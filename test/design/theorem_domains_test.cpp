@@ -32,12 +32,17 @@ CertificateSubject subject_of(const Theorem& theorem) {
     plant.G = Eigen::MatrixXd::Identity(2, 1);
     plant.S = row;
     plant.lipschitz_constant = 0.1;
+    if (is_of("timer_dependent_switched")) {
+      plant.G.resize(2, 0);
+      plant.S.resize(0, 2);
+    }
     if (is_of("etienne2019")) plant.vertices.emplace_back(Eigen::MatrixXd::Zero(2, 2));
     plant.N = Eigen::MatrixXd::Identity(2, 1);
     plant.C_p = row;
   }
   if (is_of("sferlazza2019_equation17")) plant.modes.front().C = Eigen::MatrixXd::Identity(2, 2);
-  if (is_of("bernard2022") || is_of("timer_dependent_synchronized")) {
+  if (is_of("bernard2022") || is_of("timer_dependent_synchronized") ||
+      is_of("timer_dependent_switched")) {
     ModeMatrices& mode = plant.modes.front();
     mode.label = 1;
     mode.C.resize(0, 2);
@@ -47,7 +52,7 @@ CertificateSubject subject_of(const Theorem& theorem) {
     mode.A_d = Eigen::MatrixXd::Identity(2, 2);
     plant.lipschitz_jump = LipschitzJump{1.0, Eigen::MatrixXd::Identity(2, 2)};
     if (is_of("bernard2022_example7_1") || is_of("bernard2022_equation49") ||
-        is_of("bernard2022_section7_3")) {
+        is_of("bernard2022_section7_3") || is_of("timer_dependent_switched")) {
       plant.modes.push_back(mode);
       plant.modes.back().label = 2;
     }

@@ -2,6 +2,7 @@
 // independent program gave.
 #include <gtest/gtest.h>
 
+#include <stdexcept>
 #include <string>
 
 #include "design/analysis.h"
@@ -158,6 +159,23 @@ TEST(TimerDependentProof, IsAboutExactProducts) {
     is_flow_proved |= proof.status == ProofStatus::kProved;
   }
   EXPECT_FALSE(is_flow_proved);
+}
+
+TEST(TimerDependentDesign, CorrectsAtSwitchesWhatNoModeShowsAlone) {
+  CertificateSubject subject =
+      CertifiedGains("config/examples/bernard2022_switched/gains.yaml").certificate().subject;
+  const auto design = [&] {
+    return design_by("timer_dependent_switched_gain", with_cells(subject, 6), {{"lambda_t", 0.015}},
+                     Objective::kFeasible);
+  };
+  const Design found = design();
+  EXPECT_EQ(found.proved_conditions,
+            found.certificate.theorem->conditions(found.certificate.subject).size());
+  // After half a turn the output shows the same again.
+  subject.T2 = 3.2;
+  EXPECT_THROW(design(), DesignError);
+  subject.plant.modes.pop_back();
+  EXPECT_THROW(require_subject(*found.certificate.theorem, subject), std::invalid_argument);
 }
 
 TEST(TimerDependentTheorem, IsNotAboutJumpMapsByALipschitzConstant) {
