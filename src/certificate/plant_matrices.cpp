@@ -78,6 +78,9 @@ bool PlantMatrices::jumps() const {
 
 PlantMatrices matrices_of(const Plant& plant, const StatedErrorMaps& stated) {
   require_one_sensor_of_each_timing(plant);
+  if (!plant.unit_norms().empty()) {
+    throw std::invalid_argument("no theorem is about a plant with unit_norm");
+  }
   if (plant.switches() && !stated.is_empty()) {
     throw std::invalid_argument("A and A_d of a design are those of a plant that does not switch");
   }

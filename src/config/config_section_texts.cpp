@@ -44,4 +44,30 @@ std::vector<std::vector<std::string>> ConfigSection::text_matrix(const std::stri
   return result;
 }
 
+Eigen::MatrixXd ConfigSection::square_matrix(const std::string& key, Eigen::Index size) {
+  if (!is_map(key)) return matrix(key, size, size);
+  ConfigSection map = section(key);
+  const Eigen::VectorXd diagonal = map.vector("diagonal", size);
+  map.finish();
+  return diagonal.asDiagonal();
+}
+
+std::vector<std::vector<std::string>> ConfigSection::text_lists(const std::string& key) {
+  const std::string expected = "a list of lists of names";
+  const ConfigNode& node = required(key, expected);
+  if (node.kind != ConfigNode::Kind::kSequence) throw error(key, expected, node.describe());
+  std::vector<std::vector<std::string>> result;
+  for (const ConfigNode& list : node.items) {
+    if (list.kind != ConfigNode::Kind::kSequence) {
+      throw error(key, expected, list.describe() + " in the list");
+    }
+    result.emplace_back();
+    for (const ConfigNode& item : list.items) {
+      if (item.kind != ConfigNode::Kind::kScalar) throw error(key, expected, item.describe());
+      result.back().push_back(item.scalar);
+    }
+  }
+  return result;
+}
+
 }  // namespace sampled_data_observers

@@ -5,10 +5,11 @@
 namespace sampled_data_observers {
 namespace {
 
-template <class Rows>
+/// @param read  of a section, a key of it and a sensor: the sensor's matrix
+template <class Read>
 std::vector<Eigen::MatrixXd> read_per_sensor(ConfigSection& gains, const std::string& key,
                                              const Plant& plant,
-                                             const std::vector<SensorTiming>& timings, Rows rows) {
+                                             const std::vector<SensorTiming>& timings, Read read) {
   const std::vector<Sensor>& sensors = plant.sensors();
   std::vector<Eigen::MatrixXd> result(sensors.size());
   const auto fits = [&timings](const Sensor& sensor) {
@@ -24,15 +25,12 @@ std::vector<Eigen::MatrixXd> read_per_sensor(ConfigSection& gains, const std::st
   }
   if (count == 1 && !gains.is_map(key)) {
     const auto only = std::find_if(sensors.begin(), sensors.end(), fits);
-    result[static_cast<std::size_t>(only - sensors.begin())] =
-        gains.matrix(key, rows(*only), only->outputs());
+    result[static_cast<std::size_t>(only - sensors.begin())] = read(gains, key, *only);
     return result;
   }
   ConfigSection section = gains.section(key);
   for (std::size_t i = 0; i < sensors.size(); ++i) {
-    if (fits(sensors[i])) {
-      result[i] = section.matrix(sensors[i].name, rows(sensors[i]), sensors[i].outputs());
-    }
+    if (fits(sensors[i])) result[i] = read(section, sensors[i].name, sensors[i]);
   }
   section.finish();
   return result;
@@ -43,14 +41,20 @@ std::vector<Eigen::MatrixXd> read_per_sensor(ConfigSection& gains, const std::st
 std::vector<Eigen::MatrixXd> read_gain_per_sensor(ConfigSection& gains, const std::string& key,
                                                   const Plant& plant, SensorTiming timing,
                                                   Eigen::Index rows) {
-  return read_per_sensor(gains, key, plant, {timing}, [rows](const Sensor&) { return rows; });
+  return read_per_sensor(
+      gains, key, plant, {timing},
+      [rows](ConfigSection& section, const std::string& of, const Sensor& sensor) {
+        return section.matrix(of, rows, sensor.outputs());
+      });
 }
 
 std::vector<Eigen::MatrixXd> read_square_per_sensor(ConfigSection& gains, const std::string& key,
                                                     const Plant& plant,
                                                     const std::vector<SensorTiming>& timings) {
   return read_per_sensor(gains, key, plant, timings,
-                         [](const Sensor& sensor) { return sensor.outputs(); });
+                         [](ConfigSection& section, const std::string& of, const Sensor& sensor) {
+                           return section.square_matrix(of, sensor.outputs());
+                         });
 }
 
 std::vector<OutputInjection> read_output_injections(ConfigSection& gains, const Plant& plant) {

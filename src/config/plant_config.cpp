@@ -85,6 +85,7 @@ class PlantReader {
     plant_.state_names = names_.x;
     plant_.input_names = names_.u;
     plant_.integration = read_integration(section_);
+    read_unit_norms();
     complete_sets("jump_set", &PlantMode::jump_set);
     complete_sets("flow_set", &PlantMode::flow_set);
     section_.finish();
@@ -119,6 +120,34 @@ class PlantReader {
     mode.flow = compiled_.flow;
     mode.jump = compiled_.jump;
     plant_.modes.push_back(std::move(mode));
+  }
+
+  void read_unit_norms() {
+    const char* const key = "unit_norm";
+    if (!section_.has(key)) return;
+    for (const PlantMode& mode : plant_.modes) {
+      if (mode.flow->affine() == nullptr) continue;
+      throw section_.error(key, "none for a plant whose flow is linear: write the flow as formulas",
+                           "groups of states");
+    }
+    std::set<std::string> taken;
+    for (const std::vector<std::string>& names : section_.text_lists(key)) {
+      if (names.size() < 2) {
+        throw section_.error(key, "at least two states in each group",
+                             std::to_string(names.size()));
+      }
+      std::vector<Eigen::Index>& group = plant_.unit_norms.emplace_back();
+      for (const std::string& name : names) {
+        const auto found = std::find(names_.x.begin(), names_.x.end(), name);
+        if (found == names_.x.end()) {
+          throw section_.error(key, "names of states", "'" + name + "'");
+        }
+        if (!taken.insert(name).second) {
+          throw section_.error(key, "each state once", "'" + name + "' twice");
+        }
+        group.push_back(found - names_.x.begin());
+      }
+    }
   }
 
   std::shared_ptr<const VectorMap> read_set(ConfigSection& section, const std::string& key) {

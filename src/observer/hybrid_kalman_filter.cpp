@@ -2,18 +2,39 @@
 
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "linear_algebra/joseph_update.h"
 #include "linear_algebra/ordered_linear_algebra.h"
 
 namespace sampled_data_observers {
+namespace {
+
+/// How far off the first estimate may be: what states usually change by.
+Eigen::VectorXd first_deviations(const Eigen::MatrixXd& P0) { return P0.diagonal().cwiseSqrt(); }
+
+bool has_affine_flows(const Plant& plant) {
+  return std::all_of(plant.modes().begin(), plant.modes().end(),
+                     [](const PlantMode& mode) { return mode.flow->affine() != nullptr; });
+}
+
+int checked_iterations(int iterations) {
+  if (iterations < 1) throw std::invalid_argument("iterations: at least 1");
+  return iterations;
+}
+
+}  // namespace
 
 HybridKalmanFilter::HybridKalmanFilter(const ObserverContext& context,
                                        const KalmanCovariances& covariances)
     : PlantObserver(context, {SensorTiming::kSampled, SensorTiming::kAtJumps}),
-      matrices_(kalman_matrices(covariances, plant())) {
-  for (const PlantMode& mode : plant().modes()) {
-    covariance_flows_.emplace_back(mode.flow->affine()->M(), matrices_.Q);
+      matrices_(kalman_matrices(covariances, plant())),
+      jacobians_(plant(), first_deviations(matrices_.P0)),
+      iterations_(checked_iterations(covariances.iterations)) {
+  if (has_affine_flows(plant())) {
+    for (const PlantMode& mode : plant().modes()) {
+      covariance_flows_.emplace_back(mode.flow->affine()->M(), matrices_.Q);
+    }
   }
   build_flow();
 }
@@ -23,12 +44,14 @@ LawGains HybridKalmanFilter::gains() const {
   for (std::size_t i = 0; i < sensors(); ++i) {
     all.add("R/" + plant().sensors()[i].name, matrices_.R[i]);
   }
-  return all.add("P0", matrices_.P0).add("Q", matrices_.Q).add("Q_d", matrices_.Q_d);
+  all.add("P0", matrices_.P0).add("Q", matrices_.Q).add("Q_d", matrices_.Q_d);
+  return all.add("iterations", static_cast<double>(iterations_));
 }
 
 void HybridKalmanFilter::start_from(const double* estimate, double* state) const {
   PlantObserver::start_from(estimate, state);
   P_.set(matrices_.P0.data(), state);
+  project(state, P_.of(state));
 }
 
 double HybridKalmanFilter::mahalanobis_distance(const Event& sample, const double* state,
@@ -41,7 +64,7 @@ double HybridKalmanFilter::mahalanobis_distance(const Event& sample, const doubl
   innovation(sample, state, nu);
   // Where the noise has variance 1, S = I + C P Cᵀ.
   solve_lower(matrices_.noise_roots[sensor].data(), m, m, nu, 1);
-  const double* C = matrices_.outputs[held(state).mode][sensor].data();
+  const double* C = output_rows(sensor, held(state), state, workspace);
   multiply(covariance(state), n(), n(), C, m, PC);
   for (Eigen::Index j = 0; j < m; ++j) {
     for (Eigen::Index i = 0; i < m; ++i) {
@@ -76,31 +99,50 @@ void HybridKalmanFilter::add_covariance_of_stamp(const double* C, Eigen::Index m
 
 void HybridKalmanFilter::flow_constants(Duration duration, const Held& held, double* state,
                                         double* workspace) const {
+  if (covariance_flows_.empty()) return;
   covariance_flows_[held.mode].apply(duration, P_.of(state), flown_.of(workspace));
+}
+
+void HybridKalmanFilter::step_constants(Duration duration, const Held& held, const double* before,
+                                        const double* after, double* state,
+                                        double* workspace) const {
+  double* middle = midpoint_.of(workspace);
+  for (Eigen::Index i = 0; i < n(); ++i) middle[i] = 0.5 * (before[i] + after[i]);
+  double* F = jacobian_.of(workspace);
+  jacobians_.modes[held.mode].flow.evaluate(middle, held.u, F, differentiating_.of(workspace));
+  covariance_step(F, matrices_.Q.data(), n(), to_seconds(duration), P_.of(state),
+                  stepping_.of(workspace));
+  project(after, P_.of(state));
 }
 
 void HybridKalmanFilter::sample(std::size_t sensor, const double* y, const Held& held,
                                 double* state, double* workspace) const {
   correct(sensor, y, held, state, workspace);
+  normalize(state);
 }
 
 void HybridKalmanFilter::jump(const Held& held, std::size_t next, const JumpOutputs& outputs,
                               double* state, double* workspace) const {
   if (matrices_.stamp_deviation > 0.0) {
     jump_of_uncertain_stamp(held, next, outputs, state, workspace);
-    return;
+  } else {
+    jump_of_certain_stamp(held, outputs, state, workspace);
   }
+  normalize(state);
+}
+
+void HybridKalmanFilter::jump_of_certain_stamp(const Held& held, const JumpOutputs& outputs,
+                                               double* state, double* workspace) const {
   for (const std::size_t i : sensors_of(SensorTiming::kAtJumps)) {
     if (const double* y_d = outputs.of(i)) correct(i, y_d, held, state, workspace);
   }
+  const double* A_d = jump_matrix(held, state, workspace);
   apply_plant_jump(held, state, workspace);
   double* P = P_.of(state);
-  const PlantMode& mode = plant().modes()[held.mode];
-  if (!mode.jump) {
+  if (A_d == nullptr) {
     for (Eigen::Index i = 0; i < P_.size(); ++i) P[i] += matrices_.Q_d.data()[i];
     return;
   }
-  const double* A_d = mode.jump->affine()->M().data();
   double* A_d_P = flown_.of(workspace);
   multiply(A_d, n(), n(), P, n(), A_d_P);
   P_.set(matrices_.Q_d.data(), state);
@@ -110,9 +152,13 @@ void HybridKalmanFilter::jump(const Held& held, std::size_t next, const JumpOutp
 /// The update of x̂ and P by the outputs y of a sensor.
 void HybridKalmanFilter::correct(std::size_t sensor, const double* y, const Held& held,
                                  double* state, double* workspace) const {
+  if (iterations_ > 1 && !is_affine(sensor, held)) {
+    correct_iteratively(sensor, y, held, state, workspace);
+    return;
+  }
   const double* correction = correction_.of(workspace);
   normalized_innovation(sensor, y, held, state, innovation_.of(workspace));
-  update(matrices_.outputs[held.mode][sensor].data(), plant().sensors()[sensor].outputs(), n(),
+  update(output_rows(sensor, held, state, workspace), plant().sensors()[sensor].outputs(), n(),
          P_.of(state), workspace);
   for (Eigen::Index i = 0; i < n(); ++i) state[i] += correction[i];
 }

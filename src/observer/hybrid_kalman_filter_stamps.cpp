@@ -24,7 +24,7 @@ void HybridKalmanFilter::jump_of_uncertain_stamp(const Held& held, std::size_t n
     const double* y_d = outputs.of(i);
     if (y_d == nullptr) continue;
     const Eigen::Index m = plant().sensors()[i].outputs();
-    const double* C = matrices_.outputs[held.mode][i].data();
+    const double* C = output_rows(i, held, state, workspace);
     double* rows = rows_.of(workspace);
     double* innovation = innovation_.of(workspace);
     normalized_innovation(i, y_d, held, state, innovation);
@@ -41,13 +41,14 @@ void HybridKalmanFilter::jump_of_uncertain_stamp(const Held& held, std::size_t n
   }
 
   mode.flow->evaluate(state, held.u, before);
+  const double* A_d = jump_matrix(held, state, workspace);
   apply_plant_jump(held, state, workspace);
   double* after = field_after_.of(workspace);
   plant().modes()[next].flow->evaluate(state, held.u, after);
   double* transition = transition_.of(workspace);
   double* saltation = transition + n() * n();
-  if (mode.jump) {
-    std::copy_n(mode.jump->affine()->M().data(), n() * n(), transition);
+  if (A_d != nullptr) {
+    std::copy_n(A_d, n() * n(), transition);
   } else {
     std::fill_n(transition, n() * n(), 0.0);
     for (Eigen::Index i = 0; i < n(); ++i) transition[i * n() + i] = 1.0;

@@ -17,10 +17,6 @@ KalmanMatrices kalman_matrices(const KalmanCovariances& covariances, const Plant
     throw std::invalid_argument("stamp_deviation: a finite number of seconds, not negative");
   }
   result.stamp_deviation = covariances.stamp_deviation;
-  if (!plant.is_affine()) {
-    throw std::invalid_argument(
-        "this observer takes plants whose flow, jump map and outputs are linear, up to constants");
-  }
   const std::vector<Sensor>& sensors = plant.sensors();
   if (covariances.R.size() != sensors.size()) {
     throw std::invalid_argument("R: one matrix per sensor");
@@ -36,7 +32,12 @@ KalmanMatrices kalman_matrices(const KalmanCovariances& covariances, const Plant
   for (const PlantMode& mode : plant.modes()) {
     std::vector<Eigen::MatrixXd>& outputs = result.outputs.emplace_back();
     for (std::size_t i = 0; i < sensors.size(); ++i) {
-      Eigen::MatrixXd C = mode.outputs[i]->affine()->M();
+      const AffineMap* output = mode.outputs[i]->affine();
+      if (output == nullptr) {
+        outputs.emplace_back();
+        continue;
+      }
+      Eigen::MatrixXd C = output->M();
       solve_lower(result.noise_roots[i].data(), C.rows(), C.rows(), C.data(), n);
       outputs.emplace_back(C.transpose());
     }

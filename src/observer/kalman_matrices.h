@@ -14,6 +14,7 @@ struct KalmanCovariances {
   Eigen::MatrixXd Q;               ///< in flow, per second: n x n, symmetric positive semidefinite
   Eigen::MatrixXd Q_d;             ///< at jumps: n x n, symmetric positive semidefinite
   double stamp_deviation = 0.0;    ///< standard deviation of the stamps of jumps [s], >= 0
+  int iterations = 1;              ///< of an update by outputs that are not affine, >= 1
 };
 
 /// What a HybridKalmanFilter computes with: outputs are transformed so that their noises are
@@ -25,12 +26,12 @@ struct KalmanMatrices {
   double stamp_deviation = 0.0;              ///< of jumps [s]
   std::vector<Eigen::MatrixXd> R;            ///< of each sensor
   std::vector<Eigen::MatrixXd> noise_roots;  ///< of each sensor: L with R = L Lᵀ
-  /// Of each mode and sensor: (L⁻¹ C)ᵀ, n x m.
+  /// Of each mode and sensor: (L⁻¹ C)ᵀ, n x m; without entries where the output is not affine.
   std::vector<std::vector<Eigen::MatrixXd>> outputs;
 };
 
-/// @throws std::invalid_argument for a plant that is not affine and for covariances that do not fit
-/// it or are not definite as they must be, and for a stamp_deviation that is negative or infinite.
+/// @throws std::invalid_argument for covariances that do not fit the plant or are not definite as
+/// they must be, and for a stamp_deviation that is negative or infinite.
 KalmanMatrices kalman_matrices(const KalmanCovariances& covariances, const Plant& plant);
 
 }  // namespace sampled_data_observers

@@ -132,6 +132,7 @@ void PlantObserver::keep_mode(std::size_t mode, double* state) const { mode_.set
 
 void PlantObserver::start_from(const double* estimate, double* state) const {
   if (estimate != state) std::copy_n(estimate, n(), state);
+  plant_->normalize(state);
 }
 
 PlantObserver::Held PlantObserver::held(const double* state) const {
@@ -164,6 +165,7 @@ Effect PlantObserver::reset(const Event& event, double* state, double* workspace
     case EventKind::kSample: {
       const Held now = held(state);
       sample(sensor, event.values, now, state, workspace);
+      plant_->normalize(state);
       complete(now, state, workspace);
       return Effect::kApplied;
     }
@@ -217,6 +219,7 @@ Effect PlantObserver::apply_jump(std::size_t next, double* state, double* worksp
     jump({now.mode, now.u, nullptr}, next, JumpOutputs(), state, workspace);
     effect = Effect::kWithoutOutputs;
   }
+  plant_->normalize(state);
   since_jump_.restart(state);
   mode_.set(next, state);
   return effect;
@@ -301,6 +304,9 @@ void PlantObserver::jump(const Held& held, std::size_t, const JumpOutputs&, doub
 }
 
 void PlantObserver::flow_constants(Duration, const Held&, double*, double*) const {}
+
+void PlantObserver::step_constants(Duration, const Held&, const double*, const double*, double*,
+                                   double*) const {}
 
 void PlantObserver::complete(const Held&, double*, double*) const {}
 

@@ -9,17 +9,22 @@ namespace sampled_data_observers {
 /// The derivative of a law's flowing state during one flow.
 class PlantObserver::Field : public VectorField {
  public:
-  Field(const PlantObserver& law, const Held& held, double* workspace)
-      : law_(law), held_(held), workspace_(workspace) {}
+  Field(const PlantObserver& law, const Held& held, double* state, double* workspace)
+      : law_(law), held_(held), state_(state), workspace_(workspace) {}
 
   void evaluate(const double* x, double* dx) const override {
     law_.derivative(held_, x, dx, workspace_);
   }
-  void confine(double* x) const override { law_.confine(x); }
+  void end_step(Duration duration, const double* before, double* x) const override {
+    law_.plant().normalize(x);
+    law_.confine(x);
+    law_.step_constants(duration, held_, before, x, state_, workspace_);
+  }
 
  private:
   const PlantObserver& law_;
   const Held& held_;
+  double* state_;
   double* workspace_;
 };
 
@@ -92,7 +97,7 @@ void PlantObserver::flow(Duration duration, double* state, double* workspace) co
   const Held now = held(state);
   flow_constants(duration, now, state, workspace);
   if (numeric_flow_) {
-    numeric_flow_->apply(Field(*this, now, workspace), duration, state);
+    numeric_flow_->apply(Field(*this, now, state, workspace), duration, state);
   } else {
     exact_flows_[regime(now)].apply(duration, state, inputs_.of(state), flowed_.of(workspace));
   }

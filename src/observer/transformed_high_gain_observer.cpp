@@ -17,6 +17,8 @@ TransformedHighGainObserver::TransformedHighGainObserver(const ObserverContext& 
       chains_(chains_of(settings, plant())),
       gain_(scaled_gains(settings, plant())) {
   require_of_gains(maps_.size() == gain_.size(), "T, Phi and Theta: of each mode of the plant");
+  require_of_gains(plant().unit_norms().empty(),
+                   "this form takes no plant with unit_norm: it flows in coordinates of its own");
   for (const Maps& of_mode : maps_) {
     require_of_gains(of_mode.T && of_mode.T->size() == z_.size(), "T: as many entries as K");
     require_of_gains(of_mode.Phi && of_mode.Phi->size() == of_outputs_.size(),

@@ -1,5 +1,6 @@
 #include "plant/bias_states.h"
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -22,11 +23,43 @@ class ExtendedMap : public VectorMap {
     for (Eigen::Index i = map_->size(); i < size(); ++i) out[i] = 0.0;
     add_product(E_, x, out);
   }
+  std::shared_ptr<const VectorMap> jacobian() const override;
 
  private:
   std::shared_ptr<const VectorMap> map_;
   Eigen::MatrixXd E_;  ///< size() x extended states
 };
+
+/// Of an ExtendedMap: the Jacobian of the map by the first states, in the upper left, plus E.
+class ExtendedJacobian : public VectorMap {
+ public:
+  ExtendedJacobian(std::shared_ptr<const VectorMap> jacobian, Eigen::Index rows, Eigen::MatrixXd E)
+      : jacobian_(std::move(jacobian)),
+        rows_(rows),
+        E_(std::move(E)),
+        entries_(jacobian_->size()) {}
+
+  Eigen::Index size() const override { return E_.size(); }
+  void evaluate(const double* x, const double* u, double* out) const override {
+    jacobian_->evaluate(x, u, entries_.data());
+    std::copy_n(E_.data(), E_.size(), out);
+    for (Eigen::Index k = 0; k < entries_.size(); ++k) {
+      out[(k / rows_) * E_.rows() + k % rows_] += entries_(k);
+    }
+  }
+
+ private:
+  std::shared_ptr<const VectorMap> jacobian_;
+  Eigen::Index rows_;  ///< of jacobian_
+  Eigen::MatrixXd E_;
+  mutable Eigen::VectorXd entries_;
+};
+
+std::shared_ptr<const VectorMap> ExtendedMap::jacobian() const {
+  std::shared_ptr<const VectorMap> of_map = map_->jacobian();
+  if (of_map == nullptr) return nullptr;
+  return std::make_shared<const ExtendedJacobian>(std::move(of_map), map_->size(), E_);
+}
 
 std::shared_ptr<const VectorMap> extended(const std::shared_ptr<const VectorMap>& map,
                                           const Eigen::MatrixXd& E) {

@@ -22,6 +22,7 @@ class BoundedSlopeMap : public VectorMap {
     map_->evaluate(x, u, out);
   }
   const AffineMap* affine() const override { return map_->affine(); }
+  std::shared_ptr<const VectorMap> jacobian() const override { return map_->jacobian(); }
 
  private:
   std::shared_ptr<const VectorMap> map_;

@@ -6,6 +6,8 @@
 #include <cctype>
 #include <limits>
 
+#include "plant/formula_program.h"
+
 namespace sampled_data_observers {
 namespace {
 
@@ -115,7 +117,10 @@ struct ExpressionMap::Program {
 ExpressionMap::ExpressionMap(const ExpressionNames& names,
                              const std::vector<NamedExpression>& definitions,
                              const std::vector<NamedExpression>& expressions)
-    : program_(std::make_unique<Program>()) {
+    : program_(std::make_unique<Program>()),
+      names_(names),
+      definitions_(definitions),
+      expressions_(expressions) {
   Program& program = *program_;
   program.states = names.x.size();
   program.inputs = names.u.size();
@@ -154,6 +159,10 @@ void ExpressionMap::evaluate(const double* x, const double* u, double* out) cons
   for (std::size_t i = 0; i < program.inputs; ++i) *value++ = u[i];
   for (const mu::Parser& parser : program.definitions) *value++ = value_of(parser);
   for (const mu::Parser& parser : program.expressions) *out++ = value_of(parser);
+}
+
+std::shared_ptr<const VectorMap> ExpressionMap::jacobian() const {
+  return differentiated(names_, definitions_, expressions_);
 }
 
 }  // namespace sampled_data_observers

@@ -28,6 +28,38 @@ LipschitzDescription checked(LipschitzDescription map) {
   return map;
 }
 
+class LipschitzJacobian : public VectorMap {
+ public:
+  LipschitzJacobian(LipschitzDescription map, std::shared_ptr<const VectorMap> of_psi)
+      : map_(std::move(map)),
+        of_psi_(std::move(of_psi)),
+        argument_(map_.S.rows()),
+        slopes_(map_.G.cols() * map_.S.rows()),
+        column_(map_.G.cols()) {}
+
+  Eigen::Index size() const override { return map_.A.size(); }
+  void evaluate(const double* x, const double* u, double* out) const override {
+    argument_.setZero();
+    add_product(map_.S, x, argument_.data());
+    of_psi_->evaluate(argument_.data(), u, slopes_.data());
+    const Eigen::Index n = map_.A.rows();
+    for (Eigen::Index j = 0; j < n; ++j) {
+      column_.setZero();
+      add_product(slopes_.data(), map_.G.cols(), map_.S.rows(), map_.S.data() + j * map_.S.rows(),
+                  column_.data());
+      for (Eigen::Index i = 0; i < n; ++i) out[j * n + i] = map_.A(i, j);
+      add_product(map_.G, column_.data(), out + j * n);
+    }
+  }
+
+ private:
+  LipschitzDescription map_;
+  std::shared_ptr<const VectorMap> of_psi_;
+  mutable Eigen::VectorXd argument_;  ///< S x
+  mutable Eigen::VectorXd slopes_;    ///< of ψ by its arguments
+  mutable Eigen::VectorXd column_;
+};
+
 }  // namespace
 
 LipschitzMap::LipschitzMap(LipschitzDescription description)
@@ -43,6 +75,12 @@ void LipschitzMap::evaluate(const double* x, const double* u, double* out) const
   add_product(description_.A, x, out);
   add_product(description_.B, u, out);
   add_product(description_.G, psi_.data(), out);
+}
+
+std::shared_ptr<const VectorMap> LipschitzMap::jacobian() const {
+  const std::shared_ptr<const VectorMap> of_psi = description_.psi->jacobian();
+  if (of_psi == nullptr) return nullptr;
+  return std::make_shared<const LipschitzJacobian>(description_, of_psi);
 }
 
 }  // namespace sampled_data_observers

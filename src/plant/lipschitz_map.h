@@ -32,6 +32,8 @@ class LipschitzMap : public VectorMap {
 
   Eigen::Index size() const override { return description_.A.rows(); }
   void evaluate(const double* x, const double* u, double* out) const override;
+  /// A + G ∂ψ/∂(S x) S
+  std::shared_ptr<const VectorMap> jacobian() const override;
 
  private:
   LipschitzDescription description_;

@@ -1,6 +1,7 @@
 #include "sampled_data_observers/plant/plant.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <stdexcept>
 #include <utility>
@@ -40,6 +41,19 @@ bool are_in_order(const std::vector<InputChannel>& channels, Eigen::Index p) {
   return std::find(is_there.begin(), is_there.end(), false) == is_there.end();
 }
 
+void check_unit_norms(const PlantDescription& plant) {
+  std::vector<bool> taken(plant.state_names.size(), false);
+  for (const std::vector<Eigen::Index>& group : plant.unit_norms) {
+    require(group.size() > 1, "a group of unit norm needs two states");
+    for (const Eigen::Index state : group) {
+      const auto position = static_cast<std::size_t>(state);
+      require(state >= 0 && position < taken.size() && !taken[position],
+              "each state of unit norm must be one of the plant's, in one group");
+      taken[position] = true;
+    }
+  }
+}
+
 PlantDescription checked(PlantDescription plant) {
   const auto n = static_cast<Eigen::Index>(plant.state_names.size());
   const auto p = static_cast<Eigen::Index>(plant.input_names.size());
@@ -55,6 +69,7 @@ PlantDescription checked(PlantDescription plant) {
   require(plant.integration.step > 0, "the integration step must be positive");
   require(plant.integration.horizon >= plant.integration.step,
           "the integration horizon must not be less than the step");
+  check_unit_norms(plant);
   for (const Sensor& sensor : plant.sensors) {
     require(sensor.outputs() > 0, "sensor '" + sensor.name + "' must have an output");
   }
@@ -67,6 +82,8 @@ PlantDescription checked(PlantDescription plant) {
     check_map(mode.flow, n, n, p, "the flow map" + where);
     if (mode.jump) check_map(mode.jump, n, n, p, "the jump map" + where);
     require(mode.outputs.size() == plant.sensors.size(), "one output map per sensor" + where);
+    require(plant.unit_norms.empty() || mode.flow->affine() == nullptr,
+            "states of unit norm take flows that are not affine" + where);
     for (std::size_t i = 0; i < plant.sensors.size(); ++i) {
       check_map(mode.outputs[i], plant.sensors[i].outputs(), n, p,
                 "the output map of sensor '" + plant.sensors[i].name + "'" + where);
@@ -88,6 +105,19 @@ Plant::Plant(PlantDescription description) : description_(checked(std::move(desc
       outputs_.push_back({mode.outputs[i].get(), sensors()[i].outputs(), states(),
                           is_linear ? affine->M().data() : nullptr,
                           has_angle ? &angular : nullptr});
+    }
+  }
+}
+
+void Plant::normalize(double* x) const {
+  for (const std::vector<Eigen::Index>& group : unit_norms()) {
+    double squares = 0.0;
+    for (const Eigen::Index state : group) squares += x[state] * x[state];
+    const double norm = std::sqrt(squares);
+    if (norm == 0.0) {
+      x[group.front()] = 1.0;
+    } else if (std::isfinite(norm)) {
+      for (const Eigen::Index state : group) x[state] /= norm;
     }
   }
 }

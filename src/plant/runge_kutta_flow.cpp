@@ -10,13 +10,15 @@ struct RungeKuttaFlow::Stepper {
   using State = std::vector<double>;
   boost::numeric::odeint::runge_kutta4_classic<State> stepper;
   State x;
+  State before;  ///< the step
 };
 
-void VectorField::confine(double*) const {}
+void VectorField::end_step(Duration, const double*, double*) const {}
 
 RungeKuttaFlow::RungeKuttaFlow(Eigen::Index states, Duration step)
     : step_(step), stepper_(std::make_unique<Stepper>()) {
   stepper_->x.resize(static_cast<std::size_t>(states));
+  stepper_->before.resize(stepper_->x.size());
   stepper_->stepper.adjust_size(stepper_->x);
 }
 
@@ -30,8 +32,9 @@ void RungeKuttaFlow::apply(const VectorField& field, Duration duration, double* 
   };
   while (duration > 0) {
     const Duration step = std::min(duration, step_);
+    std::copy(state.begin(), state.end(), stepper_->before.begin());
     stepper_->stepper.do_step(system, state, 0.0, to_seconds(step));
-    field.confine(state.data());
+    field.end_step(step, stepper_->before.data(), state.data());
     duration -= step;
   }
   std::copy_n(state.begin(), state.size(), x);

@@ -7,6 +7,8 @@
 
 namespace sampled_data_observers {
 
+std::shared_ptr<const VectorMap> VectorMap::jacobian() const { return nullptr; }
+
 AffineMap::AffineMap(Eigen::MatrixXd M, Eigen::MatrixXd N, Eigen::VectorXd c)
     : M_(std::move(M)), N_(std::move(N)), c_(std::move(c)) {
   if (N_.rows() != M_.rows() || c_.size() != M_.rows()) {

@@ -61,6 +61,15 @@ INSTANTIATE_TEST_SUITE_P(
         BadGains{kKalman, {"s: [[0.3]]", "s: [[0]]", {"gains", "R of sensor 's'"}}},
         BadGains{kKalman, {", s: [[0.3]]", "", {"gains/R/s", "missing"}}},
         BadGains{kKalman, {"Q: [[0, 0], [0, 0.5]]", "Q: [[0, 0], [0, -1]]", {"gains", "Q"}}},
+        BadGains{
+            kKalman,
+            {"Q: [[0, 0], [0, 0.5]]", "Q: {diagonal: [1]}", {"gains/Q/diagonal", "2 numbers"}}},
+        BadGains{kKalman,
+                 {"Q: [[0, 0], [0, 0.5]]", "Q: {diag: [0, 0.5]}", {"gains/Q/diagonal", "missing"}}},
+        BadGains{"hybrid_kalman_filter_formulas",
+                 {"iterations: 3", "iterations: 0", {"gains/iterations", "1", "20", "0"}}},
+        BadGains{"hybrid_kalman_filter_formulas",
+                 {"iterations: 3", "iterations: 2.5", {"gains/iterations", "whole number"}}},
         BadGains{kTimeVarying, {"lambda: 0.4", "lambda: 1", {"gains/lambda", "[0, 1)"}}},
         BadGains{kTimeVarying, {"lambda: 0.4", "lambda: -0.1", {"gains/lambda", "found -0.1"}}},
         BadGains{kTimeVarying, {"P: [[2,", "P: [[-2,", {"gains", "P"}}},
@@ -105,6 +114,18 @@ sampling: {T1: 1, T2: 1}
 gains: {P0: [[1]], R: [[1]]}
 jumps: {stamp_error: 0.1}
 )";
+
+TEST(KalmanGainsTest, ADiagonalStandsForItsMatrix) {
+  const std::string text = read_example(kKalman);
+  const auto gains = [](const std::string& yaml) {
+    return test::parse(yaml).law->observer().gains();
+  };
+  const std::string short_text =
+      test::replaced(test::replaced(text, "Q: [[0, 0], [0, 0.5]]", "Q: {diagonal: [0, 0.5]}"),
+                     "s: [[0.3]]", "s: {diagonal: [0.3]}");
+  EXPECT_EQ(gains(text).find("Q")->value, gains(short_text).find("Q")->value);
+  EXPECT_EQ(gains(text).find("R/s")->value, gains(short_text).find("R/s")->value);
+}
 
 TEST(KalmanGainsTest, TheStampErrorOfJumpsIsThatOfAUniformDistribution) {
   const ObserverConfig config =

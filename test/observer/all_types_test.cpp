@@ -234,7 +234,8 @@ TEST_P(EveryTypeTest, StartsAgainFromAGivenEstimate) {
        test::random_events_for(*config_.law, generator, 20, kStart, kSecond)) {
     take(*estimator, event);
   }
-  const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(config_.law->estimate_size(), 0.11, 0.29);
+  Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(config_.law->estimate_size(), 0.11, 0.29);
+  config_.plant->normalize(x.data());
   estimator->restart(kStart + 2 * kSecond, x);
   Estimate estimate = estimator->make_estimate();
   ASSERT_EQ(Timeline::Query::kOk, estimator->estimate_at(kStart + 2 * kSecond, estimate));

@@ -51,6 +51,8 @@ class ConfigSection {
 
   /// A matrix as nested lists, row by row. A negative size is free.
   Eigen::MatrixXd matrix(const std::string& key, Eigen::Index rows, Eigen::Index cols);
+  /// A square matrix as nested lists, row by row, or as a map {diagonal: [its diagonal]}.
+  Eigen::MatrixXd square_matrix(const std::string& key, Eigen::Index size);
   /// Whether the key has a matrix of finite numbers.
   bool is_matrix(const std::string& key);
   /// Names and texts in order, as a list of maps of one key each.
@@ -58,6 +60,8 @@ class ConfigSection {
   /// A matrix of texts, as nested lists, row by row.
   std::vector<std::vector<std::string>> text_matrix(const std::string& key, std::size_t rows,
                                                     std::size_t cols);
+  /// A list of lists of scalars, each of any length.
+  std::vector<std::vector<std::string>> text_lists(const std::string& key);
   /// A list of `size` finite numbers; of any number of them for -1.
   Eigen::VectorXd vector(const std::string& key, Eigen::Index size);
   /// A finite number from `low` to `high`, or infinity: `.inf`.

@@ -53,10 +53,15 @@ class ExpressionMap : public VectorMap {
 
   Eigen::Index size() const override;
   void evaluate(const double* x, const double* u, double* out) const override;
+  /// By symbolic differentiation. Where a formula jumps or has a kink, it is that of one side.
+  std::shared_ptr<const VectorMap> jacobian() const override;
 
  private:
   struct Program;
   std::unique_ptr<Program> program_;
+  ExpressionNames names_;
+  std::vector<NamedExpression> definitions_;
+  std::vector<NamedExpression> expressions_;
 };
 
 }  // namespace sampled_data_observers

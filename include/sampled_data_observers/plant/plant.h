@@ -61,6 +61,9 @@ struct PlantDescription {
   /// Each input in one of them, ordered by their first inputs. Empty: all come together, in a
   /// channel named "input".
   std::vector<InputChannel> input_channels = {};
+  /// Groups of states whose Euclidean norm is 1, as that of the four of a quaternion, by their
+  /// positions: at least two in each, none in two. With such groups no flow may be affine.
+  std::vector<std::vector<Eigen::Index>> unit_norms = {};
 };
 
 /// A checked description. Immutable.
@@ -85,6 +88,14 @@ class Plant {
   const std::vector<PlantMode>& modes() const { return description_.modes; }
   /// How flows that are not affine are integrated.
   const Integration& integration() const { return description_.integration; }
+
+  /// Groups of states whose norm is 1.
+  const std::vector<std::vector<Eigen::Index>>& unit_norms() const {
+    return description_.unit_norms;
+  }
+  /// Divides each such group by its norm; the first of a group of zeros becomes 1, and one whose
+  /// norm is not finite is left as it is. x has n entries.
+  void normalize(double* x) const;
 
   /// n
   Eigen::Index states() const { return static_cast<Eigen::Index>(state_names().size()); }

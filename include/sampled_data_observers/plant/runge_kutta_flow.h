@@ -13,9 +13,9 @@ class VectorField {
   virtual ~VectorField() = default;
   /// dx ← the derivative at x; must neither allocate nor throw.
   virtual void evaluate(const double* x, double* dx) const = 0;
-  /// Brings x, after a step, back to where it may be; by default it may be anywhere. Must neither
-  /// allocate nor throw.
-  virtual void confine(double* x) const;
+  /// What else is to be done where a step of `duration` ns led from `before` to x, such as to bring
+  /// x back to where it may be; by default nothing. Must neither allocate nor throw.
+  virtual void end_step(Duration duration, const double* before, double* x) const;
 };
 
 /// The flow of ẋ = f(x) by the classical Runge–Kutta method of order 4 (Boost.odeint), in fixed

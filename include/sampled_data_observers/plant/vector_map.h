@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 
 namespace sampled_data_observers {
 
@@ -25,6 +26,12 @@ class VectorMap {
 
   /// The map itself where it is affine, else null.
   virtual const AffineMap* affine() const { return nullptr; }
+
+  /// ∂map/∂x as a map of (x, u): size() x n entries, those by the first state first. Null, as it is
+  /// by default, where the map does not know it: whoever needs it then takes differences.
+  /// @throws std::invalid_argument, or std::length_error, with a message for the user for formulas
+  /// that can't be differentiated.
+  virtual std::shared_ptr<const VectorMap> jacobian() const;
 };
 
 /// M x + N u + c

@@ -7,6 +7,8 @@
 namespace sampled_data_observers {
 namespace {
 
+constexpr std::size_t kMostIterations = 20;
+
 Eigen::Index outputs_of(const Plant& plant) {
   Eigen::Index outputs = 0;
   for (const Sensor& sensor : plant.sensors()) outputs += sensor.outputs();
@@ -22,15 +24,16 @@ KalmanCovariances read_covariances(ConfigSection& gains, const LawContext& conte
   require_bounded(static_cast<std::size_t>(variables), plant.modes().size(), kMostWithCovariance,
                   gains, "P0");
   const auto matrix_or_zero = [&](const char* key) -> Eigen::MatrixXd {
-    if (gains.has(key)) return gains.matrix(key, n, n);
+    if (gains.has(key)) return gains.square_matrix(key, n);
     return Eigen::MatrixXd::Zero(n, n);
   };
   KalmanCovariances covariances;
-  covariances.P0 = gains.matrix("P0", n, n);
+  covariances.P0 = gains.square_matrix("P0", n);
   covariances.R =
       read_square_per_sensor(gains, "R", plant, {SensorTiming::kSampled, SensorTiming::kAtJumps});
   covariances.Q = matrix_or_zero("Q");
   covariances.Q_d = matrix_or_zero("Q_d");
+  covariances.iterations = static_cast<int>(gains.count("iterations", 1, kMostIterations, 1));
   // Nothing is known but the limits, as of a uniform distribution between them.
   covariances.stamp_deviation = context.jump_stamp_error / std::sqrt(3.0);
   return covariances;
