@@ -108,6 +108,42 @@ void Sample(benchmark::State& state) {
   }
 }
 
+/// The two together, over 10 ms.
+void BareFlowAndSample(benchmark::State& state) {
+  const Eigen::Index n = state.range(0);
+  const Eigen::MatrixXd Phi = (example_A(n) * 0.01).exp();
+  const Eigen::MatrixXd C = Eigen::MatrixXd::Identity(1, n);
+  const Eigen::MatrixXd L = Eigen::MatrixXd::Constant(n, 1, 0.1);
+  const Eigen::VectorXd y = Eigen::VectorXd::Ones(1);
+  Eigen::VectorXd x = Eigen::VectorXd::Ones(n);
+  Eigen::VectorXd next(n);
+  Eigen::VectorXd innovation(1);
+  const Allocations allocations(state);
+  for (auto _ : state) {
+    next.noalias() = Phi * x;
+    innovation = y - C.lazyProduct(next);
+    x = next + L.lazyProduct(innovation);
+    benchmark::DoNotOptimize(x.data());
+    benchmark::ClobberMemory();
+  }
+}
+
+void FlowAndSample(benchmark::State& state) {
+  const auto law = example_law(state.range(0));
+  Eigen::VectorXd x(law->state_size());
+  Eigen::VectorXd workspace(law->workspace_size());
+  law->initialize(x.data());
+  const double y = 1.0;
+  const Event event{kStart, EventKind::kSample, 0, &y, 1};
+  const Allocations allocations(state);
+  for (auto _ : state) {
+    law->flow(10'000'000, x.data(), workspace.data());
+    law->reset(event, x.data(), workspace.data());
+    benchmark::DoNotOptimize(x.data());
+    benchmark::ClobberMemory();
+  }
+}
+
 /// Takes in one event with `state.range(1)` later ones behind it, then a new one at the end.
 void Rewind(benchmark::State& state) {
   const auto law = example_law(state.range(0));
@@ -198,6 +234,8 @@ BENCHMARK(Flow)->Apply(Sizes);
 BENCHMARK(EigenExponentialFlow)->Apply(Sizes);
 BENCHMARK(BareSample)->Apply(Sizes);
 BENCHMARK(Sample)->Apply(Sizes);
+BENCHMARK(BareFlowAndSample)->Apply(Sizes);
+BENCHMARK(FlowAndSample)->Apply(Sizes);
 BENCHMARK(Rewind)->Apply(SizesAndDepths);
 BENCHMARK(SharedStamp)->Arg(1)->Arg(10)->Arg(100)->Arg(1000);
 BENCHMARK(EightSteps)->Apply(Sizes);

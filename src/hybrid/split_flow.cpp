@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "linear_algebra/kernels.h"
+
 namespace sampled_data_observers {
 
 Duration whole_steps(const HybridSystem& system, Duration duration) {
@@ -12,7 +14,7 @@ Duration whole_steps(const HybridSystem& system, Duration duration) {
 
 bool is_usable(const Eigen::Ref<const Eigen::VectorXd>& state) {
   constexpr double kLargest = 1e150;
-  return state.allFinite() && state.cwiseAbs().maxCoeff() <= kLargest;
+  return kernels().all_within(state.data(), state.size(), kLargest);
 }
 
 void SplitFlow::begin(std::shared_ptr<const HybridSystem> system, Duration duration, bool held) {

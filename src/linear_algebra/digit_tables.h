@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 namespace sampled_data_observers {
@@ -14,42 +13,55 @@ constexpr int kDigitBits = 6;
 constexpr int kDigits = 1 << kDigitBits;
 constexpr int kPlaces = (63 + kDigitBits - 1) / kDigitBits;
 
-/// The tables of a flow: `block` numbers for each digit at each place, those of d at k at
-/// (64 k + d) block. What overflows, as an unstable plant's later transitions do, and all behind it
-/// is infinite.
+/// The tables of a flow: `block` numbers for each digit d but 0 at each place k, those of d at k at
+/// (63 k + d − 1) block. They end before what overflows, as an unstable plant's later transitions
+/// do, and with the last digit that a duration has.
 ///
-/// A Step is what the flow does in some time. It has is_finite() and write(double* block), and
-/// compose(Step, Step) gives the step of both.
-/// @param none  the step of no time
-/// @param unit  unit(scale) is the step of `scale` nanoseconds
-template <class Step, class Unit>
-std::vector<double> digit_tables(std::size_t block, const Step& none, const Unit& unit) {
-  std::vector<double> tables(block * kDigits * kPlaces, std::numeric_limits<double>::infinity());
+/// A Step is what the flow does in some time. It has is_finite(), and compose(Step, Step) gives the
+/// step of both.
+/// @param none   the step of no time
+/// @param unit   unit(scale) is the step of `scale` nanoseconds
+/// @param write  write(step, numbers) puts what is needed of a step into its block of zeros
+template <class Step, class Unit, class Write>
+std::vector<double> digit_tables(std::size_t block, const Step& none, const Unit& unit,
+                                 const Write& write) {
+  constexpr std::size_t kDigitsOfLastPlace = std::size_t{1} << (63 - kDigitBits * (kPlaces - 1));
+  constexpr std::size_t kBlocks = (kDigits - 1) * (kPlaces - 1) + kDigitsOfLastPlace - 1;
+  std::vector<double> tables(block * kBlocks);
   double* table = tables.data();
   for (int place = 0; place < kPlaces; ++place) {
+    const std::size_t end = place + 1 < kPlaces ? kDigits : kDigitsOfLastPlace;
     std::vector<Step> digits = {none, unit(std::ldexp(1.0L, kDigitBits * place))};
-    for (std::size_t d = 2; d < kDigits && digits.back().is_finite(); ++d) {
-      digits.push_back(compose(digits[d / 2], digits[d - d / 2]));
-    }
-    for (const Step& digit : digits) {
-      // Arithmetic on infinities takes ages.
-      if (!digit.is_finite()) return tables;
-      digit.write(table);
-      table += block;
+    for (std::size_t d = 1; d < end; ++d, table += block) {
+      if (d > 1) digits.push_back(compose(digits[d / 2], digits[d - d / 2]));
+      if (!digits[d].is_finite()) {
+        tables.resize(static_cast<std::size_t>(table - tables.data()));
+        tables.shrink_to_fit();
+        return tables;
+      }
+      write(digits[d], table);
     }
   }
   return tables;
 }
 
-/// Calls apply(table) with the block of each digit of a duration that is not zero.
-template <class Apply>
-void for_each_digit(std::int64_t duration, const std::vector<double>& tables, std::size_t block,
-                    const Apply& apply) {
-  const double* place = tables.data();
-  for (; duration > 0; duration >>= kDigitBits, place += block * kDigits) {
+/// The blocks of the digits of a duration that are not zero, least first.
+struct DigitBlocks {
+  const double* of[kPlaces];
+  int count = 0;
+};
+
+/// Finds those of a duration >= 0. Returns false where the flow over it overflows.
+inline bool find_digits(std::int64_t duration, const std::vector<double>& tables, std::size_t block,
+                        DigitBlocks& blocks) {
+  for (std::size_t place = 0; duration > 0; duration >>= kDigitBits, place += kDigits - 1) {
     const auto digit = static_cast<std::size_t>(duration & (kDigits - 1));
-    if (digit != 0) apply(place + digit * block);
+    if (digit == 0) continue;
+    const std::size_t at = (place + digit - 1) * block;
+    if (at >= tables.size()) return false;
+    blocks.of[blocks.count++] = tables.data() + at;
   }
+  return true;
 }
 
 }  // namespace sampled_data_observers

@@ -4,7 +4,6 @@
 #include <limits>
 #include <stdexcept>
 
-#include "linear_algebra/joseph_update.h"
 #include "linear_algebra/ordered_linear_algebra.h"
 
 namespace sampled_data_observers {
@@ -168,9 +167,8 @@ void HybridKalmanFilter::correct(std::size_t sensor, const double* y, const Held
 /// @param rows  of the outputs: size x outputs, transposed
 void HybridKalmanFilter::update(const double* rows, Eigen::Index outputs, Eigen::Index size,
                                 double* P, double* workspace) const {
-  joseph_update(
-      rows, outputs, size, innovation_.of(workspace), P,
-      {correction_.of(workspace), gain_.of(workspace), column_.of(workspace), rest_.of(workspace)});
+  joseph_update(rows, outputs, size, innovation_.of(workspace), P, correction_.of(workspace),
+                updating_.of(workspace));
 }
 
 /// The innovation of outputs whose noises are independent and of variance 1.

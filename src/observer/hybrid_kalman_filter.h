@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "linear_algebra/joseph_update.h"
 #include "observer/kalman_jacobians.h"
 #include "observer/kalman_matrices.h"
 #include "plant/covariance_flow.h"
@@ -111,10 +112,8 @@ class HybridKalmanFilter : public PlantObserver {
   VectorSlot P_ = constants(n() * n());
   VectorSlot innovation_ = scratch(plant().max_outputs());
   VectorSlot correction_ = scratch(variables());
-  VectorSlot gain_ = scratch(variables());
-  VectorSlot column_ = scratch(variables());  ///< P c
-  VectorSlot rest_ = scratch(variables());    ///< (I − K c) P c
-  VectorSlot flown_ = scratch(n() * n());
+  VectorSlot updating_ = scratch(joseph_update_scratch(variables()));
+  VectorSlot flown_ = scratch(CovarianceFlow::scratch_size(n()));
   VectorSlot S_ = scratch(plant().max_outputs() * plant().max_outputs());
   VectorSlot PC_ = scratch(n() * plant().max_outputs());
   // Of a plant that is not affine.

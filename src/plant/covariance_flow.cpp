@@ -1,10 +1,11 @@
 #include "plant/covariance_flow.h"
 
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "linear_algebra/digit_tables.h"
-#include "linear_algebra/ordered_linear_algebra.h"
+#include "linear_algebra/kernels.h"
 #include "linear_algebra/transition_matrix.h"
 
 namespace sampled_data_observers {
@@ -16,11 +17,6 @@ struct CovarianceStep {
   ExtendedMatrix noise;
 
   bool is_finite() const { return transition.is_finite() && noise.allFinite(); }
-  void write(double* table) const {
-    const Eigen::Index n = noise.rows();
-    Eigen::Map<Eigen::MatrixXd>(table, n, n) = transition.full.cast<double>();
-    Eigen::Map<Eigen::MatrixXd>(table + n * n, n, n) = noise.cast<double>();
-  }
 };
 
 CovarianceStep compose(const CovarianceStep& first, const CovarianceStep& second) {
@@ -47,6 +43,25 @@ CovarianceStep unit_step(const ExtendedMatrix& A, const ExtendedMatrix& Q) {
   return result;
 }
 
+/// Where e^{At} may differ from zero: where there is a path from one state to another.
+std::vector<std::vector<bool>> paths_of(const Eigen::MatrixXd& A) {
+  const auto n = static_cast<std::size_t>(A.rows());
+  std::vector<std::vector<bool>> path(n, std::vector<bool>(n));
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j < n; ++j) {
+      path[i][j] = i == j || A(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) != 0.0;
+    }
+  }
+  for (std::size_t k = 0; k < n; ++k) {
+    for (std::size_t i = 0; i < n; ++i) {
+      for (std::size_t j = 0; path[i][k] && j < n; ++j) {
+        if (path[k][j]) path[i][j] = true;
+      }
+    }
+  }
+  return path;
+}
+
 }  // namespace
 
 CovarianceFlow::CovarianceFlow(const Eigen::MatrixXd& A, const Eigen::MatrixXd& Q)
@@ -65,17 +80,45 @@ CovarianceFlow::CovarianceFlow(const Eigen::MatrixXd& A, const Eigen::MatrixXd& 
     const long double seconds = 1e-9L * scale;
     return unit_step(A.cast<long double>() * seconds, Q.cast<long double>() * seconds);
   };
-  tables_ = digit_tables(block(), CovarianceStep{Transition(zero), zero}, unit);
+  const Eigen::Index rows = padded(states_);
+  row_begins_ = {0};
+  for (const std::vector<bool>& row : paths_of(A)) {
+    for (std::size_t j = 0; j < row.size(); ++j) {
+      if (row[j])
+        offsets_.push_back(static_cast<std::int32_t>(j) * static_cast<std::int32_t>(rows));
+    }
+    row_begins_.push_back(static_cast<std::int32_t>(offsets_.size()));
+  }
+  const auto write = [&](const CovarianceStep& step, double* block) {
+    for (Eigen::Index i = 0; i < states_; ++i) {
+      for (auto k = row_begins_[static_cast<std::size_t>(i)];
+           k < row_begins_[static_cast<std::size_t>(i) + 1]; ++k) {
+        const Eigen::Index column = offsets_[static_cast<std::size_t>(k)] / rows;
+        *block++ = static_cast<double>(step.transition.full(i, column));
+      }
+    }
+    // No zero of it is negative: kernels rely on that.
+    Eigen::Map<Eigen::MatrixXd>(block, rows, states_).topRows(states_) =
+        step.noise.cast<double>().array() + 0.0;
+  };
+  tables_ = digit_tables(block(), CovarianceStep{Transition(zero), zero}, unit, write);
+}
+
+Eigen::Index CovarianceFlow::scratch_size(Eigen::Index n) { return covariance_scratch(n); }
+
+std::size_t CovarianceFlow::block() const {
+  return offsets_.size() + static_cast<std::size_t>(padded(states_) * states_);
 }
 
 void CovarianceFlow::apply(Duration duration, double* P, double* scratch) const {
-  const Eigen::Index entries = states_ * states_;
-  for_each_digit(duration, tables_, block(), [&](const double* Phi) {
-    const double* noise = Phi + entries;
-    multiply(Phi, states_, states_, P, states_, scratch);
-    for (Eigen::Index i = 0; i < entries; ++i) P[i] = noise[i];
-    add_symmetric_product(scratch, Phi, states_, states_, P);
-  });
+  DigitBlocks blocks;
+  if (!find_digits(duration, tables_, block(), blocks)) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    for (Eigen::Index i = 0; i < states_ * states_; ++i) P[i] = nan;
+  } else if (blocks.count > 0) {
+    kernels().covariance_flow(blocks.of, blocks.count, {row_begins_.data(), offsets_.data()},
+                              states_, P, scratch);
+  }
 }
 
 }  // namespace sampled_data_observers

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <vector>
 
 #include "sampled_data_observers/hybrid/time.h"
@@ -11,7 +12,10 @@ namespace sampled_data_observers {
 ///   P ← Φ P Φᵀ + Q_Δ,  Φ = e^{AΔ},  Q_Δ = ∫₀^Δ e^{As} Q e^{Aᵀs} ds.
 ///
 /// As in LinearFlow, Φ and Q_Δ of every base-64 digit of a duration are tabulated, computed in
-/// extended precision. The tables hold 1408 n² doubles: 180 kB for n = 4, 2.5 MB for n = 15.
+/// extended precision; of Φ those entries only that may differ from zero, since there is a path of
+/// entries of A from one state to the other. The tables hold 1276 n² doubles at most, with n
+/// rounded up to a multiple of 4 for rows of Q_Δ: 160 kB for n = 4, 2.4 MB for n = 15. Copies share
+/// them.
 class CovarianceFlow {
  public:
   /// @param A  n x n
@@ -19,15 +23,22 @@ class CovarianceFlow {
   /// @throws std::invalid_argument for sizes that do not fit or entries that are not finite.
   CovarianceFlow(const Eigen::MatrixXd& A, const Eigen::MatrixXd& Q);
 
-  /// Carries P (n x n, symmetric to the bit, and so again afterwards) over `duration` >= 0.
-  /// `scratch`: n² entries that do not overlap it.
+  /// Number of entries of the scratch memory of apply(), for n states.
+  static Eigen::Index scratch_size(Eigen::Index n);
+
+  /// Carries P (n x n, symmetric to the bit, and so again afterwards) over `duration` >= 0. Where
+  /// that overflows, or an entry of P is not finite, not all of P is finite afterwards.
+  /// `scratch`: scratch_size(n) entries that do not overlap it.
   void apply(Duration duration, double* P, double* scratch) const;
 
  private:
-  std::size_t block() const { return static_cast<std::size_t>(2 * states_ * states_); }
+  std::size_t block() const;
 
   Eigen::Index states_;
-  /// [Φ Q_Δ] of each digit, column-major: see digit_tables().
+  /// Where Φ may differ from zero: as SparseRows.
+  std::vector<std::int32_t> row_begins_;
+  std::vector<std::int32_t> offsets_;
+  /// Of each digit: these entries of Φ, then Q_Δ, column-major with padded columns.
   std::vector<double> tables_;
 };
 

@@ -1,29 +1,24 @@
 #include "sampled_data_observers/plant/linear_flow.h"
 
+#include <limits>
 #include <stdexcept>
-#include <utility>
 
 #include "linear_algebra/digit_tables.h"
+#include "linear_algebra/kernels.h"
 #include "linear_algebra/transition_matrix.h"
-#include "sampled_data_observers/linear_algebra/ordered_product.h"
 
 namespace sampled_data_observers {
 namespace {
 
-/// The transition of (x, u, 1), of which the rows of x are wanted.
-struct AffineStep : Transition {
-  AffineStep(Transition transition, Eigen::Index states)
-      : Transition(std::move(transition)), states(states) {}
-
-  void write(double* table) const {
-    Eigen::Map<Eigen::MatrixXd>(table, states, full.cols()) = full.topRows(states).cast<double>();
-  }
-
-  Eigen::Index states;
-};
-
-AffineStep compose(const AffineStep& first, const AffineStep& second) {
-  return {compose(static_cast<const Transition&>(first), second), first.states};
+ExtendedMatrix generator_of(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B,
+                            const Eigen::VectorXd& c) {
+  const Eigen::Index n = A.rows();
+  const Eigen::Index columns = n + B.cols() + (c.size() > 0 ? 1 : 0);
+  ExtendedMatrix generator = ExtendedMatrix::Zero(columns, columns);
+  generator.topLeftCorner(n, n) = A.cast<long double>();
+  generator.block(0, n, n, B.cols()) = B.cast<long double>();
+  if (c.size() > 0) generator.topRightCorner(n, 1) = c.cast<long double>();
+  return generator * 1e-9L;
 }
 
 }  // namespace
@@ -43,33 +38,29 @@ LinearFlow::LinearFlow(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B, const
     throw std::invalid_argument("LinearFlow: A and B must be finite");
   }
   if (!c.allFinite()) throw std::invalid_argument("LinearFlow: c must be finite");
-  const Eigen::Index columns = states_ + inputs_ + (has_constant_ ? 1 : 0);
-  ExtendedMatrix generator = ExtendedMatrix::Zero(columns, columns);
-  generator.topLeftCorner(states_, states_) = A.cast<long double>();
-  generator.block(0, states_, states_, inputs_) = B.cast<long double>();
-  if (has_constant_) generator.topRightCorner(states_, 1) = c.cast<long double>();
-  generator *= 1e-9L;
-  const AffineStep none(Transition(ExtendedMatrix::Zero(columns, columns)), states_);
-  const auto unit = [&](long double scale) {
-    return AffineStep(exponential(generator * scale), states_);
+  const ExtendedMatrix generator = generator_of(A, B, c);
+  const Eigen::Index columns = generator.cols();
+  const Eigen::Index rows = padded(states_);
+  const auto unit = [&](long double scale) { return exponential(generator * scale); };
+  // Of the transition of (x, u, 1) the rows of x are wanted.
+  const auto write = [&](const Transition& step, double* block) {
+    Eigen::Map<Eigen::MatrixXd>(block, rows, columns).topRows(states_) =
+        step.full.topRows(states_).cast<double>();
   };
-  tables_ = digit_tables(static_cast<std::size_t>(states_ * columns), none, unit);
+  tables_ = digit_tables(static_cast<std::size_t>(rows * columns),
+                         Transition(ExtendedMatrix::Zero(columns, columns)), unit, write);
 }
 
 void LinearFlow::apply(Duration duration, double* x, const double* u, double* scratch) const {
   const Eigen::Index columns = states_ + inputs_ + (has_constant_ ? 1 : 0);
-  const auto block = static_cast<std::size_t>(states_ * columns);
-  for_each_digit(duration, tables_, block, [&](const double* M) {
-    // Loops, not fill_n and copy_n: these call the C library, which takes longer than the product.
-    for (Eigen::Index i = 0; i < states_; ++i) scratch[i] = 0.0;
-    add_product(M, states_, states_, x, scratch);
-    add_product(M + states_ * states_, states_, inputs_, u, scratch);
-    if (has_constant_) {
-      const double* gamma = M + states_ * (states_ + inputs_);
-      for (Eigen::Index i = 0; i < states_; ++i) scratch[i] += gamma[i];
-    }
-    for (Eigen::Index i = 0; i < states_; ++i) x[i] = scratch[i];
-  });
+  DigitBlocks blocks;
+  if (!find_digits(duration, tables_, static_cast<std::size_t>(padded(states_) * columns),
+                   blocks)) {
+    for (Eigen::Index i = 0; i < states_; ++i) x[i] = std::numeric_limits<double>::quiet_NaN();
+  } else if (blocks.count > 0) {
+    const Kernels::LinearFlow flow = kernels().linear_flow[states_ <= kPanelRows ? states_ : 0];
+    flow(blocks.of, blocks.count, {states_, inputs_, has_constant_}, u, x, scratch);
+  }
 }
 
 void LinearFlow::transition(Duration duration, double* E, double* scratch) const {

@@ -12,7 +12,7 @@ namespace sampled_data_observers {
 namespace {
 
 Eigen::MatrixXd flowed(const CovarianceFlow& flow, Duration duration, Eigen::MatrixXd P) {
-  Eigen::MatrixXd scratch(P.rows(), P.cols());
+  Eigen::VectorXd scratch(CovarianceFlow::scratch_size(P.rows()));
   flow.apply(duration, P.data(), scratch.data());
   return P;
 }
@@ -163,7 +163,7 @@ TEST(CovarianceFlowTest, AllocatesNothing) {
   const Case c = stable();
   const CovarianceFlow flow(c.A, c.Q);
   Eigen::MatrixXd P = c.P;
-  Eigen::MatrixXd scratch(2, 2);
+  Eigen::VectorXd scratch(CovarianceFlow::scratch_size(2));
   const std::size_t before = test::allocations();
   flow.apply(123456789, P.data(), scratch.data());
   EXPECT_EQ(before, test::allocations());
