@@ -18,6 +18,7 @@
 #include "files/output_file.h"
 #include "messages/plant_plugins.h"
 #include "replay/plot.h"
+#include "replay/report/beside_run.h"
 #include "replay/report/report_data.h"
 #include "replay/report/report_page.h"
 
@@ -41,6 +42,7 @@ struct Arguments {
   std::string json;
   std::string plot;
   std::string report;
+  std::vector<std::string> beside;
 };
 
 std::map<std::string, std::string> parse_fields(const std::vector<std::string>& assignments) {
@@ -89,7 +91,12 @@ sdo::ReplayOptions options_of(const Arguments& arguments) {
   options.from = arguments.from.value_or(options.from);
   options.to = arguments.to.value_or(options.to);
   if (options.from > options.to) throw sdo::UsageError("--from", "must not be later than --to");
+  if (!arguments.beside.empty() &&
+      (arguments.report.empty() || (options.truth_topic.empty() && !options.thinning))) {
+    throw sdo::UsageError("--beside", "needs --report and a truth, by --truth or --thin");
+  }
   std::vector<sdo::GivenFile> inputs = sdo::given_files("CONFIG", arguments.config);
+  for (const std::string& path : arguments.beside) inputs.push_back({"--beside", path});
   inputs.push_back({"BAG", options.bag});
   sdo::refuse_overwriting(inputs, {{"--output", options.output},
                                    {"--json", arguments.json},
@@ -98,12 +105,42 @@ sdo::ReplayOptions options_of(const Arguments& arguments) {
   return options;
 }
 
+struct Beside {
+  std::string gains;
+  sdo::ObserverConfig config;
+};
+
+/// All configurations, so that a fault in one is told of before any run.
+std::vector<Beside> configurations_beside(const Arguments& arguments) {
+  std::vector<Beside> all;
+  for (const std::string& gains : arguments.beside) {
+    all.push_back({gains, sdo::read_observer_config(sdo::with_gains(arguments.config, gains),
+                                                    sdo::load_plant_plugin)});
+  }
+  return all;
+}
+
+void write_report(const Arguments& arguments, sdo::ReplayOptions options,
+                  const sdo::ObserverConfig& config, const sdo::ReplaySummary& summary,
+                  const sdo::RunRecord& record, const std::vector<Beside>& beside) {
+  options.output.clear();
+  std::vector<sdo::BesideRun> runs;
+  for (const Beside& other : beside) {
+    sdo::BesideRun& run = runs.emplace_back();
+    run.name = other.gains.substr(other.gains.rfind('/') + 1);
+    run.summary = sdo::replay(other.config, options, &run.record);
+  }
+  const nlohmann::json data = sdo::report_data(config, arguments.config, summary, record, runs);
+  sdo::write_output(arguments.report, sdo::report_page(data));
+}
+
 int replay(const Arguments& arguments) {
   const sdo::ReplayOptions options = options_of(arguments);
   const sdo::ObserverConfig config =
       sdo::read_observer_config(arguments.config, sdo::load_plant_plugin);
   if (!config.warning.empty()) std::cerr << "replay: " << config.warning << "\n";
   for (const std::string& warning : config.warnings) std::cerr << "replay: " << warning << "\n";
+  const std::vector<Beside> beside = configurations_beside(arguments);
   sdo::RunRecord record;
   const sdo::ReplaySummary summary =
       sdo::replay(config, options, arguments.report.empty() ? nullptr : &record);
@@ -111,8 +148,7 @@ int replay(const Arguments& arguments) {
   if (!arguments.json.empty()) sdo::write_json(summary, arguments.json);
   if (!arguments.plot.empty()) sdo::draw_plot(summary, arguments.plot);
   if (!arguments.report.empty()) {
-    const nlohmann::json data = sdo::report_data(config, arguments.config, summary, record);
-    sdo::write_output(arguments.report, sdo::report_page(data));
+    write_report(arguments, options, config, summary, record, beside);
   }
   if (summary.is_guarantee_broken()) return kGuaranteeBroken;
   return summary.diverged.empty() ? 0 : kDiverged;
@@ -154,6 +190,9 @@ void declare(Arguments& arguments, sdo::CommandLine& tool) {
   tool.option("--report FILE", arguments.report,
               "Write a page for a browser into this file: verdict, errors and bounds, events, "
               "configuration");
+  tool.option("--beside FILE...", arguments.beside,
+              "Show in the report what this gain file would have done instead of that of CONFIG; "
+              "may be given several times");
   tool.option("--json FILE", arguments.json, "Write the summary for machines into this file");
 }
 

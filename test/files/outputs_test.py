@@ -79,6 +79,7 @@ class OutputsTest(FolderTest):
             (["simulate", self.plant, "-o"], "out.bag", 8192),
             (self.replay("-o"), "out.bag", 8192),
             (self.replay("--json"), "out.json", 512),
+            (self.replay("--report"), "out.html", 4096),
             *((self.replay("--plot"), picture, 4096) for picture in pictures),
             (self.synthesize("-o"), "out.yaml", 512),
             (["design", "analyze", gains, "--objective", "feasible", "-o"], "out.yaml", 512),

@@ -176,6 +176,23 @@ class ReportTest(FolderTest):
         self.assertEqual(data["verdict"][0]["level"], "open")
         self.assertNotIn("norm", data)
 
+    def test_other_gains_are_shown_beside(self):
+        self.simulate(CART)
+        slow = self.write("slow.yaml", OBSERVER.replace("[[0.5], [0.5]]", "[[0.1], [0.1]]"))
+        self.replay(OBSERVER, "--truth", "truth", "--beside", slow, "--beside", self.path("observer.yaml"))
+        data = self.report()
+        self.assertEqual([other["name"] for other in data["beside"]], ["slow.yaml", "observer.yaml"])
+        self.assertEqual(data["beside"][1]["errors"], data["errors"])
+        slower = data["beside"][0]["errors"][-1]
+        self.assertEqual(slower["name"], "norm")
+        self.assertGreater(slower["rmse"], 1.5 * data["errors"][-1]["rmse"])
+        self.assertAlmostEqual(max(values_of(data["beside"][0]["norm"]["low"])), slower["largest"], delta=1e-5)
+        self.assertRegex(data["verdict"][-2]["text"], "^With slow.yaml instead: RMSE [0-9.]+, [0-9.]+ times")
+        self.assertIn(", 1 times that", data["verdict"][-1]["text"])
+        _, text = self.run_tool("replay", self.path("run.bag"), self.path("scenario.yaml"), self.path("observer.yaml"),
+                                "--beside", slow)
+        self.assertIn("--beside: needs --report and a truth", text)
+
     def test_jumps_and_angles(self):
         self.simulate(BOUNCING)
         self.replay(OBSERVER.replace("0.12", "0.2").replace("400000", "3"), "--truth", "truth")

@@ -19,8 +19,6 @@ using Json = nlohmann::json;
 /// Of four bytes each, which base64 makes a third longer: 6.4 MB.
 constexpr std::size_t kMostValues = 1'200'000;
 
-Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
-
 const char* name_of(FindingLevel level) {
   switch (level) {
     case FindingLevel::kGood:
@@ -105,43 +103,6 @@ Json columns_of(const RunRecord& record, const PackedTime& time, std::size_t str
   return columns;
 }
 
-Json figures_of(const std::string& name, const ErrorFigures& errors,
-                const std::optional<double>& rmse, const std::optional<double>& hold_rmse) {
-  return {{"name", name},
-          {"rmse", or_null(rmse)},
-          {"hold_rmse", or_null(hold_rmse)},
-          {"largest", or_null(errors.largest)},
-          {"settling_time", or_null(errors.settling_time)},
-          {"settled_within", or_null(errors.settled_within)}};
-}
-
-Json bound_of(std::size_t stamps, std::size_t exceeded, const std::optional<double>& share) {
-  return {{"finite", stamps}, {"exceeded", exceeded}, {"largest_share", or_null(share)}};
-}
-
-/// In the order of the model, then the norm.
-Json error_table(const ReplaySummary& summary, const RunRecord& record, const ErrorFigures& norm) {
-  Json rows = Json::array();
-  if (summary.compared.empty()) return rows;
-  for (const RunRecord::Column& column : record.columns) {
-    if (!column.compared) continue;
-    const std::size_t i = *column.compared;
-    rows.push_back(figures_of(summary.compared[i],
-                              error_figures(record.compared, record.compared.errors[i]),
-                              summary.rmse[i], summary.hold_rmse[i]));
-    if (summary.bounded) {
-      const ReplaySummary::StateBound& bound = summary.state_bounds[i];
-      rows.back()["bound"] = bound_of(bound.stamps, bound.exceeded, bound.share);
-    }
-  }
-  rows.push_back(figures_of("norm", norm, summary.rmse_norm, summary.hold_rmse_norm));
-  if (summary.bounded) {
-    rows.back()["bound"] =
-        bound_of(summary.bound_stamps, summary.bound_exceeded, summary.bound_share);
-  }
-  return rows;
-}
-
 /// Where the number of jumps, or the mode, changes from one estimate to the next.
 Json changes_of(const RunRecord::Estimates& estimates, const PackedTime& time) {
   std::vector<Stamp> stamps;
@@ -157,6 +118,21 @@ Json changes_of(const RunRecord::Estimates& estimates, const PackedTime& time) {
     if (!estimates.modes.empty()) modes.push_back(estimates.modes[i]);
   }
   return {{"times", packed(stamps, time)}, {"jumps", packed(jumps)}, {"modes", modes}};
+}
+
+/// Their errors, and how the norms of these went.
+Json runs_beside(const std::vector<BesideRun>& runs, const PackedTime& time) {
+  constexpr std::size_t kMostOfRun = 100'000;
+  Json all = Json::array();
+  for (const BesideRun& run : runs) {
+    const RunRecord::Compared& compared = run.record.compared;
+    const ThinnedSeries thinned(std::max<std::size_t>(1, 3 * compared.stamps.size() / kMostOfRun));
+    all.push_back({{"name", run.name},
+                   {"errors", error_table(run.summary, run.record)},
+                   {"times", thinned.times(compared.stamps, time)},
+                   {"norm", thinned.values(compared.norms)}});
+  }
+  return all;
 }
 
 /// From the first to the last stamp that the summary counts [s]; null where it counts all, or none.
@@ -182,7 +158,8 @@ Json position_of(const ObserverConfig& config) {
 }  // namespace
 
 nlohmann::json report_data(const ObserverConfig& config, const std::vector<std::string>& files,
-                           const ReplaySummary& summary, const RunRecord& record) {
+                           const ReplaySummary& summary, const RunRecord& record,
+                           const std::vector<BesideRun>& beside) {
   const PackedTime time = time_of(record);
   const std::size_t stride = stride_of(record);
   const ThinnedSeries thinned(stride);
@@ -190,6 +167,10 @@ nlohmann::json report_data(const ObserverConfig& config, const std::vector<std::
 
   Json verdict = Json::array();
   for (const Finding& finding : verdict_of(summary, norm, config.warning)) {
+    verdict.push_back({{"level", name_of(finding.level)}, {"text", finding.text}});
+  }
+  for (const BesideRun& other : beside) {
+    const Finding finding = finding_beside(other.name, other.summary, summary);
     verdict.push_back({{"level", name_of(finding.level)}, {"text", finding.text}});
   }
   std::vector<Stamp> jumps;
@@ -204,7 +185,8 @@ nlohmann::json report_data(const ObserverConfig& config, const std::vector<std::
       {"time_unit", to_seconds(time.unit)},
       {"stride", stride},
       {"period", to_seconds(config.period)},
-      {"errors", error_table(summary, record, norm)},
+      {"errors", error_table(summary, record)},
+      {"beside", runs_beside(beside, time)},
       {"estimate_times", thinned.times(record.estimates.stamps, time)},
       {"columns", columns_of(record, time, stride)},
       {"changes", changes_of(record.estimates, time)},

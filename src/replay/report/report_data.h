@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "replay/report/beside_run.h"
 #include "replay/report/run_record.h"
 #include "replay/summary.h"
 #include "sampled_data_observers/config/observer_config.h"
@@ -15,9 +16,11 @@ namespace sampled_data_observers {
 ///
 /// Of a long run, estimates and what is compared are thinned (ThinnedSeries), and events that were
 /// used as they should left out, so that the page stays below 15 MB.
-/// @param files  the configuration's, as given
+/// @param files   the configuration's, as given
+/// @param beside  replays of the same bag with other gains
 /// @throws OutputError where one of them can't be read any more
 nlohmann::json report_data(const ObserverConfig& config, const std::vector<std::string>& files,
-                           const ReplaySummary& summary, const RunRecord& record);
+                           const ReplaySummary& summary, const RunRecord& record,
+                           const std::vector<BesideRun>& beside);
 
 }  // namespace sampled_data_observers

@@ -1,10 +1,11 @@
 #pragma once
 
-#include <cstddef>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <vector>
 
 #include "replay/report/run_record.h"
+#include "replay/summary.h"
 
 namespace sampled_data_observers {
 
@@ -23,5 +24,9 @@ struct ErrorFigures {
 /// @param compared  what was compared
 /// @param errors    one entry for each of its stamps
 ErrorFigures error_figures(const RunRecord::Compared& compared, const std::vector<double>& errors);
+
+/// What there is to say of the error of each quantity compared, in the order of the model, then of
+/// their norm. Nothing where nothing was compared.
+nlohmann::json error_table(const ReplaySummary& summary, const RunRecord& record);
 
 }  // namespace sampled_data_observers

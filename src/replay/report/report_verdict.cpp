@@ -5,6 +5,8 @@
 #include <iomanip>
 #include <sstream>
 
+#include "sampled_data_observers/runtime/event_outcome.h"
+
 namespace sampled_data_observers {
 namespace {
 
@@ -139,7 +141,11 @@ Finding of_events(const ReplaySummary& summary) {
   if (summary.missing_jumps > 0) what += sentence(", ", summary.missing_jumps, " more made up");
   if (summary.skipped_jumps > 0) what += sentence(", ", summary.skipped_jumps, " lost");
   std::size_t rejected = 0;
-  for (const auto& [reason, count] : summary.rejected) rejected += count;
+  std::size_t lost = 0;  // of these: not known already
+  for (const auto& [reason, count] : summary.rejected) {
+    rejected += count;
+    if (reason != describe(EventOutcome::kDuplicate)) lost += count;
+  }
   what += sentence("; ", rejected, " rejected");
   for (const auto& [reason, count] : summary.rejected) {
     what +=
@@ -148,7 +154,7 @@ Finding of_events(const ReplaySummary& summary) {
   if (summary.samples_withheld > 0) {
     what += sentence("; ", summary.samples_withheld, " samples withheld by thinning");
   }
-  return {rejected > 0 ? FindingLevel::kWarning : FindingLevel::kGood, what};
+  return {lost > 0 ? FindingLevel::kWarning : FindingLevel::kGood, what};
 }
 
 }  // namespace
@@ -175,6 +181,25 @@ std::vector<Finding> verdict_of(const ReplaySummary& summary, const ErrorFigures
   if (summary.intervals().count > 0) findings.push_back(of_intervals(summary));
   findings.push_back(of_events(summary));
   return findings;
+}
+
+Finding finding_beside(const std::string& name, const ReplaySummary& other,
+                       const ReplaySummary& own) {
+  std::string what = "With " + name + " instead: ";
+  if (!other.diverged.empty()) what += "DIVERGED; ";
+  if (!other.rmse_norm || !own.rmse_norm) return {FindingLevel::kOpen, what + "no truth"};
+  what += sentence("RMSE ", *other.rmse_norm);
+  if (*own.rmse_norm > 0.0) {
+    what += sentence(", ", *other.rmse_norm / *own.rmse_norm, " times that of this report's gains");
+  }
+  if (other.bound_stamps > 0) {
+    const Exceeded found = exceeded(other);
+    what += sentence("; its guaranteed bound ",
+                     found.stamps == 0 ? std::string("held at each")
+                                       : sentence("was exceeded at ", found.stamps),
+                     " of ", other.bound_stamps, " stamps");
+  }
+  return {FindingLevel::kOpen, what};
 }
 
 }  // namespace sampled_data_observers

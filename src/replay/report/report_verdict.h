@@ -25,4 +25,8 @@ struct Finding {
 std::vector<Finding> verdict_of(const ReplaySummary& summary, const ErrorFigures& norm,
                                 const std::string& warning);
 
+/// What other gains would have done, beside those that the report is about.
+Finding finding_beside(const std::string& name, const ReplaySummary& other,
+                       const ReplaySummary& own);
+
 }  // namespace sampled_data_observers

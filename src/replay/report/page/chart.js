@@ -87,6 +87,13 @@ class Figure {
     if (["points", "marks"].includes(layer.kind)) swatch.style.width = layer.kind === "points" ? "8px" : "2px";
     if (layer.kind === "points") swatch.style.height = "8px";
     if (layer.marker === "dot") swatch.style.borderRadius = "50%";
+    if (layer.marker === "diamond") swatch.style.transform = "rotate(45deg)";
+    if (layer.marker === "cross") {
+      swatch.style.background = "none";
+      swatch.style.color = `var(--${layer.colour})`;
+      swatch.className = "cross";
+      swatch.textContent = "✕";
+    }
     layer.readout = element("span", {className: "value"});
     const key = element("button", {className: "key" + (layer.isHidden ? " off" : ""), type: "button"},
                         swatch, layer.label, layer.readout);

@@ -175,20 +175,31 @@ function normSection() {
     layers.push({kind: "line", series: bound, colour: "hold", width: 1.8, label: "guaranteed bound"});
   }
   layers.push({kind: "line", series: norm, colour: "error", label: "norm of the error"});
+  data.beside.forEach((other, i) => {
+    layers.push({kind: "line", series: new Series(unpackTimes(other.times), other.norm), width: 1.1,
+                 colour: "series-" + ((i + 1) % 5), label: "with " + other.name});
+  });
   const made = section("norm", "Norm of the error", "", "Norm");
   grid(made, [new Chart("Norm of the error", {range: run.range, layers, log: true, hasLog: true, height: 260})]);
 }
 
 function innovationsSection() {
-  const {innovation, source, arrival, latency} = run.events;
+  const {innovation, source, outcome, arrival, latency} = run.events;
   const times = arrival.map((time, i) => time - latency[i]);
   const charts = data.events.sources.flatMap((name, place) => {
     const used = [];
-    innovation.forEach((value, i) => { if (source[i] === place && Number.isFinite(value)) used.push(i); });
-    if (used.length === 0) return [];
-    const layers = [...modesLayer(), ...jumpsLayer(),
-                    pointsLayer(times, innovation, used, {label: "|y − h(x̂)|", colour: "used", marker: "dot"})];
-    return [new Chart(name, {range: run.range, layers, hasLog: true})];
+    const notUsed = [];
+    innovation.forEach((value, i) => {
+      if (source[i] !== place || !Number.isFinite(value)) return;
+      (outcome[i] === OUTCOME.used || outcome[i] === OUTCOME.usedLate ? used : notUsed).push(i);
+    });
+    const points = [
+      pointsLayer(times, innovation, used, {label: "used", colour: "used", marker: "dot"}),
+      pointsLayer(times, innovation, notUsed, {label: "gated or without effect", colour: "gated", marker: "cross"}),
+    ].filter((layer) => layer.times.length > 0);
+    if (points.length === 0) return [];
+    const layers = [...modesLayer(), ...jumpsLayer(), ...points];
+    return [new Chart(`${name}: |y − h(x̂)|`, {range: run.range, layers, hasLog: true})];
   });
   if (charts.length === 0) return;
   grid(section("innovations", "Innovations",

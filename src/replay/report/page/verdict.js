@@ -13,6 +13,25 @@ function cell(value, className = "") {
   return element("td", {className, textContent: value});
 }
 
+/** What other gains would have done: root mean squares, and what is said of the norm. */
+function besideTable() {
+  const names = data.errors.map((row) => row.name);
+  const heads = [...names.map((name) => `RMSE of ${name}`), "largest norm", "settled after [s]", "largest share of the bound"];
+  const table = element("table", {}, element("thead", {}, element("tr", {}, element("th", {className: "text", textContent: "gains"}),
+    ...heads.map((head) => element("th", {textContent: head})))));
+  const body = element("tbody");
+  for (const {name, errors} of [{name: "these", errors: data.errors}, ...data.beside]) {
+    const norm = errors[errors.length - 1];
+    const share = norm.bound ? Math.max(...errors.map((row) => row.bound.largest_share ?? 0)) : null;
+    body.append(element("tr", {}, cell(name, "text"), ...errors.map((row) => cell(shortNumber(row.rmse))),
+                        cell(shortNumber(norm.largest)),
+                        cell(norm.settling_time === 0 ? "at once" : shortNumber(norm.settling_time)),
+                        cell(share === null ? "–" : shortNumber(100 * share, 3) + " %", share > 1 ? "bad" : "")));
+  }
+  table.append(body);
+  return element("div", {className: "scroll"}, table);
+}
+
 function errorsSection() {
   if (data.errors.length === 0) return;
   const made = section("errors", "Errors", "Over the stamps that are counted. Settled: from when on, after the first stamp "
@@ -39,4 +58,7 @@ function errorsSection() {
   }
   table.append(body);
   made.append(element("div", {className: "scroll"}, table));
+  if (data.beside.length > 0) {
+    made.append(element("p", {className: "note", textContent: "Beside other gains, on the same bag:"}), besideTable());
+  }
 }
