@@ -185,7 +185,7 @@ class ReportTest(FolderTest):
         self.assertEqual(data["beside"][1]["errors"], data["errors"])
         slower = data["beside"][0]["errors"][-1]
         self.assertEqual(slower["name"], "norm")
-        self.assertGreater(slower["rmse"], 1.5 * data["errors"][-1]["rmse"])
+        self.assertGreater(slower["rmse"], 1.2 * data["errors"][-1]["rmse"])
         self.assertAlmostEqual(max(values_of(data["beside"][0]["norm"]["low"])), slower["largest"], delta=1e-5)
         self.assertRegex(data["verdict"][-2]["text"], "^With slow.yaml instead: RMSE [0-9.]+, [0-9.]+ times")
         self.assertIn(", 1 times that", data["verdict"][-1]["text"])
