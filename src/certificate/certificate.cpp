@@ -93,6 +93,10 @@ GuaranteedFigure Theorem::decay_figure(const NamedMatrices& values) const {
 void require_subject(const Theorem& theorem, const CertificateSubject& subject) {
   require_times(theorem.times(), subject);
   if (!theorem.takes_several_sensors()) require_one_sensor(subject);
+  if (!theorem.takes_flow_vertices() && !subject.plant.flow_vertices.empty()) {
+    throw std::invalid_argument(
+        "it is about flows with one linear part A, not about plant/jacobian_vertices");
+  }
   theorem.require_applicable(subject);
 }
 

@@ -125,6 +125,9 @@ class Theorem {
   /// Whether it is about plants of several sensors that are sampled independently of each other.
   virtual bool takes_several_sensors() const { return false; }
 
+  /// Whether it is about flows whose linear part is anywhere in a hull (flow_vertices).
+  virtual bool takes_flow_vertices() const { return false; }
+
   /// @throws std::invalid_argument saying why, for a plant or times [T1, T2] that it is not about.
   virtual void require_applicable(const CertificateSubject& subject) const = 0;
 

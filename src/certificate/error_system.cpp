@@ -103,9 +103,11 @@ ErrorSystem corrected_by_injection(const CertificateSubject& subject, double sig
 }  // namespace
 
 std::vector<MatrixExpression> plant_flows(const PlantMatrices& plant) {
+  std::vector<MatrixExpression> flows;
+  for (const Eigen::MatrixXd& vertex : plant.flow_vertices) flows.emplace_back(vertex);
+  if (!flows.empty()) return flows;
   const MatrixExpression A = plant.A();
   if (plant.vertices.empty()) return {A};
-  std::vector<MatrixExpression> flows;
   for (const Eigen::MatrixXd& vertex : plant.vertices) flows.push_back(A + vertex);
   return flows;
 }

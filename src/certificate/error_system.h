@@ -53,8 +53,9 @@ struct ErrorSystem {
 bool has_Z(const CertificateSubject& subject, const TensorGrid& grid, std::size_t sensor,
            std::size_t node);
 
-/// What the plant's own flow is in the convex hull of, n x n each: A, or A + Ψ_v with each vertex,
-/// formulas since the sum of doubles is rounded.
+/// What the linear part of the plant's own flow is in the convex hull of, n x n each: A, the flow's
+/// vertices, or A + Ψ_v with each vertex of the nonlinearity, formulas since the sum of doubles is
+/// rounded.
 std::vector<MatrixExpression> plant_flows(const PlantMatrices& plant);
 
 /// "L", or "L/gps" where there are several sensors.

@@ -5,6 +5,7 @@
 
 #include "plant/bounded_slope_map.h"
 #include "plant/lipschitz_map.h"
+#include "plant/polytopic_map.h"
 
 namespace sampled_data_observers {
 namespace {
@@ -29,6 +30,12 @@ Eigen::MatrixXd stacked_outputs(const Plant& plant, const PlantMode& mode, Senso
     row += sensor.outputs();
   }
   return stacked;
+}
+
+Eigen::MatrixXd mean_of(const std::vector<Eigen::MatrixXd>& matrices) {
+  Eigen::MatrixXd sum = matrices.front();
+  for (std::size_t i = 1; i < matrices.size(); ++i) sum += matrices[i];
+  return sum / static_cast<double>(matrices.size());
 }
 
 std::vector<SampledOutputs> sampled_outputs(const Plant& plant) {
@@ -108,6 +115,16 @@ PlantMatrices matrices_of(const Plant& plant, const StatedErrorMaps& stated) {
       result.S = description.S;
       result.lipschitz_constant = description.lipschitz_constant;
       result.vertices = description.vertices;
+    } else if (const auto* polytopic = dynamic_cast<const PolytopicMap*>(mode.flow.get())) {
+      if (plant.switches()) {
+        throw std::invalid_argument("the conditions are about switched plants with linear flows");
+      }
+      const PolytopicDescription& description = polytopic->description();
+      result.flow_vertices = description.vertices;
+      matrices.A = mean_of(description.vertices);
+      result.G = description.G;
+      result.S = description.S;
+      if (result.G.cols() > 0) result.lipschitz_constant = description.lipschitz_constant;
     } else {
       matrices.A = affine(*mode.flow, "the flow").M();
     }

@@ -65,9 +65,12 @@ struct PlantMatrices {
   /// Of a plant that does not switch; without A_d where the jump map is no matrix.
   std::optional<LipschitzJump> lipschitz_jump;
   std::vector<Eigen::MatrixXd> vertices;  ///< n x n each
-  Eigen::MatrixXd N;                      ///< n x n_w; no columns without disturbance
-  Eigen::MatrixXd C_p;                    ///< n_p x n; no rows without performance output
-  StatedErrorMaps stated;                 ///< which of A and A_d are not the plant's own
+  /// Of a flow by formulas, n x n each: A may be anything in their convex hull, at any time. The
+  /// mode's A is their mean then.
+  std::vector<Eigen::MatrixXd> flow_vertices;
+  Eigen::MatrixXd N;       ///< n x n_w; no columns without disturbance
+  Eigen::MatrixXd C_p;     ///< n_p x n; no rows without performance output
+  StatedErrorMaps stated;  ///< which of A and A_d are not the plant's own
 
   const ModeMatrices& mode() const { return modes.front(); }
   const Eigen::MatrixXd& A() const { return mode().A; }

@@ -71,6 +71,7 @@ std::string proof_fingerprint(const Certificate& certificate) {
     text.add("J", jump->J);
   }
   for (const Eigen::MatrixXd& vertex : plant.vertices) text.add("vertex", vertex);
+  for (const Eigen::MatrixXd& vertex : plant.flow_vertices) text.add("flow vertex", vertex);
   text.add("N", plant.N);
   text.add("C_p", plant.C_p);
   for (const auto& [name, value] : certificate.values) text.add("value " + name, value);

@@ -16,6 +16,7 @@ class TimerDependentTheorem : public Theorem {
   std::vector<std::string> unlimited_multipliers(const CertificateSubject& subject) const override;
   std::vector<NamedShape> parameters(const CertificateSubject& subject) const override;
   std::string decay_parameter() const override { return "lambda_t"; }
+  bool takes_flow_vertices() const override { return true; }
   bool is_homogeneous(const CertificateSubject& subject) const override {
     return subject.plant.N.cols() == 0;
   }

@@ -8,6 +8,7 @@
 #include "config/number_text.h"
 #include "plant/bounded_slope_map.h"
 #include "plant/lipschitz_map.h"
+#include "plant/polytopic_map.h"
 
 namespace sampled_data_observers {
 namespace {
@@ -106,16 +107,24 @@ std::optional<Contradiction> refute_constant(const VectorMap& map, double consta
 
 /// A vector w for which w·d is larger than all w·corner (one column each) by more than `blurred`
 /// per unit of |w|; nothing where none is found. Gilbert's algorithm for the nearest point.
+/// @param spread  what may be added to all corners: spread φ with |φ| <= 1
 std::optional<Vector> separating_direction(const Eigen::MatrixXd& corners, const Vector& d,
-                                           double blurred) {
+                                           double blurred,
+                                           const Eigen::MatrixXd& spread = Eigen::MatrixXd()) {
   Vector nearest = corners.rowwise().mean();
   for (int step = 0; step < 60; ++step) {
     const Vector w = d - nearest;
     if (w.norm() <= blurred) return std::nullopt;
     Eigen::Index corner = 0;
-    const double support = (corners.transpose() * w).maxCoeff(&corner);
+    double support = (corners.transpose() * w).maxCoeff(&corner);
+    Vector farthest = corners.col(corner);
+    if (spread.cols() > 0) {
+      const Vector along = spread.transpose() * w;
+      support += along.norm();
+      if (along.norm() > 0.0) farthest += spread * along.normalized();
+    }
     if (w.dot(d) - support > blurred * w.norm()) return w;
-    const Vector towards = corners.col(corner) - nearest;
+    const Vector towards = farthest - nearest;
     const double length = towards.squaredNorm();
     if (length == 0.0) return std::nullopt;
     nearest += std::clamp(w.dot(towards) / length, 0.0, 1.0) * towards;
@@ -148,6 +157,41 @@ std::optional<Contradiction> refute_vertices(const LipschitzDescription& map, co
                           " in the convex hull of all Psi_i (x - x^), at x = " + in_digits(pair.a) +
                           ", x^ = " + in_digits(pair.b) + with_input(pair.u) + kEverywhere,
                       std::to_string(map.vertices.size()) + " whose hull lacks it"};
+    return true;
+  });
+  return found;
+}
+
+std::optional<Contradiction> refute_flow_vertices(const PolytopicMap& map, const Vector& centre,
+                                                  Eigen::Index inputs) {
+  const PolytopicDescription& description = map.description();
+  std::optional<Contradiction> found;
+  visit_pairs(centre, inputs, [&](const Pair& pair) {
+    const Vector error = pair.a - pair.b;
+    const Vector f_a = value_of(map, pair.a, pair.u);
+    const Vector f_b = value_of(map, pair.b, pair.u);
+    const Vector d = f_a - f_b;
+    if (!d.allFinite()) return false;
+    Eigen::MatrixXd corners(d.size(), static_cast<Eigen::Index>(description.vertices.size()));
+    double slope = 0.0;
+    for (std::size_t i = 0; i < description.vertices.size(); ++i) {
+      corners.col(static_cast<Eigen::Index>(i)) = description.vertices[i] * error;
+      slope = std::max(slope, description.vertices[i].norm());
+    }
+    const double blurred =
+        kTolerance * (slope * error.norm()) +
+        kRounding * (f_a.norm() + f_b.norm() + slope * (pair.a.norm() + pair.b.norm()));
+    const Eigen::MatrixXd spread =
+        description.lipschitz_constant * (description.S * error).norm() * description.G;
+    if (!separating_direction(corners, d, blurred, spread)) return false;
+    found = Contradiction{
+        "jacobian_vertices",
+        "matrices A_i with f(x) - f(x^) = " + in_digits(d) +
+            " in the convex hull of all A_i (x - x^)" +
+            (spread.cols() > 0 ? ", but for what G and lipschitz_constant allow," : "") +
+            " at x = " + in_digits(pair.a) + ", x^ = " + in_digits(pair.b) + with_input(pair.u) +
+            kEverywhere,
+        std::to_string(description.vertices.size()) + " whose hull lacks it"};
     return true;
   });
   return found;
@@ -205,7 +249,11 @@ std::optional<Contradiction> refute_jump_constant(const Plant& plant, const Vect
 }
 
 std::optional<Contradiction> refute_lipschitz_claims(const Plant& plant, const Vector& centre) {
-  const auto* map = dynamic_cast<const LipschitzMap*>(plant.modes().front().flow.get());
+  const VectorMap* flow = plant.modes().front().flow.get();
+  if (const auto* polytopic = dynamic_cast<const PolytopicMap*>(flow)) {
+    return refute_flow_vertices(*polytopic, centre, plant.inputs());
+  }
+  const auto* map = dynamic_cast<const LipschitzMap*>(flow);
   if (map == nullptr) return std::nullopt;
   const LipschitzDescription& description = map->description();
   std::optional<Contradiction> found;

@@ -14,8 +14,8 @@ namespace sampled_data_observers {
 
 /// Something that a file states of a plant and that the plant's own maps refute at a point.
 struct Contradiction {
-  /// That states it: "lipschitz_constant", "vertices", "jump_map/lipschitz_constant", "A", "A_d" or
-  /// "injection_lipschitz".
+  /// That states it: "lipschitz_constant", "vertices", "jacobian_vertices",
+  /// "jump_map/lipschitz_constant", "A", "A_d" or "injection_lipschitz".
   std::string key;
   std::string expected;  ///< what the plant's maps ask of it, with the point
   std::string found;
@@ -26,8 +26,9 @@ struct Contradiction {
 // states. What they find is certain; what they do not find may be wrong all the same.
 
 /// Compares `lipschitz_constant` and `vertices` of a Lipschitz plant with its ψ:
-///   |ψ(a) − ψ(b)| <= ℓ |a − b|,  G (ψ(S x) − ψ(S x̂)) in the convex hull of all Ψ_i (x − x̂).
-/// Nothing for a plant of another kind.
+///   |ψ(a) − ψ(b)| <= ℓ |a − b|,  G (ψ(S x) − ψ(S x̂)) in the convex hull of all Ψ_i (x − x̂),
+/// or `jacobian_vertices` with the flow, as PolytopicDescription has it. Nothing for a plant of
+/// another kind.
 std::optional<Contradiction> refute_lipschitz_claims(const Plant& plant,
                                                      const Eigen::VectorXd& centre);
 

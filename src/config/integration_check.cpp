@@ -8,6 +8,7 @@
 #include "config/number_text.h"
 #include "linear_algebra/matrix_functions.h"
 #include "plant/lipschitz_map.h"
+#include "plant/polytopic_map.h"
 #include "sampled_data_observers/observer/plant_observer.h"
 
 namespace sampled_data_observers {
@@ -138,6 +139,17 @@ double rounded_down(double value) {
   return std::floor(value / unit) * unit;
 }
 
+/// The largest that the stated vertices of the plant's Jacobian allow anywhere.
+double polytopic_rate(Matrix jacobian, const PolytopicDescription& flow) {
+  double rate = 0.0;
+  for (const Matrix& vertex : flow.vertices) {
+    jacobian.topLeftCorner(vertex.rows(), vertex.cols()) = vertex;
+    rate = std::max(rate, norm2(scaled(jacobian, balancing_scales(jacobian))));
+  }
+  if (flow.G.cols() == 0) return rate;
+  return rate + flow.lipschitz_constant * norm2(flow.G) * norm2(flow.S);
+}
+
 }  // namespace
 
 std::optional<ConfigError> objection_to_step(ConfigSection& root, const Plant& plant,
@@ -147,6 +159,7 @@ std::optional<ConfigError> objection_to_step(ConfigSection& root, const Plant& p
   const double step = to_seconds(observer->flow_step());
   const auto* map = dynamic_cast<const LipschitzMap*>(plant.modes().front().flow.get());
   const bool is_bounded = map != nullptr && map->description().lipschitz_constant.has_value();
+  const auto* polytopic = dynamic_cast<const PolytopicMap*>(plant.modes().front().flow.get());
   double rate = 0.0;
   for (const Vector& state : starts(*observer, plant)) {
     const Matrix jacobian = flow_jacobian(*observer, state);
@@ -158,6 +171,9 @@ std::optional<ConfigError> objection_to_step(ConfigSection& root, const Plant& p
           std::max(rate, lipschitz_rate(jacobian, state.head(plant.states()), map->description()));
     } else {
       rate = std::max(rate, norm2(scaled(jacobian, balancing_scales(jacobian))));
+      if (polytopic != nullptr) {
+        rate = std::max(rate, polytopic_rate(jacobian, polytopic->description()));
+      }
     }
   }
   const double longest = (is_certified ? kLongestCertifiedStep : kStableEverywhere) / rate;

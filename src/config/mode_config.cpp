@@ -5,6 +5,7 @@
 #include "config/expression_config.h"
 #include "plant/bounded_slope_map.h"
 #include "plant/lipschitz_map.h"
+#include "plant/polytopic_map.h"
 
 namespace sampled_data_observers {
 namespace {
@@ -39,13 +40,38 @@ std::shared_ptr<const VectorMap> read_lipschitz_map(ConfigSection& mode,
   return std::make_shared<const LipschitzMap>(std::move(map));
 }
 
+/// A flow by formulas with the vertices of its Jacobian.
+std::shared_ptr<const VectorMap> read_polytopic_map(ConfigSection& mode,
+                                                    std::shared_ptr<const VectorMap> flow) {
+  const Eigen::Index n = flow->size();
+  PolytopicDescription description;
+  ConfigSection vertices = mode.section("jacobian_vertices");
+  for (const std::string& name : vertices.keys()) {
+    description.vertices.push_back(vertices.matrix(name, n, n));
+  }
+  if (description.vertices.empty()) {
+    throw mode.error("jacobian_vertices", "at least one n x n matrix, below a name", "none");
+  }
+  description.G.resize(n, 0);
+  description.S.resize(0, n);
+  if (mode.has("G") || mode.has("S") || mode.has("lipschitz_constant")) {
+    description.G = mode.matrix("G", n, -1);
+    description.S = mode.matrix("S", -1, n);
+    description.lipschitz_constant =
+        mode.number_in("lipschitz_constant", 1e-300, 1e300, std::nullopt);
+  }
+  return std::make_shared<const PolytopicMap>(std::move(flow), std::move(description));
+}
+
 }  // namespace
 
 std::shared_ptr<const VectorMap> read_flow_map(ConfigSection& mode, const ExpressionNames& names) {
   if (mode.has("flow")) {
     ExpressionReader reader(names);
     reader.read_definitions(mode, "definitions");
-    return reader.read_map(mode, "flow", names.x);
+    std::shared_ptr<const VectorMap> flow = reader.read_map(mode, "flow", names.x);
+    if (!mode.has("jacobian_vertices")) return flow;
+    return read_polytopic_map(mode, std::move(flow));
   }
   const auto n = static_cast<Eigen::Index>(names.x.size());
   const auto p = static_cast<Eigen::Index>(names.u.size());

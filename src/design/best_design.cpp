@@ -29,6 +29,7 @@ constexpr const char* kVariants[] = {"ferrante2019_proposition3",
 bool applies(const DesignMethod& method, const DesignProblem& problem) {
   try {
     method.require_applicable(problem.subject);
+    require_subject(method.theorem(), problem.subject);
   } catch (const std::invalid_argument&) {
     return false;
   }

@@ -376,6 +376,7 @@ class DesignSearch {
 void require_sense(const DesignMethod& method, const DesignProblem& problem) {
   try {
     method.require_applicable(problem.subject);
+    require_subject(method.theorem(), problem.subject);
   } catch (const std::invalid_argument& fault) {
     throw RequestError(method.name() + " is not for this plant: " + fault.what());
   }

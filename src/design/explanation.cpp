@@ -88,6 +88,11 @@ class Explanation {
                      : c_.has_times()
                          ? "times between events: " + c_.times()
                          : "times between events: not given (--T1, --T2 or design/sampling)");
+    if (c_.plant.flow_vertices.empty()) return;
+    c_.out.paragraph(
+        "What follows is of the mean of the " + std::to_string(c_.plant.flow_vertices.size()) +
+        " plant/jacobian_vertices; the methods that depend on timers are for all flows "
+        "in their hull.");
   }
 
   void say_nonlinearity() {
@@ -127,6 +132,7 @@ class Explanation {
   std::string objection_to(const DesignMethod& method) const {
     try {
       method.require_applicable(c_.subject);
+      require_subject(method.theorem(), c_.subject);
     } catch (const std::invalid_argument& fault) {
       return fault.what();
     }

@@ -162,7 +162,9 @@ CertificateSubject scaled(const CertificateSubject& subject, const PlantScaling&
     mode.C_d = in_units(scaling.jump_output, mode.C_d, x);
     if (mode.A_d) mode.A_d = in_units(x, *mode.A_d, x);
   }
-  for (Eigen::MatrixXd& vertex : plant.vertices) vertex = scaling.time * in_units(x, vertex, x);
+  for (auto* vertices : {&plant.vertices, &plant.flow_vertices}) {
+    for (Eigen::MatrixXd& vertex : *vertices) vertex = scaling.time * in_units(x, vertex, x);
+  }
   const auto ones = [](Eigen::Index size) { return Eigen::VectorXd(Eigen::VectorXd::Ones(size)); };
   plant.N = scaling.time * scaling.disturbance * in_units(x, plant.N, ones(plant.N.cols()));
   plant.G = scaling.time * scaling.nonlinearity * in_units(x, plant.G, ones(plant.G.cols()));

@@ -26,7 +26,8 @@ std::string states_moved_by(const Mode& mode, const std::vector<std::string>& na
 }  // namespace
 
 void require_detectable(const PlantMatrices& plant) {
-  const bool is_about_A = plant.is_linear() || plant.vertices.empty();
+  const bool is_about_A =
+      plant.flow_vertices.empty() && (plant.is_linear() || plant.vertices.empty());
   if (plant.modes.size() > 1 || plant.jumps() || plant.C().rows() == 0 || !is_about_A) return;
   std::ostringstream text;
   text.imbue(std::locale::classic());

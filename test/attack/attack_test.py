@@ -63,6 +63,19 @@ sensors:
 DENSE = ["  first: {C: [[1, 0]], source: {topic: first}, sampling: {T1: 0, T2: 0.5}}\n",
          "  second: {C: [[0, 1]], source: {topic: second}, sampling: {T1: 0, T2: 0.3}}\n"]
 
+UNCERTAIN_PLANT = """
+plant:
+  states: [x1, x2]
+  flow: {x1: x2, x2: "0.1*sin(x2) - x1 - 0.2*x2 + 0.3*sin(x1)"}
+  jacobian_vertices: {1: [[0, 1], [-0.7, -0.2]], 2: [[0, 1], [-1.3, -0.2]]}
+  G: [[0], [1]]
+  S: [[0, 1]]
+  lipschitz_constant: 0.1
+  integration: {step: 0.01}
+sensors: {angle: {C: [[1, 0]], source: {topic: angle}, sampling: {T1: 0.1, T2: 0.3}}}
+design: {N: [[0], [1]], C_p: [[1, 0]]}
+"""
+
 # Of a claim for two sensors by timers.
 TIMER_BREAKS = [
     (("certificate", "lambda_t"), times(100)), (("certificate", "P", 2), times(3)),
@@ -132,10 +145,11 @@ class ClaimTest(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             plant = os.path.join(folder, "plant.yaml")
             gains = os.path.join(folder, "gains.yaml")
-            for method, sensors in (("timer_dependent_constant_gain", DENSE[:1]),
-                                    ("timer_dependent_scheduled_gain", DENSE)):
+            for method, text in (("timer_dependent_constant_gain", DENSE_PLANT + DENSE[0]),
+                                 ("timer_dependent_scheduled_gain", DENSE_PLANT + "".join(DENSE)),
+                                 ("timer_dependent_constant_gain", UNCERTAIN_PLANT)):
                 with open(plant, "w", encoding="utf-8") as stream:
-                    stream.write(DENSE_PLANT + "".join(sensors))
+                    stream.write(text)
                 subprocess.run([DESIGN, "synthesize", plant, "-o", gains, "--method", method, "--cells", "2",
                                 "--objective", "feasible"], stdout=subprocess.DEVNULL, check=True)
                 self.assertEqual({"holds"}, set(answers(gains)), method)

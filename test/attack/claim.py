@@ -52,6 +52,7 @@ class Claim:
     lipschitz: object = None
     jump_lipschitz: object = None
     vertices: list = field(default_factory=list)
+    flows: list = field(default_factory=list)  # A is anything in their hull
     N: list = None
     C_p: list = None
     gains: dict = field(default_factory=dict)
@@ -157,7 +158,7 @@ def read_claim(path, gain_file, certificate, plant_path):
         return extended_by_identity(numbers(section["A_d"]), total) if "A_d" in section else None
 
     stated_A = certificate.get("A")
-    modes = []
+    modes, flows = [], []
     if "modes" in plant:
         for label, mode in sorted(plant["modes"].items()):
             modes.append(Mode(int(label), extended(numbers(mode["A"]), total),
@@ -166,6 +167,9 @@ def read_claim(path, gain_file, certificate, plant_path):
         if stated_A is not None and numbers(stated_A) != extended(numbers(plant["A"]), total):
             raise Unreadable("certificate/A takes the place of the plant's own")
         modes.append(Mode(0, extended(numbers(plant["A"]), total), jump_map(plant.get("jump_map"))))
+    elif stated_A is None and "jacobian_vertices" in plant and total == own:
+        flows = [numbers(rows) for _, rows in sorted(plant["jacobian_vertices"].items())]
+        modes.append(Mode(0, flows[0], jump_map(plant.get("jump_map"))))
     elif stated_A is not None:
         modes.append(Mode(0, numbers(stated_A), jump_map(plant.get("jump_map"))))
     else:
@@ -183,6 +187,7 @@ def read_claim(path, gain_file, certificate, plant_path):
         T2=max((number(interval["T2"]) for interval in intervals), default=mpf("inf")),
         states=total,
         modes=modes,
+        flows=flows,
         C=output("sampled"),
         sampled=[(name, output_of(sensor)) for name, sensor in by_timing["sampled"]],
         C_c=output("continuous"),
@@ -193,7 +198,7 @@ def read_claim(path, gain_file, certificate, plant_path):
     if plant.get("G") is not None:
         claim.G = numbers(plant["G"]) + zeros(total - own, len(plant["G"][0]))
         claim.S = [row + [mpf(0)] * (total - own) for row in numbers(plant["S"])]
-        claim.psi = plant["psi"]
+        claim.psi = plant.get("psi")
         claim.lipschitz = plant.get("lipschitz_constant")
         claim.vertices = [extended(numbers(rows), total)
                           for _, rows in sorted(plant.get("vertices", {}).items())]

@@ -598,6 +598,8 @@ def statements_of_formulas(claim):
 
 
 def conditions_of(claim):
+    if claim.flows and not claim.theorem.startswith("timer_dependent"):
+        raise Unreadable(f"{claim.theorem} is not about the hull of several flows")
     for theorem, observer in OBSERVERS.items():
         if theorem.__name__ == claim.theorem:
             yield Statement(f"gains of a {observer}", claim.observer == observer)

@@ -106,6 +106,34 @@ TEST(ClaimTest, VerticesMustHoldTheFormulas) {
                  {"plant/vertices"});
 }
 
+TEST(ClaimTest, TheFlowMustBeInTheHullOfItsVertices) {
+  const auto refuted = [](const std::string& change) {
+    const ConfigNode tree = override_with(
+        read_yaml_text("plant:\n"
+                       "  states: [x1, x2]\n"
+                       "  inputs: [u]\n"
+                       "  flow: {x1: x2, x2: '-(2 + max(-1, min(1, u)))*x1 + 0.1*sin(x2)'}\n"
+                       "  jacobian_vertices: {1: [[0, 1], [-1, 0]], 2: [[0, 1], [-3, 0]]}\n"
+                       "  G: [[0], [1]]\n"
+                       "  S: [[0, 1]]\n"
+                       "  lipschitz_constant: 0.1\n"
+                       "sensors: {y: {C: [[1, 0]], source: {topic: y}}}\n",
+                       "plant.yaml"),
+        read_yaml_text(change, "test.yaml"));
+    ConfigSection root(tree, "");
+    const auto found = refute_lipschitz_claims(*read_plant(root, no_plant_plugins).plant,
+                                               Eigen::Vector2d(0.5, 0.0));
+    return found ? found->key + ": " + found->expected : std::string("no fault");
+  };
+  EXPECT_EQ("no fault", refuted("{}"));
+  EXPECT_EQ("no fault", refuted("plant: {jacobian_vertices: {3: [[0, 1], [-4, 0]]}}"));
+  for (const char* wrong :
+       {"plant: {lipschitz_constant: 0.09}", "plant: {jacobian_vertices: {2: [[0, 1], [-2.9, 0]]}}",
+        "plant: {jacobian_vertices: {2: [[0, 1.01], [-3, 0]]}}"}) {
+    EXPECT_NE(refuted(wrong).find("jacobian_vertices: matrices A_i"), std::string::npos) << wrong;
+  }
+}
+
 TEST(ClaimTest, EveryKeyOfTheGainsMustBeOneOfTheTheorems) {
   expect_message(refusal("config/examples/bernard2022_switched/gains.yaml",
                          "gains: {projection: {1: [[1, 0, 0], [0, 1, 0], [0, 0, 1]]}}"),

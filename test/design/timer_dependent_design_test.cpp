@@ -178,6 +178,23 @@ TEST(TimerDependentDesign, CorrectsAtSwitchesWhatNoModeShowsAlone) {
   EXPECT_THROW(require_subject(*found.certificate.theorem, subject), std::invalid_argument);
 }
 
+TEST(TimerDependentDesign, IsForAllFlowsInAHull) {
+  CertificateSubject subject = with_cells(densely_sampled_oscillator(0.3), 4);
+  const auto gamma = [&] {
+    return gamma_of(design_by("timer_dependent_constant_gain", subject, {{"lambda_t", 0.05}},
+                              Objective::kMinGamma));
+  };
+  const double of_one = gamma();
+  // The same flow twice is the same; with others gamma grows.
+  const Eigen::MatrixXd A = subject.plant.A();
+  subject.plant.flow_vertices = {A, A};
+  EXPECT_NEAR(gamma(), of_one, 0.01 * of_one);
+  subject.plant.flow_vertices.back()(1, 0) = -8.0;
+  EXPECT_GT(gamma(), 1.05 * of_one);
+  EXPECT_THROW(require_subject(*find_theorem("ferrante2019_theorem2"), subject),
+               std::invalid_argument);
+}
+
 TEST(TimerDependentTheorem, IsNotAboutJumpMapsByALipschitzConstant) {
   CertificateSubject subject =
       linear_subject(-Eigen::MatrixXd::Identity(2, 2), Eigen::MatrixXd(0, 2), 0.2, 0.4);

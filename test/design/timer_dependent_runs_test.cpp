@@ -47,6 +47,17 @@ constexpr char kPolytopicPendulum[] =
     "  vertices: {1: [[0, 0], [0.3, 0]], 2: [[0, 0], [-0.3, 0]]}\n"
     "sensors: {angle: {C: [[1, 0]], source: {topic: angle}}}\n";
 
+constexpr char kFormulas[] =
+    "plant:\n"
+    "  states: [x1, x2]\n"
+    "  flow: {x1: 'x2', x2: '0.1 * sin(x2) - x1 - 0.2 * x2 + 0.3 * sin(x1)'}\n"
+    "  jacobian_vertices: {1: [[0, 1], [-0.7, -0.2]], 2: [[0, 1], [-1.3, -0.2]]}\n"
+    "  G: [[0], [1]]\n"
+    "  S: [[0, 1]]\n"
+    "  lipschitz_constant: 0.1\n"
+    "  integration: {step: 0.01}\n"
+    "sensors: {angle: {C: [[1, 0]], source: {topic: angle}}}\n";
+
 struct Scene {
   const char* name;
   const char* plant;
@@ -76,6 +87,7 @@ const Scene kScenes[] = {
      {{0.0, 1.0}, {0.0, 0.2}},
      3},
     {"lipschitz", kPendulum, "timer_dependent_constant_gain", {{0.0, 0.3}}, 4},
+    {"jacobian", kFormulas, "timer_dependent_constant_gain", {{0.1, 0.4}}, 4},
     {"vertices", kPolytopicPendulum, "timer_dependent_constant_gain", {{0.1, 0.4}}, 4},
 };
 

@@ -9,7 +9,8 @@ namespace sampled_data_observers {
 
 std::string undetectable_sampling(const CertificateSubject& subject) {
   const PlantMatrices& plant = subject.plant;
-  const bool is_about_A = plant.is_linear() || plant.vertices.empty();
+  const bool is_about_A =
+      plant.flow_vertices.empty() && (plant.is_linear() || plant.vertices.empty());
   if (plant.modes.size() > 1 || plant.jumps() || plant.C().rows() == 0 || !is_about_A) return "";
   for (const PathologicalInterval& interval :
        pathological_intervals(plant.A(), plant.C(), subject.T2)) {
