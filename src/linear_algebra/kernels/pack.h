@@ -17,20 +17,25 @@ template <>
 struct PackOf<2> {
   using Type = double __attribute__((vector_size(16)));
   using Integers = long long __attribute__((vector_size(16)));
-  /// The same in memory, at any place; compilers take it for an array of doubles.
-  using Stored = double __attribute__((vector_size(16), aligned(8)));
+  /// The same in memory, wherever a double may be.
+  struct __attribute__((packed, aligned(8))) Stored {
+    Type pack;
+  };
 };
 
 template <>
 struct PackOf<4> {
   using Type = double __attribute__((vector_size(32)));
   using Integers = long long __attribute__((vector_size(32)));
-  /// The same in memory, at any place; compilers take it for an array of doubles.
-  using Stored = double __attribute__((vector_size(32), aligned(8)));
+  /// The same in memory, wherever a double may be.
+  struct __attribute__((packed, aligned(8))) Stored {
+    Type pack;
+  };
 };
 
-#define SDO_STORED(kWidth, place) (*reinterpret_cast<const typename PackOf<kWidth>::Stored*>(place))
-#define SDO_STORE(kWidth, place) (*reinterpret_cast<typename PackOf<kWidth>::Stored*>(place))
+#define SDO_STORED(kWidth, place) \
+  (reinterpret_cast<const typename PackOf<kWidth>::Stored*>(place)->pack)
+#define SDO_STORE(kWidth, place) (reinterpret_cast<typename PackOf<kWidth>::Stored*>(place)->pack)
 
 #if defined(__clang__)
 #define SDO_SHUFFLE_2(a, b, i, j) __builtin_shufflevector(a, b, i, j)
