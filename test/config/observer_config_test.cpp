@@ -250,10 +250,13 @@ TEST(ConfigFilesTest, UnreadableFilesAreFaults) {
   EXPECT_THROW(read_yaml_text("a: " + deep + std::string(100, ']'), "x"), ConfigError);
 }
 
-TEST(ShippedConfigTest, TheShippedConfigurationIsValid) {
+TEST(ShippedConfigTest, TheShippedConfigurationsAreValid) {
   const std::string folder = std::string(SDO_SOURCE_DIR) + "/config/";
-  EXPECT_NO_THROW(read_observer_config(std::vector<std::string>{folder + "crazyflie_position.yaml"},
-                                       no_plant_plugins));
+  for (const char* name : {"crazyflie_position", "crazyflie_inertial", "husky_gps"}) {
+    EXPECT_NO_THROW(
+        read_observer_config(std::vector<std::string>{folder + name + ".yaml"}, no_plant_plugins))
+        << name;
+  }
 }
 
 TEST(ShippedConfigTest, TheUnicyclesTwistIsItsInput) {

@@ -18,6 +18,8 @@ EXAMPLE = os.path.join(ROOT, "config", "examples", "ferrante2016_mass_spring")
 MASS_SPRING = [os.path.join(EXAMPLE, name)
                for name in ("scenario.yaml", "observer.yaml", "gains.yaml")]
 HUSKY = os.path.join(ROOT, "config", "husky_unicycle.yaml")
+HUSKY_GPS = os.path.join(ROOT, "config", "husky_gps.yaml")
+INERTIAL = os.path.join(ROOT, "config", "crazyflie_inertial.yaml")
 CRAZYFLIE = os.path.join(ROOT, "config", "crazyflie_position.yaml")
 TWO_SENSORS = os.path.join(ROOT, "config", "crazyflie_two_sensors.yaml")
 BOUNDS = os.path.join(ROOT, "config", "crazyflie_bounds")
@@ -205,6 +207,37 @@ class CrazyflieTest(ReplayTestCase):
                            1.5 * summary["sensors"]["mocap"]["samples_used"])
         self.assertLess(summary["rmse_norm"], 0.5 * summary["hold_rmse_norm"])
 
+    def test_inertial_sensors_carry_the_estimate_from_pose_to_pose(self):
+        import rosbag
+
+        truth = "/vrpn_client_node/Drone1/pose"
+        summary = self.replay(self.bag, [INERTIAL], "inertial.bag", "--thin", "0.1", "0.5",
+                              "--seed", "1", "--from", "3", "--to", "23", "--truth", truth,
+                              "--compare", *("%s=pose.position.%s" % (axis, axis)
+                                             for axis in "xyz"))
+        self.assertEqual({}, summary["rejected"])
+        with rosbag.Bag(self.bag) as recorded:
+            start = recorded.get_start_time()
+            poses = {message.header.stamp.to_nsec() // 10 ** 7: message.pose.orientation
+                     for _, message, _ in recorded.read_messages(truth)}
+        squares = []
+        with rosbag.Bag(self.path("inertial.bag")) as replayed:
+            for _, message, _ in replayed.read_messages("/estimate"):
+                at = poses.get(message.header.stamp.to_nsec() // 10 ** 7)
+                if at is None or not 3 < message.header.stamp.to_sec() - start < 23:
+                    continue
+                w, x, y, z = message.state[6:10]
+                self.assertAlmostEqual(1.0, w * w + x * x + y * y + z * z, delta=1e-12)
+                cosine = min(1.0, abs(w * at.w + x * at.x + y * at.y + z * at.z))
+                squares.append((2 * math.degrees(math.acos(cosine))) ** 2)
+        angle = math.sqrt(sum(squares) / len(squares))
+        print("RMSE of the position %.4f m, of the orientation %.2f deg" %
+              (summary["rmse_norm"], angle))
+        self.assertGreater(len(squares), 1000)
+        # Holding the last sample: 0.098 m; a Kalman filter of constant velocity: 0.0675 m.
+        self.assertLess(summary["rmse_norm"], 0.035)
+        self.assertLess(angle, 2.0)
+
     def test_bounds_of_one_and_of_two_sensors_hold_at_all_stamps(self):
         truth = ["--truth", "/vrpn_client_node/Drone1/pose", "--compare"]
         truth += ["%s=pose.position.%s" % (axis, axis) for axis in "xyz"]
@@ -318,12 +351,42 @@ class HuskyTest(ReplayTestCase):
         self.assertGreaterEqual(summary["intervals"]["min"], 1.0)
         self.assertLess(summary["intervals"]["max"], 1.05)
 
+    def test_seldom_fixes_of_a_gps_tell_position_and_heading(self):
+        import rosbag
+
+        with open(self.path("seldom.yaml"), "w") as seldom:
+            seldom.write("sensors: {gps: {source: {min_interval: 6}}}")
+        summary = self.replay(self.bag, [HUSKY_GPS, self.path("seldom.yaml")], "gps.bag")
+        self.assertLess(summary["samples_used"], 70)
+        with rosbag.Bag(self.bag) as recorded:
+            fixes = [(message.header.stamp.to_sec(), (message.longitude + 71.1474) * 82361.5,
+                      (message.latitude - 42.3758) * 111080.6)
+                     for _, message, _ in recorded.read_messages("/fix")]
+        with rosbag.Bag(self.path("gps.bag")) as replayed:
+            estimates = [(message.header.stamp.to_sec(), message.state, message.covariance)
+                         for _, message, _ in replayed.read_messages("/estimate")]
+        squares = []
+        at = 0
+        for stamp, east, north in fixes:
+            while at + 1 < len(estimates) and estimates[at + 1][0] <= stamp:
+                at += 1
+            if stamp > fixes[0][0] + 60 and abs(estimates[at][0] - stamp) < 0.1:
+                state = estimates[at][1]
+                squares.append((state[0] - east) ** 2 + (state[1] - north) ** 2)
+        rmse = math.sqrt(sum(squares) / len(squares))
+        heading = math.degrees(math.sqrt(estimates[-1][2][2 * 4 + 2]))
+        print("from fix to fix: %.2f m, heading known to %.1f deg" % (rmse, heading))
+        self.assertGreater(len(squares), 700)
+        self.assertLess(rmse, 2.0)  # 3.1 m if the last fix is held; the fixes' own noise is 0.7 m
+        self.assertLess(heading, 15.0)
+
     def test_live_is_as_replayed(self):
         import rosbag
         import rospy
         from sampled_data_observers.srv import GetEstimate
 
         self.replay(self.bag, [HUSKY], "replayed.bag")
+        self.replay(self.bag, [HUSKY_GPS], "gps.bag")
         port = free_port()
         launch = self.path("observer.launch")
         # So fast that messages come seconds of simulated time before and after the clock's.
@@ -336,26 +399,37 @@ class HuskyTest(ReplayTestCase):
               <param name="observer/future_tolerance" value="60"/>
               <param name="observer/history/duration" value="120"/>
               <param name="observer/history/max_events" value="10000"/>
-            </launch>""" % HUSKY)
+              <group ns="gps">
+                <include file="$(find sampled_data_observers)/launch/observer.launch">
+                  <arg name="config" value="%s"/>
+                </include>
+                <param name="observer/future_tolerance" value="60"/>
+                <param name="observer/history/duration" value="120"/>
+                <param name="observer/history/max_events" value="10000"/>
+              </group>
+            </launch>""" % (HUSKY, HUSKY_GPS))
         os.environ["ROS_MASTER_URI"] = "http://localhost:%d" % port
         with RosProcess(["roslaunch", "--port", str(port), launch], port):
             time.sleep(3)
             subprocess.run(["rosbag", "play", "--quiet", "--clock", "--hz=1000", "--rate=10",
                             "--wait-for-subscribers", "--duration=120", self.bag, "--topics",
-                            "/imu/data", "/husky_velocity_controller/odom"],
+                            "/imu/data", "/husky_velocity_controller/odom", "/fix"],
                            check=True, timeout=120)
-            rospy.wait_for_service("/get_estimate", 10)
-            get_estimate = rospy.ServiceProxy("/get_estimate", GetEstimate, persistent=True)
-            with rosbag.Bag(self.path("replayed.bag")) as replayed:
-                expected = [message for _, message, _ in replayed.read_messages("/estimate")]
-            compared = [estimate for estimate in expected
-                        if 100 < (estimate.header.stamp - expected[0].header.stamp).to_sec() < 118]
-            self.assertGreater(len(compared), 500)
-            for estimate in compared[::10]:
-                found = get_estimate(estimate.header.stamp)
-                self.assertTrue(found.success, found.message)
-                self.assertEqual(estimate.events, found.estimate.events)
-                self.assertEqual(estimate.state, found.estimate.state)
+            for bag, service in (("replayed.bag", "/get_estimate"), ("gps.bag", "/gps/get_estimate")):
+                rospy.wait_for_service(service, 10)
+                get_estimate = rospy.ServiceProxy(service, GetEstimate, persistent=True)
+                with rosbag.Bag(self.path(bag)) as replayed:
+                    expected = [message for _, message, _ in replayed.read_messages("/estimate")]
+                first = expected[0].header.stamp
+                compared = [estimate for estimate in expected
+                            if 100 < (estimate.header.stamp - first).to_sec() < 118]
+                self.assertGreater(len(compared), 500)
+                for estimate in compared[::10]:
+                    found = get_estimate(estimate.header.stamp)
+                    self.assertTrue(found.success, found.message)
+                    self.assertEqual(estimate.events, found.estimate.events)
+                    self.assertEqual(estimate.state, found.estimate.state)
+                    self.assertEqual(estimate.covariance, found.estimate.covariance)
 
 
 if __name__ == "__main__":
