@@ -40,6 +40,10 @@ const Claim kClaims[] = {
     {EXAMPLE("sferlazza2019_aircraft_4_8/gains"), 29.0},
     {EXAMPLE("etienne2019_dc_drive/gains"), 1.4},
     {EXAMPLE("etienne2019_dc_drive/gains_timer_dependent"), 2.4},
+    {EXAMPLE("bernard2022_bouncing_ball/gains"), 16.0},
+    {EXAMPLE("bernard2022_bouncing_ball/gains_timer_dependent"), 6.5},
+    {EXAMPLE("bernard2022_impulsive/gains"), 14.0},
+    {EXAMPLE("bernard2022_impulsive/gains_timer_dependent"), 5.5},
 };
 
 std::size_t runs_asked_for() {

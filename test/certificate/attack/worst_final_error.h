@@ -17,11 +17,12 @@
 namespace sampled_data_observers::test {
 
 /// Searches for the largest error that noise and disturbance leave in the end, of an observer of
-/// one sampled sensor. The error is linear for given times between samples and slopes of the
-/// nonlinearity, so that for them the worst noise and disturbance, which may change kParts times
-/// between two samples, are computed. Times and slopes are searched for: extreme ones at random,
-/// then changed one by one where that makes the error larger. It takes the gains from the law, and
-/// nothing from its certificate but the plant.
+/// one sampled sensor, or of one that is corrected at jumps of a linear plant alone. The error is
+/// linear for given times between samples and slopes of the nonlinearity, so that for them the
+/// worst noise and disturbance, which may change kParts times between two samples, are computed.
+/// Times and slopes are searched for: extreme ones at random, then changed one by one where that
+/// makes the error larger. It takes the gains from the law, and nothing from its certificate but
+/// the plant.
 class WorstFinalError {
  public:
   WorstFinalError(const ObserverConfig& config, const CertificateSubject& subject,
@@ -103,7 +104,7 @@ class WorstFinalError {
   void add_interval(double tau) {
     const PlantMatrices& plant = subject_.plant;
     const Eigen::Index n = plant.states();
-    const Eigen::Index m = plant.C().rows();
+    const Eigen::Index m = plant.jumps() ? plant.mode().C_d.rows() : plant.C().rows();
     const Eigen::Index size = injects() ? n + m : n;
     Interval interval;
     for (const Eigen::MatrixXd& A : slopes()) {
@@ -127,6 +128,9 @@ class WorstFinalError {
       interval.reset.bottomLeftCorner(m, n) = plant.C();
       interval.reset.bottomRightCorner(m, m).setZero();
       interval.noise.bottomRows(m).setIdentity();
+    } else if (plant.jumps()) {
+      interval.noise = -config_.law->observer().gains().find("L_d")->value;
+      interval.reset = jump_of(plant.mode()) + interval.noise * plant.mode().C_d;
     } else {
       interval.noise = -gain_at(tau);
       interval.reset += interval.noise * plant.C();
