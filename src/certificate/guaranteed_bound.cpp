@@ -137,6 +137,7 @@ void GuaranteedBound::flow(Duration duration, double* state, double* workspace) 
   if (law().missing_jumps(state) != missing) give_up(state);
   if (law().dwell_violations(state) != violations) give_up(state, BoundLoss::kDwellTimes);
   if (law().is_at_rest(state)) give_up(state, BoundLoss::kAtRest);
+  if (observer().is_input_stale(state)) give_up(state, BoundLoss::kUnknownInput);
   since_.advance(duration, state);
   since_start_.advance(duration, state);
   since_jump_.advance(duration, state);

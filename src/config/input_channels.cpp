@@ -1,6 +1,7 @@
 #include "config/input_channels.h"
 
 #include <algorithm>
+#include <numeric>
 #include <optional>
 
 #include "config/misspelling.h"
@@ -9,7 +10,11 @@ namespace sampled_data_observers {
 namespace {
 
 const char kChannels[] = "inputs";
+const char kSingle[] = "input";
 const char kFields[] = "fields";
+
+constexpr double kShortestTimeout = 1e-9;     // s: one tick of the clock
+constexpr double kLongestInputTimeout = 1e6;  // s
 
 std::string listed_inputs(const std::vector<std::string>& names) {
   std::string text;
@@ -31,7 +36,7 @@ std::string quoted_or_meant(const std::string& name, const std::vector<std::stri
 
 InputChannel read_channel(ConfigSection& channels, const std::string& name,
                           const std::vector<std::string>& inputs) {
-  InputChannel channel{name, {}};
+  InputChannel channel{name, {}, 0, {}};
   ConfigSection section = channels.section(name);
   if (!section.is_map(kFields)) {
     const std::optional<Eigen::Index> input = place_of_input(name, inputs);
@@ -59,15 +64,44 @@ InputChannel read_channel(ConfigSection& channels, const std::string& name,
   return channel;
 }
 
+/// For how long the inputs of a channel hold, and what they are then.
+void read_timeout(ConfigSection& section, const std::vector<std::string>& inputs,
+                  InputChannel& channel) {
+  if (section.has("timeout")) {
+    channel.timeout = from_seconds(
+        section.number_in("timeout", kShortestTimeout, kLongestInputTimeout, std::nullopt));
+  }
+  if (!section.has("after_timeout")) return;
+  if (channel.timeout == 0) {
+    throw section.error("after_timeout", "the key timeout beside it", "none");
+  }
+  ConfigSection values = section.section("after_timeout");
+  for (const Eigen::Index input : channel.inputs) {
+    channel.after_timeout.push_back(values.number(inputs[static_cast<std::size_t>(input)]));
+  }
+  values.finish();
+}
+
+/// All inputs together.
+std::vector<InputChannel> read_single_channel(ConfigSection& root,
+                                              const std::vector<std::string>& inputs) {
+  if (inputs.empty() || !root.has(kSingle)) return {};
+  InputChannel all{kSingle, std::vector<Eigen::Index>(inputs.size()), 0, {}};
+  std::iota(all.inputs.begin(), all.inputs.end(), Eigen::Index{0});
+  ConfigSection section = root.section(kSingle);
+  read_timeout(section, inputs, all);
+  return {all};
+}
+
 }  // namespace
 
 std::vector<InputChannel> read_input_channels(ConfigSection& root,
                                               const std::vector<std::string>& inputs,
                                               const std::vector<std::string>& sensors) {
   std::vector<InputChannel> result;
-  if (!root.has(kChannels)) return result;
+  if (!root.has(kChannels)) return read_single_channel(root, inputs);
   if (inputs.empty()) throw root.error(kChannels, "none: the plant has no inputs", "some");
-  if (root.has("input")) {
+  if (root.has(kSingle)) {
     throw root.error(kChannels, "one of input (all from one topic) and inputs", "both");
   }
   ConfigSection channels = root.section(kChannels);
@@ -77,6 +111,8 @@ std::vector<InputChannel> read_input_channels(ConfigSection& root,
       throw channels.error(name, "a name that no other source of events has", "'" + name + "'");
     }
     result.push_back(read_channel(channels, name, inputs));
+    ConfigSection section = channels.section(name);
+    read_timeout(section, inputs, result.back());
     for (const Eigen::Index input : result.back().inputs) {
       std::string& channel = channel_of[static_cast<std::size_t>(input)];
       if (!channel.empty()) {

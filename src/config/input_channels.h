@@ -8,9 +8,10 @@
 
 namespace sampled_data_observers {
 
-/// Reads which inputs come together, from the section `inputs` of `root`; nothing where there is
-/// none. Each key is the name of a channel: that of its one input, or any where `fields` is a map
-/// from the names of its inputs. The rest of each is left alone.
+/// Reads which inputs come together, from the section `inputs` of `root`, and for how long they
+/// hold; nothing where there is none, and `input` has no timeout either. Each key is the name of a
+/// channel: that of its one input, or any where `fields` is a map from the names of its inputs. The
+/// rest of each is left alone.
 /// @param inputs   names, in the order of u
 /// @param sensors  names that no channel may have
 /// @throws ConfigError for an input in no channel or in two, and for a name that is none.

@@ -2,6 +2,9 @@
 
 #include <utility>
 
+#include "config/input_channels.h"
+#include "config/value_correction_config.h"
+
 namespace sampled_data_observers {
 namespace {
 
@@ -10,6 +13,8 @@ const char kInputType[] = "sampled_data_observers/Input";
 const char kJumpType[] = "sampled_data_observers/JumpEvent";
 
 const char kInputs[] = "inputs";
+/// Of sources of inputs: see read_input_channels().
+const std::vector<const char*> kTimeoutKeys = {"timeout", "after_timeout"};
 
 constexpr double kLongestInterval = 1e6;  // s
 
@@ -31,6 +36,7 @@ TopicSource read_source(ConfigSection& section, const std::string& topic, const 
   if (section.has("stamp")) {
     source.stamped_on_receipt = section.choice("stamp", {"header", "receipt"}) == "receipt";
   }
+  source.stamp_offset = read_stamp_offset(section);
   source.frames = read_source_frames(section);
   source.origin = section.origin();
   source.path = section.path();
@@ -39,9 +45,11 @@ TopicSource read_source(ConfigSection& section, const std::string& topic, const 
 
 /// The source of values that are always there.
 /// @param fields  where they were read already
+/// @param more_keys  that the source may have, and others read
 TopicSource read_value_source(ConfigSection& section, const std::string& topic,
                               const std::string& type, std::size_t size,
-                              std::vector<std::string> fields = {}) {
+                              std::vector<std::string> fields = {},
+                              const std::vector<const char*>& more_keys = {}) {
   TopicSource source = read_source(section, topic, type);
   source.size = size;
   source.fields = std::move(fields);
@@ -49,6 +57,8 @@ TopicSource read_value_source(ConfigSection& section, const std::string& topic,
     source.fields = section.texts("fields", size);
   }
   source.min_interval = from_seconds(section.number_in("min_interval", 0.0, kLongestInterval, 0.0));
+  source.correction = read_value_correction(section, size);
+  for (const char* key : more_keys) section.has(key);
   section.finish();
   return source;
 }
@@ -115,7 +125,8 @@ std::vector<TopicSource> read_input_sources(ConfigSection& root, const Plant& pl
   if (plant.inputs() == 0) return sources;
   if (!root.has(kInputs)) {
     ConfigSection section = root.section_or_empty("input");
-    sources.push_back(read_value_source(section, "input", kInputType, plant.input_names().size()));
+    sources.push_back(read_value_source(section, "input", kInputType, plant.input_names().size(),
+                                        {}, kTimeoutKeys));
     if (sources.back().origin.empty()) sources.back().origin = root.origin();  // no such section
     return sources;
   }
@@ -125,7 +136,8 @@ std::vector<TopicSource> read_input_sources(ConfigSection& root, const Plant& pl
     std::vector<std::string> fields;
     if (section.is_map("fields")) fields = read_input_fields(section, channel, plant);
     const auto size = static_cast<std::size_t>(channel.size());
-    sources.push_back(read_value_source(section, "", kInputType, size, std::move(fields)));
+    sources.push_back(
+        read_value_source(section, "", kInputType, size, std::move(fields), kTimeoutKeys));
   }
   sections.finish();
   return sources;

@@ -49,6 +49,8 @@ DecodedSource::DecodedSource(const TopicSource& source,
     : topic_(source.topic),
       by_receipt_(source.stamped_on_receipt),
       has_mode_(source.has_mode),
+      stamp_offset_(source.stamp_offset),
+      corrected_(source),
       definition_(std::move(definition)),
       transforms_(std::move(transforms)),
       thinned_(source.min_interval),
@@ -101,7 +103,8 @@ Stamp DecodedSource::own_stamp(const RawMessage& message) const {
 
 Stamp DecodedSource::stamp_of(const MessagePointer& message, Stamp receipt) const {
   if (!raw(message).is_of(definition_->type(), definition_->md5sum())) return 0;
-  return by_receipt_ ? receipt : own_stamp(raw(message));
+  const Stamp stamp = by_receipt_ ? receipt : own_stamp(raw(message));
+  return stamp > 0 ? stamp + stamp_offset_ : stamp;
 }
 
 Reading DecodedSource::read(const MessagePointer& message, Stamp receipt, Event& event) {
@@ -121,6 +124,7 @@ Reading DecodedSource::read(const MessagePointer& message, Stamp receipt, Event&
   event.values = values_.data() + (has_mode_ ? 1 : 0);
   event.size = static_cast<Eigen::Index>(values_.size()) - (has_mode_ ? 1 : 0);
   if (has_mode_) event.mode = values_.front();
+  if (!corrected_.apply(event)) return Reading::kOutOfLimits;
   // What will be rejected does not take the place of the next message.
   const bool counts = has_stamp && is_admissible(event.vector());
   return !counts || thinned_.keep(event.stamp) ? Reading::kEvent : Reading::kPassedOver;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "messages/corrected_values.h"
 #include "messages/decoded_fields.h"
 #include "messages/definition/decoding_plan.h"
 #include "messages/frame_blocks.h"
@@ -44,6 +45,8 @@ class DecodedSource : public MessageSource {
   std::string topic_;
   bool by_receipt_;
   bool has_mode_;
+  Duration stamp_offset_;
+  CorrectedValues corrected_;
   std::shared_ptr<const MessageDefinition> definition_;
   std::shared_ptr<const TransformBuffer> transforms_;
   ThinnedStamps thinned_;

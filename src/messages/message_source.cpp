@@ -44,6 +44,8 @@ EventOutcome outcome_of(Reading reading) {
       return EventOutcome::kNoTransform;
     case Reading::kNoField:
       return EventOutcome::kNoField;
+    case Reading::kOutOfLimits:
+      return EventOutcome::kOutOfLimits;
     case Reading::kInFuture:
       return EventOutcome::kInFuture;
     case Reading::kOutOfOrder:

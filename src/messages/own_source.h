@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "messages/corrected_values.h"
 #include "messages/value_reader.h"
 #include "runtime/thinned_stamps.h"
 #include "sampled_data_observers/messages/message_source.h"
@@ -25,6 +26,8 @@ class OwnSource : public MessageSource {
   explicit OwnSource(const TopicSource& source)
       : topic_(source.topic),
         by_receipt_(source.stamped_on_receipt),
+        stamp_offset_(source.stamp_offset),
+        corrected_(source),
         thinned_(source.min_interval),
         reader_(source) {
     if (!source.frames.any()) return;
@@ -59,12 +62,14 @@ class OwnSource : public MessageSource {
   }
 
   Stamp stamp_of(const MessagePointer& message, Stamp receipt) const override {
-    return by_receipt_ ? receipt : to_stamp(typed(message).header.stamp);
+    const Stamp stamp = by_receipt_ ? receipt : to_stamp(typed(message).header.stamp);
+    return stamp > 0 ? stamp + stamp_offset_ : stamp;
   }
 
   Reading read(const MessagePointer& message, Stamp receipt, Event& event) override {
     event.stamp = stamp_of(message, receipt);
     if (!reader_.read(typed(message), event)) return Reading::kNoField;
+    if (!corrected_.apply(event)) return Reading::kOutOfLimits;
     // What will be rejected does not take the place of the next message.
     const bool counts = event.stamp > 0 && event.size >= 0 && is_admissible(event.vector());
     return !counts || thinned_.keep(event.stamp) ? Reading::kEvent : Reading::kPassedOver;
@@ -79,6 +84,8 @@ class OwnSource : public MessageSource {
 
   std::string topic_;
   bool by_receipt_;
+  Duration stamp_offset_;
+  CorrectedValues corrected_;
   ThinnedStamps thinned_;
   ValueReader<M> reader_;
 };

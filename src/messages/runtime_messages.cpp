@@ -35,6 +35,7 @@ void write_estimate(const Estimate& estimate, const PublishedBound& bound,
   message.dwell_violations = static_cast<std::uint64_t>(law.dwell_violations(whole));
   message.at_rest = law.is_at_rest(whole) ? 1 : 0;
   message.held = estimate.held ? 1 : 0;
+  message.input_stale = law.observer().is_input_stale(whole) ? 1 : 0;
 }
 
 Eigen::Map<Eigen::VectorXd> state_bounds_of(StateEstimate& message) {
@@ -72,6 +73,7 @@ static_assert(EventStatus::JUMP_ALONE == static_cast<int>(EventOutcome::kJumpAlo
 static_assert(EventStatus::TAKEN_BACK == static_cast<int>(EventOutcome::kTakenBack));
 static_assert(EventStatus::WITHDRAWN == static_cast<int>(EventOutcome::kWithdrawn));
 static_assert(EventStatus::NO_SUCH_JUMP == static_cast<int>(EventOutcome::kNoSuchJump));
+static_assert(EventStatus::OUT_OF_LIMITS == static_cast<int>(EventOutcome::kOutOfLimits));
 static_assert(EventStatus::DWELL_NONE == static_cast<int>(DwellCheck::kNone));
 static_assert(EventStatus::DWELL_WITHIN == static_cast<int>(DwellCheck::kWithin));
 static_assert(EventStatus::DWELL_SHORT == static_cast<int>(DwellCheck::kShort));

@@ -65,6 +65,10 @@ PlantObserver::PlantObserver(ObserverContext context, const std::vector<SensorTi
   u_ = inputs_.part(0, plant_->inputs());
   y_c_ = inputs_.part(plant_->inputs(), continuous);
   y_c_known_ = layout.flags(y_c_.size() > 0 ? all.size() : 0);
+  for (std::size_t i = 0; i < plant_->input_channels().size(); ++i) {
+    const Duration timeout = plant_->input_channels()[i].timeout;
+    if (timeout > 0) input_ages_.push_back({i, layout.timer(static_cast<double>(timeout))});
+  }
   held_part_ = layout.since(s_.size());
   mode_ = layout.mode();
   since_jump_ = timer();
@@ -148,6 +152,7 @@ PlantObserver::Held PlantObserver::held(const double* state) const {
 Effect PlantObserver::reset(const Event& event, double* state, double* workspace) const {
   const auto sensor = static_cast<std::size_t>(event.sensor);
   Effect effect = Effect::kApplied;
+  expire_inputs(state);
   switch (event.kind) {
     case EventKind::kInput:
       take_input(event, state);
@@ -184,6 +189,14 @@ void PlantObserver::take_input(const Event& event, double* state) const {
   for (std::size_t i = 0; i < channel.inputs.size(); ++i) {
     u_.of(state)[channel.inputs[i]] = event.values[i];
   }
+  for (const InputAge& age : input_ages_) {
+    if (age.channel == static_cast<std::size_t>(event.sensor)) age.timer.restart(state);
+  }
+}
+
+bool PlantObserver::is_input_stale(const double* state) const {
+  return std::any_of(input_ages_.begin(), input_ages_.end(),
+                     [state](const InputAge& age) { return age.timer.is_over(state); });
 }
 
 Effect PlantObserver::begin_jump(const Event& event, double* state, double* workspace) const {

@@ -1,6 +1,8 @@
 // How an observer of a plant flows: exactly where that is possible, else by Runge–Kutta steps.
+#include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 #include "sampled_data_observers/observer/plant_observer.h"
 
@@ -92,8 +94,50 @@ LinearFlow PlantObserver::exact_flow(const Held& held) const {
   return LinearFlow(A, B, c);
 }
 
+/// Inputs that are older than their timeout become what they are after it.
+void PlantObserver::expire_inputs(double* state) const {
+  for (const InputAge& age : input_ages_) {
+    const InputChannel& channel = plant_->input_channels()[age.channel];
+    if (channel.after_timeout.empty() || !age.timer.is_over(state)) continue;
+    for (std::size_t i = 0; i < channel.inputs.size(); ++i) {
+      u_.of(state)[channel.inputs[i]] = channel.after_timeout[i];
+    }
+  }
+}
+
+/// How long it is to the next timeout that changes an input; the longest time where there is none.
+Duration PlantObserver::until_timeout(const double* state) const {
+  Duration shortest = std::numeric_limits<Duration>::max();
+  for (const InputAge& age : input_ages_) {
+    const InputChannel& channel = plant_->input_channels()[age.channel];
+    if (channel.after_timeout.empty() || age.timer.is_over(state)) continue;
+    shortest = std::min(shortest, channel.timeout - static_cast<Duration>(age.timer.of(state)));
+  }
+  return shortest;
+}
+
+/// Where an input times out within a step of the integration, that step is made in parts, and the
+/// next begins where it would have ended: so the steps are the same, however the flow is split at
+/// whole ones.
 void PlantObserver::flow(Duration duration, double* state, double* workspace) const {
-  if (duration == 0) return;
+  expire_inputs(state);
+  const Duration step = flow_step();
+  Duration begun = 0;  // of a step
+  while (duration > 0) {
+    Duration part = std::min(duration, until_timeout(state));
+    if (begun > 0) {
+      part = std::min(part, step - begun);
+    } else if (step > 0 && part < duration && part > step) {
+      part -= part % step;
+    }
+    flow_part(part, state, workspace);
+    duration -= part;
+    if (step > 0) begun = (begun + part) % step;
+    expire_inputs(state);
+  }
+}
+
+void PlantObserver::flow_part(Duration duration, double* state, double* workspace) const {
   const Held now = held(state);
   flow_constants(duration, now, state, workspace);
   if (numeric_flow_) {

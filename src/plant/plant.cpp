@@ -58,9 +58,15 @@ PlantDescription checked(PlantDescription plant) {
   const auto n = static_cast<Eigen::Index>(plant.state_names.size());
   const auto p = static_cast<Eigen::Index>(plant.input_names.size());
   if (plant.input_channels.empty() && p > 0) {
-    InputChannel all{"input", std::vector<Eigen::Index>(plant.input_names.size())};
+    InputChannel all{"input", std::vector<Eigen::Index>(plant.input_names.size()), 0, {}};
     std::iota(all.inputs.begin(), all.inputs.end(), Eigen::Index{0});
     plant.input_channels.push_back(std::move(all));
+  }
+  for (const InputChannel& channel : plant.input_channels) {
+    require(channel.timeout >= 0, "the timeout of inputs must not be negative");
+    require(channel.after_timeout.empty() ||
+                (channel.timeout > 0 && channel.after_timeout.size() == channel.inputs.size()),
+            "after the timeout of inputs, where there is one, a value each");
   }
   require(are_in_order(plant.input_channels, p),
           "each input in one channel, in ascending order, as the channels' first inputs");

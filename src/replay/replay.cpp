@@ -207,7 +207,7 @@ class Replay {
                                    : runtime_.reject(event, outcome_of(reading), *clock_);
     write(channel, event, report, missing, *clock_, status_);
     if (output_) output_->write(resolved("events"), to_ros_time(*clock_), status_);
-    recorder_->add_event(event, report, status_.reason);
+    recorder_->add_event(channel, event, report, status_.reason, *clock_ - event.stamp);
     if (run_) run_->add_event(event, report, status_, *clock_);
     const bool is_measurement =
         event.kind == EventKind::kSample || event.kind == EventKind::kOutput;

@@ -8,6 +8,7 @@
 
 #include "console/json_text.h"
 #include "files/output_file.h"
+#include "sampled_data_observers/runtime/diagnosis.h"
 
 namespace sampled_data_observers {
 namespace {
@@ -120,6 +121,34 @@ void print_intervals(const ReplaySummary& summary, std::ostream& out) {
   }
 }
 
+/// In seconds, with as many digits as an instant needs.
+std::string instant(double stamp) {
+  std::ostringstream out;
+  out << std::fixed << std::setprecision(3) << stamp << " s";
+  return out.str();
+}
+
+void print_inputs(const ReplaySummary& summary, std::ostream& out) {
+  for (const InputSummary& input : summary.inputs) {
+    if (input.used == 0) continue;
+    out << "inputs      ";
+    if (summary.inputs.size() > 1) out << "of " << input.name << ": ";
+    out << input.used << " used, none for at most " << shown(input.longest_silence) << " s (from "
+        << instant(input.silent_since) << " on)\n";
+  }
+  if (summary.input_stale == 0) return;
+  out << "            " << summary.input_stale
+      << " estimates rest on one older than its timeout, from "
+      << instant(summary.input_stale_since) << " on\n";
+}
+
+void print_stamps_ahead(const ReplaySummary& summary, std::ostream& out) {
+  for (const std::string& name : summary.stamped_ahead) {
+    out << "clock       stamps of " << name << " are "
+        << describe_stamps_ahead(from_seconds(summary.latencies.at(name))) << "\n";
+  }
+}
+
 nlohmann::json number(const std::optional<double>& value) {
   return value ? nlohmann::json(*value) : nlohmann::json();
 }
@@ -205,7 +234,9 @@ void print_table(const ReplaySummary& summary, std::ostream& out) {
   for (const auto& [what, count] : summary.recovered) {
     out << "gates       " << count << " x " << what << "\n";
   }
+  print_stamps_ahead(summary, out);
   print_intervals(summary, out);
+  print_inputs(summary, out);
   out << "estimates   " << summary.estimates << ", the last";
   for (const auto& [name, value] : summary.final_state) out << " " << name << "=" << shown(value);
   out << "\n";
@@ -238,7 +269,15 @@ void write_json(const ReplaySummary& summary, const std::string& path) {
   json["sensors"] = nlohmann::json::object();
   for (const SensorSummary& sensor : summary.sensors)
     json["sensors"][sensor.name] = to_json(sensor);
+  json["inputs"] = nlohmann::json::object();
+  for (const InputSummary& input : summary.inputs) {
+    json["inputs"][input.name] = {{"used", input.used},
+                                  {"longest_silence", input.longest_silence},
+                                  {"silent_since", input.silent_since}};
+  }
+  json["latency"] = summary.latencies;
   json["estimates"] = summary.estimates;
+  json["estimates_of_stale_inputs"] = summary.input_stale;
   json["diverged"] = !summary.diverged.empty();
   json["compared_stamps"] = summary.compared_stamps;
   json["rmse"] = by_name(summary.compared, summary.rmse);

@@ -55,6 +55,16 @@ struct SensorSummary {
   SampleIntervals intervals;
 };
 
+/// What a replay found of one source of inputs.
+struct InputSummary {
+  std::string name;
+  std::size_t used = 0;
+  /// The longest time without one, up to the last estimate [s], and the stamp where it began [s];
+  /// of no meaning where none was used.
+  double longest_silence = 0.0;
+  double silent_since = 0.0;
+};
+
 /// What a replay found.
 struct ReplaySummary {
   std::string bag;
@@ -83,7 +93,17 @@ struct ReplaySummary {
   /// Of each sensor that is sampled.
   std::vector<SensorSummary> sensors;
 
+  /// Of each source of inputs.
+  std::vector<InputSummary> inputs;
+  /// Time of reception minus stamp, its median, of each source of events [s], and which of them had
+  /// stamps too far in the future.
+  std::map<std::string, double> latencies;
+  std::vector<std::string> stamped_ahead;
+
   std::size_t estimates = 0;
+  /// How many of them rest on an input older than its timeout, and the stamp of the first [s].
+  std::size_t input_stale = 0;
+  double input_stale_since = 0.0;
   /// The last estimate.
   double final_stamp = 0.0;  ///< s
   std::vector<std::pair<std::string, double>> final_state;

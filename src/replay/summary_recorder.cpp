@@ -4,10 +4,15 @@
 #include <cmath>
 #include <utility>
 
+#include "sampled_data_observers/observer/plant_observer.h"
+
 namespace sampled_data_observers {
 
 SummaryRecorder::SummaryRecorder(const ObserverConfig& config, std::vector<Quantity> plotted)
-    : config_(config), plotted_(std::move(plotted)), used_stamps_(config.sensors.size()) {
+    : config_(config),
+      plotted_(std::move(plotted)),
+      used_stamps_(config.sensors.size()),
+      input_stamps_(config.inputs.size()) {
   for (const Quantity& quantity : plotted_)
     summary_.plots.push_back({quantity.name, {}, {}, {}, {}});
 }
@@ -16,8 +21,14 @@ void SummaryRecorder::add_missing_topic(const std::string& name, const std::stri
   summary_.not_recorded[name] = topic;
 }
 
-void SummaryRecorder::add_event(const Event& event, const EventReport& report,
-                                const std::string& reason) {
+void SummaryRecorder::add_event(const EventChannel& channel, const Event& event,
+                                const EventReport& report, const std::string& reason,
+                                Duration latency) {
+  if (report.outcome != EventOutcome::kNoStamp) {
+    Latencies& latencies = latencies_[channel.name];
+    latencies.all.push_back(latency);
+    if (report.outcome == EventOutcome::kInFuture) latencies.has_future = true;
+  }
   count(event, report, reason);
   if (!report.used()) return;
   if (event.kind == EventKind::kSample) plot_sample(static_cast<std::size_t>(event.sensor), event);
@@ -46,6 +57,9 @@ void SummaryRecorder::count(const Event& event, const EventReport& report,
   }
   ++summary_.events_used;
   if (event.kind == EventKind::kOutput) ++summary_.outputs_used;
+  if (event.kind == EventKind::kInput) {
+    input_stamps_[static_cast<std::size_t>(event.sensor)].push_back(event.stamp);
+  }
   if (event.kind == EventKind::kJump) ++summary_.jumps_used;
   if (report.outcome == EventOutcome::kJumpAlone) ++summary_.jumps_without_outputs;
   if (event.kind == EventKind::kWithdrawal) ++summary_.jumps_taken_back;
@@ -80,9 +94,40 @@ void SummaryRecorder::summarize_sensors() {
   }
 }
 
+void SummaryRecorder::summarize_inputs() {
+  for (std::size_t i = 0; i < input_stamps_.size(); ++i) {
+    std::vector<Stamp>& stamps = input_stamps_[i];
+    InputSummary found;
+    found.name = config_.plant->input_channels()[i].name;
+    found.used = stamps.size();
+    std::sort(stamps.begin(), stamps.end());
+    if (!stamps.empty()) stamps.push_back(std::max(stamps.back(), last_estimate_));
+    for (std::size_t k = 1; k < stamps.size(); ++k) {
+      const double silence = to_seconds(stamps[k] - stamps[k - 1]);
+      if (silence < found.longest_silence) continue;
+      found.longest_silence = silence;
+      found.silent_since = to_seconds(stamps[k - 1]);
+    }
+    summary_.inputs.push_back(std::move(found));
+  }
+}
+
+void SummaryRecorder::summarize_latencies() {
+  for (auto& [name, latencies] : latencies_) {
+    const auto middle = latencies.all.begin() + (latencies.all.size() - 1) / 2;
+    std::nth_element(latencies.all.begin(), middle, latencies.all.end());
+    summary_.latencies[name] = to_seconds(*middle);
+    if (latencies.has_future && *middle < 0) summary_.stamped_ahead.push_back(name);
+  }
+}
+
 void SummaryRecorder::add_estimate(const Estimate& estimate, BoundLoss loss,
                                    const std::vector<double>& state_bounds) {
   ++summary_.estimates;
+  last_estimate_ = estimate.stamp;
+  if (estimate.law->observer().is_input_stale(estimate.state.data())) {
+    if (summary_.input_stale++ == 0) summary_.input_stale_since = to_seconds(estimate.stamp);
+  }
   note_bound(estimate.stamp, loss);
   for (std::size_t i = 0; i < summary_.plots.size(); ++i) {
     const Eigen::VectorXd& row = plotted_[i].row;
@@ -134,6 +179,8 @@ void SummaryRecorder::plot(Series& series, Stamp stamp, double value) {
 
 ReplaySummary SummaryRecorder::summary() {
   summarize_sensors();
+  summarize_inputs();
+  summarize_latencies();
   for (const Event& jump : plotted_jumps_) {
     summary_.jump_times.push_back(plot_time(jump.stamp));
   }

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "replay/comparison.h"
 #include "replay/summary.h"
+#include "sampled_data_observers/config/event_channels.h"
 #include "sampled_data_observers/config/observer_config.h"
 #include "sampled_data_observers/runtime/estimator.h"
 
@@ -22,7 +24,9 @@ class SummaryRecorder {
   void add_missing_topic(const std::string& name, const std::string& topic);
   void add_withheld_sample() { ++summary_.samples_withheld; }
   /// @param reason  as the event's status has it
-  void add_event(const Event& event, const EventReport& report, const std::string& reason);
+  /// @param latency  time of its arrival minus its stamp [ns]
+  void add_event(const EventChannel& channel, const Event& event, const EventReport& report,
+                 const std::string& reason, Duration latency);
   /// @param state_bounds  one for each state; empty where there are none
   void add_estimate(const Estimate& estimate, BoundLoss loss,
                     const std::vector<double>& state_bounds);
@@ -35,6 +39,8 @@ class SummaryRecorder {
  private:
   void count(const Event& event, const EventReport& report, const std::string& reason);
   void summarize_sensors();
+  void summarize_inputs();
+  void summarize_latencies();
   void note_bound(Stamp stamp, BoundLoss loss);
   void plot_sample(std::size_t sensor, const Event& event);
   void plot(Series& series, Stamp stamp, double value);
@@ -43,8 +49,16 @@ class SummaryRecorder {
   const ObserverConfig& config_;
   std::vector<Quantity> plotted_;
   std::optional<Stamp> plot_origin_;
-  std::vector<std::vector<Stamp>> used_stamps_;  ///< of the samples of each sensor
-  std::vector<Event> plotted_jumps_;             ///< used and not taken back, without their values
+  std::vector<std::vector<Stamp>> used_stamps_;   ///< of the samples of each sensor
+  std::vector<std::vector<Stamp>> input_stamps_;  ///< likewise of each source of inputs
+  /// Of each source of events.
+  struct Latencies {
+    std::vector<Duration> all;
+    bool has_future = false;
+  };
+  std::map<std::string, Latencies> latencies_;
+  Stamp last_estimate_ = 0;
+  std::vector<Event> plotted_jumps_;  ///< used and not taken back, without their values
   std::optional<BoundLoss> bound_loss_;
   ReplaySummary summary_;
 };

@@ -1,5 +1,7 @@
 #include "sampled_data_observers/ros/diagnostics_reporter.h"
 
+#include <locale>
+#include <sstream>
 #include <utility>
 
 #include "messages/time_conversion.h"
@@ -15,13 +17,29 @@ void copy(const Finding& finding, diagnostic_updater::DiagnosticStatusWrapper& s
   for (const auto& [key, value] : finding.values) status.add(key, value);
 }
 
+/// Of a channel of inputs.
+void describe_timeout(const Plant& plant, DiagnosisSubject::Channel& channel) {
+  const InputChannel& inputs = plant.input_channels()[channel.sensor];
+  channel.timeout = inputs.timeout;
+  for (std::size_t i = 0; i < inputs.after_timeout.size(); ++i) {
+    std::ostringstream value;
+    value.imbue(std::locale::classic());
+    value << plant.input_names()[static_cast<std::size_t>(inputs.inputs[i])] << " = "
+          << inputs.after_timeout[i];
+    channel.after_timeout += (i > 0 ? ", " : "") + value.str();
+  }
+}
+
 }  // namespace
 
 DiagnosisSubject diagnosis_subject(const ObserverConfig& config) {
   DiagnosisSubject subject;
   for (const EventChannel& channel : event_channels(config)) {
-    subject.channels.push_back({channel.name, channel.source.topic, channel.kind,
-                                channel.source.type, static_cast<std::size_t>(channel.sensor)});
+    const auto sensor = static_cast<std::size_t>(channel.sensor);
+    DiagnosisSubject::Channel described{
+        channel.name, channel.source.topic, channel.kind, channel.source.type, sensor, 0, {}};
+    if (channel.kind == EventKind::kInput) describe_timeout(*config.plant, described);
+    subject.channels.push_back(std::move(described));
   }
   subject.period = config.period;
   subject.sampling = config.options.sampling;
@@ -64,6 +82,19 @@ void DiagnosticsReporter::tell_of_guarantee() {
   }
 }
 
+/// Once when estimates begin to rest on an input that is stale, and once when they don't any more.
+void DiagnosticsReporter::tell_of_inputs() {
+  if (window_.lateness.count == 0) return;
+  const bool is_stale = window_.input_stale > 0;
+  if (is_stale == was_input_stale_) return;
+  was_input_stale_ = is_stale;
+  if (is_stale) {
+    log_.warn("estimates rest on an input older than its timeout: see /diagnostics");
+  } else {
+    log_.info("inputs come in time again");
+  }
+}
+
 void DiagnosticsReporter::note_other_gains(const ObserverConfig& config) {
   DiagnosisSubject subject = diagnosis_subject(config);
   const std::lock_guard<std::mutex> lock(mutex_);
@@ -85,6 +116,7 @@ void DiagnosticsReporter::report(const ros::SteadyTimerEvent&) {
   const std::lock_guard<std::mutex> lock(mutex_);
   diagnosis_.update(window_, now, now - last_now_);
   tell_of_guarantee();
+  tell_of_inputs();
   last_now_ = now;
   updater_.force_update();
 }

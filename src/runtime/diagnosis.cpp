@@ -49,6 +49,14 @@ std::string describe_wrong_type(const std::string& topic, const std::string& pub
   return topic + " is published as " + published + ", expected " + expected;
 }
 
+std::string describe_stamps_ahead(Duration latency) {
+  constexpr Duration kMillisecond = 1'000'000;
+  const Duration rounded = (latency - kMillisecond / 2) / kMillisecond * kMillisecond;
+  return seconds(-latency) +
+         " ahead of the clock in the median: stamp_offset: " + shown(to_seconds(rounded)) +
+         " in the source takes that off, NTP on its host mends it";
+}
+
 std::string describe_old_stamps(const std::string& topic, Duration behind) {
   return "stamps on " + topic + " are " + seconds(behind) +
          " older than the clock: play the bag with --clock and /use_sim_time true, or compare the "
@@ -110,8 +118,12 @@ std::string Diagnosis::rejections(const ChannelStatistics& statistics) const {
   }
   if (commonest == kEventOutcomes) return "";
   const auto outcome = static_cast<EventOutcome>(commonest);
-  const bool lacks_transform = outcome == EventOutcome::kNoTransform;
-  return with_remedy(outcome, lacks_transform ? statistics.missing_transform : "");
+  std::string detail;
+  if (outcome == EventOutcome::kNoTransform) detail = statistics.missing_transform;
+  if (outcome == EventOutcome::kInFuture && statistics.median_latency.value_or(0) < 0) {
+    detail = describe_stamps_ahead(*statistics.median_latency);
+  }
+  return with_remedy(outcome, detail);
 }
 
 /// Empty where the type is right, or nothing is published.
@@ -144,6 +156,18 @@ std::string Diagnosis::why_no_estimate() const {
   }
   if (!mistyped.empty()) return mistyped;
   return "nothing was received on" + silent + ": are their publishers running (rostopic info)?";
+}
+
+/// Empty where it is not, as of the last input that was used.
+std::string Diagnosis::why_input_is_stale(std::size_t index) const {
+  const DiagnosisSubject::Channel& channel = subject_.channels[index];
+  const Stamp newest = memory_[index].newest;
+  if (channel.timeout == 0 || newest == 0 || now_ - newest <= channel.timeout) return "";
+  return "the last input on " + channel.topic + " is " + seconds(now_ - newest) +
+         " old, more than its timeout of " + seconds(channel.timeout) +
+         (channel.after_timeout.empty() ? ": it goes on holding"
+                                        : ": taken as " + channel.after_timeout) +
+         "; has its publisher stopped (rostopic hz)?";
 }
 
 /// Empty where the innovations of no sensor do so.
@@ -240,6 +264,7 @@ Finding Diagnosis::estimates() const {
       {"published in all", std::to_string(totals_.lateness.count)},
       {"held", std::to_string(window_.held)},
       {"saturated", std::to_string(window_.saturated)},
+      {"with a stale input", std::to_string(window_.input_stale)},
       {"missing jumps in all", std::to_string(totals_.missing_jumps)},
       {"lost jumps in all", std::to_string(totals_.skipped_jumps)},
       {"jumps at other times in all", std::to_string(totals_.dwell_violations)},
@@ -282,6 +307,9 @@ Finding Diagnosis::channel(std::size_t index) const {
   } else if (memory_[index].behind > 0) {
     finding.level = HealthLevel::kWarn;
     finding.message = describe_old_stamps(channel.topic, memory_[index].behind);
+  } else if (const std::string stale = why_input_is_stale(index); !stale.empty()) {
+    finding.level = HealthLevel::kWarn;
+    finding.message = stale;
   } else if (is_measured && now_ - received > std::max(sampling.T2, kSilence)) {
     finding.level = HealthLevel::kStale;
     finding.message = "nothing for " + seconds(now_ - received) + " on " + channel.topic +
@@ -292,18 +320,24 @@ Finding Diagnosis::channel(std::size_t index) const {
                       std::to_string(statistics.short_intervals + statistics.long_intervals) +
                       " times between samples are outside of [" + seconds(sampling.T1) + ", " +
                       longest(sampling.T2) + "]";
+  } else if (statistics.received() == 0 && channel.kind == EventKind::kInput &&
+             now_ - received > kSilence) {
+    finding.message = "nothing for " + seconds(now_ - received) + ": the last input holds";
   } else {
     finding.message = statistics.received() > 0 ? "used" : "nothing lately";
   }
-  finding.values = {{"topic", channel.topic},
-                    {"received", std::to_string(statistics.received())},
-                    {"used", std::to_string(statistics.used())},
-                    {"latency", extremes(statistics.latency)},
-                    {"rewinds", std::to_string(statistics.rewound.count)},
-                    {"events applied again, most",
-                     std::to_string(statistics.rewound.count > 0 ? statistics.rewound.largest : 0)},
-                    {"received in all", std::to_string(total.received())},
-                    {"used in all", std::to_string(total.used())}};
+  finding.values = {
+      {"topic", channel.topic},
+      {"received", std::to_string(statistics.received())},
+      {"used", std::to_string(statistics.used())},
+      {"latency", extremes(statistics.latency)},
+      {"latency, median",
+       statistics.median_latency ? in_milliseconds(*statistics.median_latency) : "none"},
+      {"rewinds", std::to_string(statistics.rewound.count)},
+      {"events applied again, most",
+       std::to_string(statistics.rewound.count > 0 ? statistics.rewound.largest : 0)},
+      {"received in all", std::to_string(total.received())},
+      {"used in all", std::to_string(total.used())}};
   if (total.after_bound > 0) {
     finding.values.emplace_back("after a published bound, in all",
                                 std::to_string(total.after_bound));

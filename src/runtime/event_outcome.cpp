@@ -57,6 +57,8 @@ constexpr OutcomeText kTexts[kEventOutcomes] = {
      "compare rosmsg md5 on both hosts, and rostopic info: build all against the same messages"},
     {EventOutcome::kMalformed, "its bytes are no message of its type",
      "its publisher is broken, or its messages are cut off"},
+    {EventOutcome::kOutOfLimits, "a value lies outside of its source's limits",
+     "see what its publisher sends, with rostopic echo, and compare scale, offset and limits"},
 };
 
 constexpr bool is_in_order() {

@@ -43,6 +43,7 @@ std::uint64_t ChannelStatistics::used() const {
 void ChannelStatistics::add(const ChannelStatistics& other) {
   for (std::size_t i = 0; i < outcomes.size(); ++i) outcomes[i] += other.outcomes[i];
   latency.add(other.latency);
+  if (other.median_latency) median_latency = other.median_latency;
   if (other.newest) newest = std::max(newest.value_or(*other.newest), *other.newest);
   interval.add(other.interval);
   short_intervals += other.short_intervals;
@@ -60,6 +61,7 @@ void RunStatistics::add(const RunStatistics& later) {
   lateness.add(later.lateness);
   held += later.held;
   saturated += later.saturated;
+  input_stale += later.input_stale;
   missing_jumps = later.missing_jumps;
   skipped_jumps = later.skipped_jumps;
   dwell_violations = later.dwell_violations;
@@ -85,7 +87,10 @@ void StatisticsRecorder::record_event(std::size_t index, const Event& event,
                                       const EventReport& report, Duration latency) noexcept {
   Channel& channel = channels_[index];
   increment(channel.outcomes[static_cast<std::size_t>(report.outcome)]);
-  if (event.stamp > 0) channel.latency.record(latency);
+  if (event.stamp > 0) {
+    channel.latency.record(latency);
+    channel.median_latency.record(latency);
+  }
   if (report.used()) raise(channel.newest, event.stamp);
   if (report.rewound > 0) channel.rewound.record(static_cast<std::int64_t>(report.rewound));
   if (report.came_after_bound) increment(channel.after_bound);
@@ -107,6 +112,7 @@ void StatisticsRecorder::record_estimate(const ObserverLaw& law, const Estimate&
   lateness_.record(lateness);
   if (estimate.held) increment(held_);
   if (law.observer().is_saturated(estimate.state.data())) increment(saturated_);
+  if (law.observer().is_input_stale(estimate.state.data())) increment(input_stale_);
   const double* state = estimate.state.data();
   missing_jumps_.store(static_cast<std::uint64_t>(law.missing_jumps(state)), kRelaxed);
   skipped_jumps_.store(static_cast<std::uint64_t>(law.skipped_jumps(state)), kRelaxed);
@@ -131,6 +137,7 @@ void StatisticsRecorder::take(RunStatistics& statistics) noexcept {
       to.outcomes[code] = from.outcomes[code].exchange(0, kRelaxed);
     }
     to.latency = from.latency.take();
+    to.median_latency = from.median_latency.take();
     to.newest = as_stamp(from.newest.exchange(0, kRelaxed));
     to.interval = from.interval.take();
     to.short_intervals = from.short_intervals.exchange(0, kRelaxed);
@@ -146,6 +153,7 @@ void StatisticsRecorder::take(RunStatistics& statistics) noexcept {
   statistics.lateness = lateness_.take();
   statistics.held = held_.exchange(0, kRelaxed);
   statistics.saturated = saturated_.exchange(0, kRelaxed);
+  statistics.input_stale = input_stale_.exchange(0, kRelaxed);
   statistics.missing_jumps = missing_jumps_.load(kRelaxed);
   statistics.skipped_jumps = skipped_jumps_.load(kRelaxed);
   statistics.dwell_violations = dwell_violations_.load(kRelaxed);

@@ -301,6 +301,24 @@ TEST(GuaranteedBoundTest, IsLostWhereAnInputOrJumpIsRejectedButNotWhereASampleIs
   EXPECT_EQ(BoundLoss::kUnknownJump, run.loss_at(8.0));
 }
 
+TEST(GuaranteedBoundTest, IsLostWhereAnInputIsOlderThanItsTimeout) {
+  const ObserverConfig config = read_example("constant_gain_timeouts");
+  BoundedRun run(bounded(config, 0.4));
+  for (int i = 0; i <= 20; ++i) {
+    run.submit(EventKind::kInput, 1.0 + 0.05 * i, {0.1});
+    Event wind;
+    const double value = 0.2;
+    wind.kind = EventKind::kInput;
+    wind.stamp = kStart + from_seconds(1.0 + 0.05 * i);
+    wind.sensor = 1;
+    wind.values = &value;
+    wind.size = 1;
+    run.estimator().submit(wind, kStart + 50 * kSecond);
+  }
+  EXPECT_EQ(BoundLoss::kNone, run.loss_at(2.07));
+  EXPECT_EQ(BoundLoss::kUnknownInput, run.loss_at(2.08));
+}
+
 TEST(GuaranteedBoundTest, IsLostByInputsOfTheFutureFromWhenTheyCome) {
   BoundedRun run(bounded(example_law()));
   EXPECT_TRUE(run.submit(EventKind::kSample, 1.0, {0.1}, 1.0).used());

@@ -82,6 +82,35 @@ TEST(TopicConfigTest, FaultsSayWhatIsExpected) {
   }
 }
 
+TEST(TopicConfigTest, CorrectionsAreForAllValuesOrForEach) {
+  const std::string text = replaced(kSources, "min_interval: 0.25",
+                                    "stamp_offset: -3.1, scale: 0.5, offset: [2], limits: [-1, 4]");
+  const ObserverConfig config =
+      parse(replaced(text, "type: std_msgs/Header", "type: std_msgs/Header, stamp_offset: 0.25"));
+  const TopicSource& sensor = *config.sensors[0];
+  EXPECT_EQ(-3'100'000'000, sensor.stamp_offset);
+  EXPECT_EQ(Eigen::VectorXd::Constant(1, 0.5), sensor.correction.scale);
+  EXPECT_EQ(Eigen::VectorXd::Constant(1, 2.0), sensor.correction.offset);
+  ASSERT_EQ(1u, sensor.correction.limits.size());
+  EXPECT_EQ(Eigen::Vector2d(-1.0, 4.0), sensor.correction.limits[0]);
+  EXPECT_EQ(250'000'000, config.jumps->stamp_offset);
+  const char* const own = "min_interval: 0.25";
+  const std::vector<Fault> faults = {
+      {own, "stamp_offset: 1e7", {"source/stamp_offset", "1e+07"}},
+      {own, "scale: 0", {"source/scale", "other than 0"}},
+      {own, "scale: [1, 2]", {"source/scale", "a list of 1"}},
+      {own, "offset: x", {"source/offset"}},
+      {own, "limits: [4, -1]", {"source/limits", "lowest < highest"}},
+      {own, "limits: [[0, 1], [0, 1]]", {"source/limits", "found 2 of them"}},
+      {own, "limits: [1, 2, 3]", {"source/limits", "[lowest, highest]"}},
+      {"type: std_msgs/Header", "type: std_msgs/Header, scale: 2", {"jumps/scale", "unknown"}},
+  };
+  for (const Fault& change : faults) {
+    const std::string message = fault(replaced(kSources, change.from, change.to));
+    EXPECT_EQ("", test::missing_parts(change, message)) << message;
+  }
+}
+
 const char kInputs[] = R"(
 observer: ConstantGainObserver
 plant: {states: [p], inputs: [u, v, w], A: [[0]], B: [[1, 2, 3]]}

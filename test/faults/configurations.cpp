@@ -63,6 +63,7 @@ std::vector<Configuration> all_configurations() {
       oscillating("oscillator", {"oscillator.yaml", "jumps.yaml", "position.yaml"}),
       oscillating("looping", {"oscillator.yaml", "jumps.yaml", "position.yaml", "looping.yaml"}),
       oscillating("gated", {"oscillator.yaml", "jumps.yaml", "gated.yaml"}),
+      oscillating("guarded", {"oscillator.yaml", "jumps.yaml", "position.yaml", "guarded.yaml"}),
       oscillating("thinned", {"oscillator.yaml", "jumps.yaml", "thinned.yaml"}),
       oscillating("contact", {"oscillator.yaml", "contact.yaml", "position.yaml"}),
       oscillating("switched", {"switched.yaml", "position.yaml"}),

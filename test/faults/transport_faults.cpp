@@ -2,6 +2,7 @@
 #include <std_msgs/String.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <random>
 
@@ -108,6 +109,24 @@ void input_is_silent(FaultBench& bench) {
   }
 }
 
+/// The last input is wrong; from its timeout on it is taken as what it really is.
+void input_times_out(FaultBench& bench) {
+  bench.go_on(0.1);
+  bench.publish("input", input(bench.now(), {0.9}));
+  bench.await_statuses();
+  bench.end_publisher("input");
+  for (int i = 0; i < 40; ++i) {
+    bench.let_pass(0.1);
+    bench.sample(bench.now());
+    bench.await_statuses();
+  }
+  bench.await_estimates();
+  const StateEstimate& last = bench.estimates.back();
+  if (last.input_stale == 0) throw std::runtime_error("a stale input is not told");
+  const double error = std::abs(last.state[0] - bench.truth(bench.now())[0]);
+  if (error > bench.configuration().tolerance) throw std::runtime_error("the input holds");
+}
+
 }  // namespace
 
 std::vector<Fault> transport_faults() {
@@ -145,6 +164,12 @@ std::vector<Fault> transport_faults() {
        "the publisher of the input dies: it holds",
        input_is_silent,
        {}},
+      {"InputTimesOut",
+       "guarded",
+       "the publisher of the input dies after a wrong one, whose timeout is 0.25 s",
+       input_times_out,
+       {},
+       Meanwhile::kFinite},
       {"WrongType",
        "joint",
        "a publisher of another type on the topic of a sensor",

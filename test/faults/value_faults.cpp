@@ -43,6 +43,16 @@ void send_inputs(FaultBench& bench) {
   bench.await_statuses();
 }
 
+/// One message of a wheel that slips, or of a bit that flipped, among good ones.
+void spike_of_input(FaultBench& bench) {
+  for (int i = 0; i < 5; ++i) {
+    bench.go_on(0.1);
+    bench.publish("input", input(bench.now(), {62.8}));
+    bench.await_statuses();
+  }
+  bench.go_on(0.5);
+}
+
 void change_sign(FaultBench& bench) {
   bench.go_on(1.0, [&](Stamp stamp) { bench.sample(stamp, -bench.truth(stamp)[0]); });
 }
@@ -95,6 +105,11 @@ std::vector<Fault> value_faults() {
        "inputs that are NaN, infinite, empty, and of two values",
        send_inputs,
        {{EventStatus::NOT_FINITE, 2}, {EventStatus::WRONG_SIZE, 2}}},
+      {"InputSpike",
+       "guarded",
+       "inputs of 62.8 between good ones, where their limits are 1",
+       spike_of_input,
+       {{EventStatus::OUT_OF_LIMITS, 5}}},
       {"LargestAdmissible",
        "oscillator",
        "a sample of 1e100",

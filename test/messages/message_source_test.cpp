@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <boost/make_shared.hpp>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "messages/source_reading.h"
@@ -137,6 +138,48 @@ TEST(MessageSourceTest, AMinimumIntervalThinsByStamps) {
   EXPECT_EQ(Reading::kPassedOver, reading(1051));  // late
   EXPECT_EQ(Reading::kEvent, reading(500));        // the clock was set back
   EXPECT_EQ(Reading::kEvent, reading(600));
+}
+
+TEST(MessageSourceTest, AnOffsetOfStampsIsAddedToAllThatThereAre) {
+  geometry_msgs::PointStamped message;
+  message.header.stamp = to_ros_time(test::kStamp);
+  TopicSource source = test::source<geometry_msgs::PointStamped>({"point.x"});
+  source.stamp_offset = -3'100'000'000;
+  const std::unique_ptr<MessageSource> messages = make_message_source(source);
+  EXPECT_EQ(test::kStamp - 3'100'000'000, test::read(*messages, message).event.stamp);
+  message.header.stamp = ros::Time();
+  EXPECT_EQ(0, test::read(*messages, message).event.stamp);
+  source.stamped_on_receipt = true;
+  EXPECT_EQ(test::kReceipt - 3'100'000'000,
+            test::read(*make_message_source(source), message).event.stamp);
+}
+
+TEST(MessageSourceTest, ValuesAreScaledMovedAndKeptWithinLimits) {
+  geometry_msgs::PointStamped message;
+  message.header.stamp = to_ros_time(test::kStamp);
+  message.point.x = 3.0;
+  message.point.y = -8.0;
+  TopicSource source = test::source<geometry_msgs::PointStamped>({"point.x", "point.y"});
+  source.correction.scale = Eigen::Vector2d(2.0, 0.25);
+  source.correction.offset = Eigen::Vector2d(-1.0, 0.5);
+  source.correction.limits = {{4.0, 6.0}, {-1.5, 0.0}};
+  source.min_interval = kNanosecondsPerSecond;
+  const std::unique_ptr<MessageSource> messages = make_message_source(source);
+  message.point.x = 3.6;
+  EXPECT_EQ(Reading::kOutOfLimits, test::read(*messages, message).reading);
+  EXPECT_EQ(EventOutcome::kOutOfLimits, outcome_of(Reading::kOutOfLimits));
+  // It does not take the place of the next one.
+  message.point.x = 3.0;
+  const test::Read read = test::read(*messages, message);
+  EXPECT_EQ(Reading::kEvent, read.reading);
+  EXPECT_EQ((std::vector<double>{5.0, -1.5}), read.values);
+  message.point.x = std::numeric_limits<double>::quiet_NaN();  // whoever takes events rejects it
+  EXPECT_EQ(Reading::kEvent, test::read(*messages, message).reading);
+  const auto shared = boost::make_shared<geometry_msgs::PointStamped>(message);
+  Event event;
+  const std::size_t before = test::allocations();
+  messages->read(shared, test::kReceipt, event);
+  EXPECT_EQ(before, test::allocations());
 }
 
 TEST(MessageSourceTest, ReadingAllocatesNothing) {

@@ -220,6 +220,28 @@ class ToolsTest(FolderTest):
         text = self.fault("replay", *self.replay("wind:=/none"))
         self.assertIn("inputs/w: the bag has no topic /none", text)
 
+    def test_a_silent_input_is_told(self):
+        self.scenario = self.write("scenario.yaml", SCENARIO)
+        self.simulate()
+        self.write("timeout.yaml", SCENARIO.replace(
+            "{topic: input}", "{topic: input, min_interval: 1, timeout: 0.5, after_timeout: {u: 0}}"))
+        self.scenario = self.path("timeout.yaml")
+        text = self.succeed("replay", *self.replay("--json", self.path("summary.json")))
+        self.assertIn("inputs      3 used, none for at most 1 s (from 100", text)
+        self.assertRegex(text, r"            [67]\d estimates rest on one older than its timeout, "
+                               r"from 1000\.500 s on\n")
+        with open(self.path("summary.json")) as summary:
+            self.assertEqual(json.load(summary)["inputs"]["input"]["longest_silence"], 1)
+
+    def test_a_clock_that_is_ahead_is_told_by_how_much(self):
+        self.simulate()
+        self.write("ahead.yaml", SCENARIO.replace("source: {topic: position}",
+                                                  "source: {topic: position, stamp_offset: 3.1}"))
+        self.scenario = self.path("ahead.yaml")
+        text = self.succeed("replay", *self.replay())
+        self.assertRegex(text, r"clock       stamps of position are 3\.0\d+ s ahead of the clock in "
+                               r"the median: stamp_offset: -3\.0\d+ in the source")
+
     def summary(self):
         self.succeed("replay", *self.replay("--json", self.path("summary.json")))
         with open(self.path("summary.json")) as summary:

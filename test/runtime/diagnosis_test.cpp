@@ -244,6 +244,39 @@ TEST_F(DiagnosisTest, IntervalsOutsideSuspendTheCertificateUntilTheyAreWithin) {
          diagnosis_.certificate());
 }
 
+TEST_F(DiagnosisTest, StampsAheadOfTheClockAreToldByHowMuch) {
+  RunStatistics window = good();
+  window.channels[0].outcomes[0] = 0;
+  outcome(window, EventOutcome::kInFuture) = 10;
+  window.channels[0].median_latency = -3'100'200'000;
+  update(window);
+  expect(
+      HealthLevel::kError,
+      {"all rejected", "3.1002 s ahead of the clock in the median", "stamp_offset: -3.1 in", "NTP"},
+      diagnosis_.channel(0));
+  EXPECT_EQ("-3100.2 ms", value(diagnosis_.channel(0), "latency, median"));
+}
+
+TEST_F(DiagnosisTest, AnInputOlderThanItsTimeoutIsTold) {
+  DiagnosisSubject with_timeout = subject();
+  with_timeout.channels[1].timeout = kSecond / 2;
+  with_timeout.channels[1].after_timeout = "v = 0";
+  diagnosis_.set_subject(with_timeout);
+  RunStatistics window = good();
+  window.channels[1].outcomes[0] = 1;
+  window.channels[1].newest = now_ + kSecond;
+  update(window);
+  expect(HealthLevel::kOk, {"used"}, diagnosis_.channel(1));
+  update(good());
+  expect(HealthLevel::kWarn,
+         {"the last input on /input is 1 s old", "timeout of 0.5 s", "taken as v = 0"},
+         diagnosis_.channel(1));
+  diagnosis_.set_subject(subject());
+  update(good());
+  update(good());
+  expect(HealthLevel::kOk, {"nothing for 3 s: the last input holds"}, diagnosis_.channel(1));
+}
+
 TEST(DiagnosisOfSeveralSensorsTest, EachHasItsOwnTimes) {
   DiagnosisSubject subject;
   subject.channels = {{"gps", "/gps", EventKind::kSample, "", 0},

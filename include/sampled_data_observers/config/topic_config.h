@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -12,6 +13,20 @@
 #include "sampled_data_observers/plant/plant.h"
 
 namespace sampled_data_observers {
+
+/// What is made of the values of messages before they are those of events: scale * value + offset,
+/// which is to lie in limits.
+struct ValueCorrection {
+  /// One per value; empty: 1.
+  Eigen::VectorXd scale;
+  /// One per value; empty: 0.
+  Eigen::VectorXd offset;
+  /// One per value, lowest and highest; empty: none.
+  std::vector<Eigen::Vector2d> limits;
+
+  /// Whether values stay as they are.
+  bool is_empty() const { return scale.size() == 0 && offset.size() == 0 && limits.empty(); }
+};
 
 /// Where the values of events come from.
 struct TopicSource {
@@ -32,6 +47,10 @@ struct TopicSource {
   std::string mode;
   /// Whether the stamp of an event is the time of receipt instead of the message's own.
   bool stamped_on_receipt = false;
+  /// Added to every stamp [ns].
+  Duration stamp_offset = 0;
+  /// Of their values; for jumps none.
+  ValueCorrection correction;
   /// Events nearer to the last one kept are passed over [ns]; 0: none.
   Duration min_interval = 0;
   /// Where the messages are no jumps but show them: how to detect them.

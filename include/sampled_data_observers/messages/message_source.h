@@ -23,6 +23,7 @@ enum class Reading : std::uint8_t {
   kEvent,            ///< an event
   kPassedOver,       ///< nothing: the source is thinned, or no jump is detected
   kNoField,          ///< nothing: the message does not hold a field that is configured
+  kOutOfLimits,      ///< nothing: a value lies outside of the limits that are configured
   kInFuture,         ///< nothing: a detector's signal from beyond the tolerated future
   kOutOfOrder,       ///< nothing: a detector's signal whose stamp is not after the one before
   kNotFinite,        ///< nothing: a detector's signal that is NaN or infinite

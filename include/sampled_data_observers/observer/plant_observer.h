@@ -61,6 +61,10 @@ class PlantObserver : public ObserverLaw {
   /// Whether the plant has the mode that a jump event names. @pre accepts(event)
   bool knows_mode(const Event& event) const;
 
+  /// Whether the inputs of some channel are older than their timeout, in a state; those that never
+  /// came, older than the estimate.
+  bool is_input_stale(const double* state) const;
+
   /// What is held in a state: the input, and behind it the continuous outputs. For observers of one
   /// plant it has one form.
   const double* held_part(const double* state) const { return held_part_.of(state); }
@@ -225,6 +229,9 @@ class PlantObserver : public ObserverLaw {
   class Field;
 
   void take_input(const Event& event, double* state) const;
+  void expire_inputs(double* state) const;
+  Duration until_timeout(const double* state) const;
+  void flow_part(Duration duration, double* state, double* workspace) const;
   Effect begin_jump(const Event& event, double* state, double* workspace) const;
   Effect apply_jump(std::size_t next, double* state, double* workspace) const;
   Effect pair_with_jump(const Event& output, double* state, double* workspace) const;
@@ -251,7 +258,13 @@ class PlantObserver : public ObserverLaw {
   VectorSlot u_;
   VectorSlot y_c_;
   FlagsSlot y_c_known_;
-  VectorSlot held_part_;  ///< inputs_ and y_c_known_
+  /// The age of the inputs of a channel that have a timeout.
+  struct InputAge {
+    std::size_t channel = 0;
+    TimerSlot timer;  ///< up to the timeout
+  };
+  std::vector<InputAge> input_ages_;
+  VectorSlot held_part_;  ///< inputs_, y_c_known_ and input_ages_
   ModeSlot mode_;
   TimerSlot since_jump_;
 

@@ -42,6 +42,10 @@ struct InputChannel {
   std::string name;
   /// Positions in u, in ascending order.
   std::vector<Eigen::Index> inputs;
+  /// How long the inputs hold [ns]; 0: until the next ones, however late they come.
+  Duration timeout = 0;
+  /// What they are from then on, one value each; empty: they hold all the same.
+  std::vector<double> after_timeout = {};
 
   /// Number of values.
   Eigen::Index size() const { return static_cast<Eigen::Index>(inputs.size()); }

@@ -39,6 +39,7 @@ class DiagnosticsReporter {
  private:
   void report(const ros::SteadyTimerEvent&);
   void tell_of_guarantee();
+  void tell_of_inputs();
 
   const NodeLog log_;
   StatisticsRecorder& recorder_;
@@ -47,6 +48,7 @@ class DiagnosticsReporter {
   RunStatistics window_;
   Stamp last_now_ = 0;
   bool was_suspended_ = false;
+  bool was_input_stale_ = false;
   diagnostic_updater::Updater updater_;
   ros::SteadyTimer timer_;
 };

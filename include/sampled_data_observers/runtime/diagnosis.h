@@ -38,6 +38,10 @@ struct DiagnosisSubject {
     std::string type;
     /// Index of the sensor, for samples.
     std::size_t sensor = 0;
+    /// Of inputs: how long they hold [ns]; 0: until the next ones.
+    Duration timeout = 0;
+    /// What they are then, in words; empty: they hold all the same.
+    std::string after_timeout;
   };
 
   /// In the order of RunStatistics::channels.
@@ -119,6 +123,7 @@ class Diagnosis {
   std::string wrong_type(std::size_t channel) const;
   std::string why_stamps_are_old() const;
   std::string rejections(const ChannelStatistics& statistics) const;
+  std::string why_input_is_stale(std::size_t index) const;
   void add_times_between_samples(std::size_t index, Finding& finding) const;
   void add_bounds_of_all(Finding& finding) const;
 
@@ -143,6 +148,10 @@ class Diagnosis {
 /// What is said of a topic with another type of messages than what is configured.
 std::string describe_wrong_type(const std::string& topic, const std::string& published,
                                 const std::string& expected);
+
+/// How far stamps lie ahead of the clock in the median, and what to do.
+/// @param latency  time of arrival minus stamp, < 0 [ns]
+std::string describe_stamps_ahead(Duration latency);
 
 /// What is said of a topic whose stamps lie so far behind the clock.
 std::string describe_old_stamps(const std::string& topic, Duration behind);

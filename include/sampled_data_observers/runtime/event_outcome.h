@@ -31,11 +31,12 @@ enum class EventOutcome : std::uint8_t {
   kWithdrawn = 21,     ///< a jump taken in without effect: its withdrawal came before
   kNoSuchJump = 22,    ///< a withdrawal taken in without effect, unless its jump comes yet
   kOtherDefinition = 23,  ///< of a publisher of another type, or another definition of it: no event
-  kMalformed = 24         ///< bytes that are no message of the type: no event
+  kMalformed = 24,        ///< bytes that are no message of the type: no event
+  kOutOfLimits = 25       ///< a value lies outside of its source's limits
 };
 
 /// How many outcomes there are: their codes lie below.
-constexpr std::size_t kEventOutcomes = static_cast<std::size_t>(EventOutcome::kMalformed) + 1;
+constexpr std::size_t kEventOutcomes = static_cast<std::size_t>(EventOutcome::kOutOfLimits) + 1;
 
 /// The outcome in a few words.
 const char* describe(EventOutcome outcome);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "sampled_data_observers/runtime/estimator.h"
+#include "sampled_data_observers/runtime/median_recorder.h"
 #include "sampled_data_observers/runtime/range_recorder.h"
 
 namespace sampled_data_observers {
@@ -20,6 +21,8 @@ struct ChannelStatistics {
   std::array<std::uint64_t, kEventOutcomes> outcomes{};
   /// Time of arrival minus stamp [ns].
   Range latency;
+  /// Its median over the last MedianRecorder::kLength events.
+  std::optional<Duration> median_latency;
   /// The newest stamp of an event that was used.
   std::optional<Stamp> newest;
   /// Time between used samples of this sensor [ns].
@@ -59,7 +62,7 @@ struct RunStatistics {
   /// Of a time in which nothing happened.
   explicit RunStatistics(std::size_t channels) : channels(channels) {}
 
-  /// In the order of the configuration: sensors, input, jumps.
+  /// In the order of the configuration: sensors, inputs, jumps.
   std::vector<ChannelStatistics> channels;
   /// Of each estimate published: how long after it was due [ns].
   Range lateness;
@@ -67,6 +70,8 @@ struct RunStatistics {
   std::uint64_t held = 0;
   /// How many of them stood at a bound of the observer's saturations.
   std::uint64_t saturated = 0;
+  /// How many of them rest on an input older than its timeout.
+  std::uint64_t input_stale = 0;
   /// Of the newest estimate: jumps that no event told of, since the start.
   std::uint64_t missing_jumps = 0;
   /// Likewise: jumps that were lost, as the numbers of the others tell.
@@ -123,6 +128,7 @@ class StatisticsRecorder {
   struct Channel {
     std::array<std::atomic<std::uint64_t>, kEventOutcomes> outcomes{};
     RangeRecorder latency;
+    MedianRecorder median_latency;
     /// 0 where there is none.
     std::atomic<Stamp> newest{0};
     RangeRecorder interval;
@@ -142,6 +148,7 @@ class StatisticsRecorder {
   RangeRecorder tick_cpu_time_;
   std::atomic<std::uint64_t> held_{0};
   std::atomic<std::uint64_t> saturated_{0};
+  std::atomic<std::uint64_t> input_stale_{0};
   std::atomic<std::uint64_t> missing_jumps_{0};
   std::atomic<std::uint64_t> skipped_jumps_{0};
   std::atomic<std::uint64_t> dwell_violations_{0};
