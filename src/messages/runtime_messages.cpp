@@ -100,6 +100,10 @@ void write(const EventChannel& channel, const Event& event, const EventReport& r
   status.interval = report.interval ? to_seconds(*report.interval) : kNone;
   status.interval_check = static_cast<std::uint8_t>(report.interval_check);
   status.dwell_check = static_cast<std::uint8_t>(report.dwell_check);
+  const Eigen::Index innovations = report.innovations == nullptr ? 0 : event.size;
+  status.innovation.assign(report.innovations, report.innovations + innovations);
+  status.gate_share = report.gate_share;
+  status.nis = report.nis;
 }
 
 void write(ObserverRuntime& runtime, const Estimate& estimate, StateEstimate& message) {

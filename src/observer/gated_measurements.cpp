@@ -289,6 +289,23 @@ bool GatedMeasurements::is_outside(const Gate& gate, const Event& event, const d
   return false;
 }
 
+double GatedMeasurements::gate_share(const Event& measured, const double* state,
+                                     double* workspace) const {
+  const auto sensor = static_cast<std::size_t>(measured.sensor);
+  if (!gates_[sensor]) return LawDecorator::gate_share(measured, state, workspace);
+  const Gate& gate = gates_[sensor]->gate;
+  if (gate.innovation.size() == 0) {
+    return observer().mahalanobis_distance(measured, state, workspace) / gate.mahalanobis;
+  }
+  double* innovation = innovation_.of(workspace);
+  observer().innovation(measured, state, innovation);
+  double largest = 0.0;
+  for (Eigen::Index i = 0; i < measured.size; ++i) {
+    largest = std::max(largest, std::abs(innovation[i]) / gate.innovation(i));
+  }
+  return largest;
+}
+
 /// Begins anew, with what was held in a state before, and what it knew of jumps.
 void GatedMeasurements::begin_anew(const double* before, double* state) const {
   initialize(state);

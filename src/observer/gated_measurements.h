@@ -54,6 +54,7 @@ class GatedMeasurements : public LawDecorator {
   void initialize(double* state) const override;
   void flow(Duration duration, double* state, double* workspace) const override;
   Effect reset(const Event& event, double* state, double* workspace) const override;
+  double gate_share(const Event& measured, const double* state, double* workspace) const override;
   VectorSlot records_of_estimate() const override { return standing_; }
 
  private:

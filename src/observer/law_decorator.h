@@ -14,6 +14,10 @@ class LawDecorator : public ObserverLaw {
   bool accepts(const Event& event) const override { return law_->accepts(event); }
   const double* awaited(const double* state) const override { return law_->awaited(state); }
 
+  double gate_share(const Event& measured, const double* state, double* workspace) const override {
+    return law_->gate_share(measured, state, workspace);
+  }
+
   /// The law within.
   const ObserverLaw& law() const { return *law_; }
 

@@ -121,6 +121,37 @@ void print_intervals(const ReplaySummary& summary, std::ostream& out) {
   }
 }
 
+void print_innovations(const ReplaySummary& summary, std::ostream& out) {
+  for (const InnovationSummary& innovation : summary.innovations) {
+    if (innovation.of.count == 0) continue;
+    std::string mean;
+    std::string rms;
+    for (std::size_t i = 0; i < innovation.outputs; ++i) {
+      mean += (i > 0 ? ", " : "") + shown(innovation.of.mean(i));
+      rms += (i > 0 ? ", " : "") + shown(innovation.of.rms(i));
+    }
+    out << "innovation  of " << innovation.name << ": mean " << mean << "; RMS " << rms;
+    if (innovation.of.nis_count > 0) {
+      out << "; normalized, squared: mean " << shown(innovation.of.nis()) << ", "
+          << innovation.outputs << " where the model is right";
+    }
+    out << "\n";
+  }
+}
+
+nlohmann::json to_json(const InnovationSummary& innovation) {
+  nlohmann::json json = {{"count", innovation.of.count},
+                         {"mean", nlohmann::json::array()},
+                         {"rms", nlohmann::json::array()},
+                         {"nis", nlohmann::json()}};
+  for (std::size_t i = 0; innovation.of.count > 0 && i < innovation.outputs; ++i) {
+    json["mean"].push_back(innovation.of.mean(i));
+    json["rms"].push_back(innovation.of.rms(i));
+  }
+  if (innovation.of.nis_count > 0) json["nis"] = innovation.of.nis();
+  return json;
+}
+
 /// In seconds, with as many digits as an instant needs.
 std::string instant(double stamp) {
   std::ostringstream out;
@@ -236,6 +267,7 @@ void print_table(const ReplaySummary& summary, std::ostream& out) {
   }
   print_stamps_ahead(summary, out);
   print_intervals(summary, out);
+  print_innovations(summary, out);
   print_inputs(summary, out);
   out << "estimates   " << summary.estimates << ", the last";
   for (const auto& [name, value] : summary.final_state) out << " " << name << "=" << shown(value);
@@ -269,6 +301,9 @@ void write_json(const ReplaySummary& summary, const std::string& path) {
   json["sensors"] = nlohmann::json::object();
   for (const SensorSummary& sensor : summary.sensors)
     json["sensors"][sensor.name] = to_json(sensor);
+  json["innovations"] = nlohmann::json::object();
+  for (const InnovationSummary& innovation : summary.innovations)
+    json["innovations"][innovation.name] = to_json(innovation);
   json["inputs"] = nlohmann::json::object();
   for (const InputSummary& input : summary.inputs) {
     json["inputs"][input.name] = {{"used", input.used},

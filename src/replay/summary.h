@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "replay/jump_neighbourhood.h"
+#include "sampled_data_observers/runtime/run_statistics.h"
 
 namespace sampled_data_observers {
 
@@ -55,6 +56,13 @@ struct SensorSummary {
   SampleIntervals intervals;
 };
 
+/// What a replay found of the innovations of a sensor: of what was used or gated.
+struct InnovationSummary {
+  std::string name;
+  std::size_t outputs = 0;
+  InnovationStatistics of;
+};
+
 /// What a replay found of one source of inputs.
 struct InputSummary {
   std::string name;
@@ -93,6 +101,8 @@ struct ReplaySummary {
   /// Of each sensor that is sampled.
   std::vector<SensorSummary> sensors;
 
+  /// Of each sensor that is sampled or measures continuously.
+  std::vector<InnovationSummary> innovations;
   /// Of each source of inputs.
   std::vector<InputSummary> inputs;
   /// Time of reception minus stamp, its median, of each source of events [s], and which of them had

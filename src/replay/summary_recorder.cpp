@@ -13,6 +13,9 @@ SummaryRecorder::SummaryRecorder(const ObserverConfig& config, std::vector<Quant
       plotted_(std::move(plotted)),
       used_stamps_(config.sensors.size()),
       input_stamps_(config.inputs.size()) {
+  for (const Sensor& sensor : config.plant->sensors()) {
+    summary_.innovations.push_back({sensor.name, static_cast<std::size_t>(sensor.outputs()), {}});
+  }
   for (const Quantity& quantity : plotted_)
     summary_.plots.push_back({quantity.name, {}, {}, {}, {}});
 }
@@ -30,6 +33,11 @@ void SummaryRecorder::add_event(const EventChannel& channel, const Event& event,
     if (report.outcome == EventOutcome::kInFuture) latencies.has_future = true;
   }
   count(event, report, reason);
+  const bool is_compared = report.used() || report.outcome == EventOutcome::kGated;
+  if (is_compared && report.innovations != nullptr) {
+    summary_.innovations[static_cast<std::size_t>(event.sensor)].of.add(report.innovations,
+                                                                        event.size, report.nis);
+  }
   if (!report.used()) return;
   if (event.kind == EventKind::kSample) plot_sample(static_cast<std::size_t>(event.sensor), event);
   if (event.kind == EventKind::kJump) {

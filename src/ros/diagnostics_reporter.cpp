@@ -36,8 +36,14 @@ DiagnosisSubject diagnosis_subject(const ObserverConfig& config) {
   DiagnosisSubject subject;
   for (const EventChannel& channel : event_channels(config)) {
     const auto sensor = static_cast<std::size_t>(channel.sensor);
-    DiagnosisSubject::Channel described{
-        channel.name, channel.source.topic, channel.kind, channel.source.type, sensor, 0, {}};
+    DiagnosisSubject::Channel described{channel.name,
+                                        channel.source.topic,
+                                        channel.kind,
+                                        channel.source.type,
+                                        sensor,
+                                        channel.source.size,
+                                        0,
+                                        {}};
     if (channel.kind == EventKind::kInput) describe_timeout(*config.plant, described);
     subject.channels.push_back(std::move(described));
   }

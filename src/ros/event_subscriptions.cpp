@@ -16,8 +16,10 @@ namespace {
 
 constexpr std::size_t kStatusesHeld = 16;
 
-EventStatus status_prototype() {
+/// @param outputs  the most that a sensor has
+EventStatus status_prototype(Eigen::Index outputs) {
   EventStatus status;
+  status.innovation.resize(static_cast<std::size_t>(outputs));
   status.source = status.reason =
       std::string(64 + kLongestPair, ' ');  // room, so that writing allocates nothing
   return status;
@@ -33,7 +35,7 @@ EventSubscriptions::EventSubscriptions(const ros::NodeHandle& handle, const Obse
       publication_(publication),
       log_(std::move(log)),
       history_(config.options.history.history),
-      statuses_(status_prototype(), kStatusesHeld),
+      statuses_(status_prototype(config.plant->max_outputs()), kStatusesHeld),
       transforms_(std::make_shared<TransformBuffer>(config.static_transforms)),
       messages_(event_channels(config).size(), kQueueLength),
       turn_(boost::make_shared<ActionCallback>([this] { use_next(); })),
@@ -169,6 +171,7 @@ void EventSubscriptions::handle(const EventChannel& channel, const Event& event,
   EventReport report;
   Stamp now = 0;
   SharedRuntime::Parts parts;
+  const boost::shared_ptr<EventStatus> status = statuses_.take();
   while (true) {
     const SharedRuntime::Access access = runtime_.access();
     if (!parts.are_enough(access->approach(event, access.now(), SharedRuntime::kSteps))) continue;
@@ -178,11 +181,10 @@ void EventSubscriptions::handle(const EventChannel& channel, const Event& event,
       runtime_.statistics().record_missing_transform(channel.index, missing);
     now = access.now();
     runtime_.statistics().record_event(channel.index, event, report, now - event.stamp);
+    write(channel, event, report, missing, now, *status);  // the innovations are the runtime's
     break;
   }
   const Duration latency = now - event.stamp;
-  const boost::shared_ptr<EventStatus> status = statuses_.take();
-  write(channel, event, report, missing, now, *status);
   if (!report.used() && throttle_of(channel, report).admits()) {
     log_.warn("event from %s rejected: %s (stamp %.9f s, latency %.9f s)", channel.name.c_str(),
               status->reason.c_str(), to_seconds(event.stamp), status->latency);

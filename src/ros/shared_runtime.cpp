@@ -11,7 +11,8 @@ namespace sampled_data_observers {
 
 SharedRuntime::SharedRuntime(const ObserverConfig& config, NodeLog log, std::string reset_service)
     : runtime_(std::make_unique<ObserverRuntime>(config)),
-      statistics_(event_channels(config).size()),
+      statistics_(event_channels(config).size(),
+                  static_cast<std::size_t>(config.plant->max_outputs())),
       clock_(config.jump_back_tolerance),
       reset_on_jump_back_(config.reset_on_time_jump_back),
       log_(std::move(log)),

@@ -344,6 +344,7 @@ Finding Diagnosis::channel(std::size_t index) const {
   }
   if (is_measured) {
     finding.values.emplace_back("innovation, last", shown(statistics.innovation));
+    add_innovations(index, finding);
   }
   if (channel.kind == EventKind::kSample) add_times_between_samples(index, finding);
   for (std::size_t code = 0; code < kEventOutcomes; ++code) {

@@ -1,4 +1,4 @@
-// What diagnostics say of the times between events.
+// What diagnostics say of the times between events, and of innovations.
 #include <algorithm>
 #include <utility>
 
@@ -31,6 +31,25 @@ void Diagnosis::add_times_between_samples(std::size_t index, Finding& finding) c
        {"above T2 in all", std::to_string(total.long_intervals)},
        {"time since the last sample", newest > 0 ? seconds(since) : "none"},
        {"late now", is_late ? "by " + seconds(since - bounds.T2) : "no"}});
+}
+
+/// Of all time, since a bias shows in many only.
+void Diagnosis::add_innovations(std::size_t index, Finding& finding) const {
+  const InnovationStatistics& innovations = totals_.channels[index].innovations;
+  if (innovations.count == 0) return;
+  const std::size_t outputs = subject_.channels[index].outputs;
+  std::string mean;
+  std::string rms;
+  for (std::size_t i = 0; i < std::min(outputs, innovations.sums.size()); ++i) {
+    mean += (i > 0 ? ", " : "") + diagnosis_text::shown(innovations.mean(i));
+    rms += (i > 0 ? ", " : "") + diagnosis_text::shown(innovations.rms(i));
+  }
+  finding.values.emplace_back("innovation, mean in all", mean);
+  finding.values.emplace_back("innovation, RMS in all", rms);
+  if (innovations.nis_count == 0) return;
+  finding.values.emplace_back("normalized innovation squared, mean in all",
+                              diagnosis_text::shown(innovations.nis()) + " (" +
+                                  std::to_string(outputs) + " where the model is right)");
 }
 
 /// T1 and T2, by sensor where they differ.

@@ -170,7 +170,7 @@ EventReport Estimator::submit(const Event& event, Stamp now) {
     begin_at(event);
   }
   if (event.kind == EventKind::kSample || event.kind == EventKind::kOutput) {
-    report.innovation = innovation_of(event);
+    look_at_innovation(event, report);
   }
   // Even where the jump has no effect now: whether it has is known for sure only when all events
   // are.
@@ -209,14 +209,20 @@ DwellCheck Estimator::dwell_check_at(Stamp stamp) {
   return law_->dwell_check(before_restart_.state.data());
 }
 
-double Estimator::innovation_of(const Event& measured) {
+/// Before it takes effect.
+void Estimator::look_at_innovation(const Event& measured, EventReport& report) {
   const Timeline::Query query =
       timeline_.state_at(measured.stamp, before_restart_.state, before_restart_.counts);
   if (query != Timeline::Query::kOk && query != Timeline::Query::kHeld) {
-    return std::numeric_limits<double>::quiet_NaN();
+    return;
   }
-  law_->observer().innovation(measured, before_restart_.state.data(), innovation_.data());
-  return innovation_.head(measured.size).norm();
+  const double* state = before_restart_.state.data();
+  law_->observer().innovation(measured, state, innovation_.data());
+  report.innovation = innovation_.head(measured.size).norm();
+  report.innovations = innovation_.data();
+  report.gate_share = law_->gate_share(measured, state, workspace_.data());
+  const double distance = law_->observer().mahalanobis_distance(measured, state, workspace_.data());
+  report.nis = distance * distance;
 }
 
 void Estimator::note_rejected(const Event& event, Stamp now) {

@@ -53,6 +53,7 @@ void ChannelStatistics::add(const ChannelStatistics& other) {
   after_bound += other.after_bound;
   missing_transform = other.missing_transform;
   innovation = other.innovation;
+  innovations.add(other.innovations);
   trend = other.trend;
 }
 
@@ -72,8 +73,13 @@ void RunStatistics::add(const RunStatistics& later) {
   bound_loss = later.bound_loss;
 }
 
-StatisticsRecorder::StatisticsRecorder(std::size_t channels) : channels_(channels) {
-  for (Channel& channel : channels_) channel.missing_transform.reserve(kLongestTransform);
+StatisticsRecorder::StatisticsRecorder(std::size_t channels, std::size_t most_outputs)
+    : channels_(channels) {
+  for (Channel& channel : channels_) {
+    channel.missing_transform.reserve(kLongestTransform);
+    channel.innovations.sums.resize(most_outputs, 0.0);
+    channel.innovations.squares.resize(most_outputs, 0.0);
+  }
 }
 
 void StatisticsRecorder::record_missing_transform(std::size_t index,
@@ -81,6 +87,16 @@ void StatisticsRecorder::record_missing_transform(std::size_t index,
   Channel& channel = channels_[index];
   const std::unique_lock<std::mutex> lock(channel.missing_transform_mutex, std::try_to_lock);
   if (lock.owns_lock()) channel.missing_transform.assign(transform, 0, kLongestTransform);
+}
+
+/// Left out where take() just reads, and where there are more outputs than there is place for.
+void StatisticsRecorder::record_innovation(Channel& channel, Eigen::Index size,
+                                           const EventReport& report) noexcept {
+  const std::unique_lock<std::mutex> lock(channel.innovations_mutex, std::try_to_lock);
+  if (!lock.owns_lock() || size > static_cast<Eigen::Index>(channel.innovations.sums.size())) {
+    return;
+  }
+  channel.innovations.add(report.innovations, size, report.nis);
 }
 
 void StatisticsRecorder::record_event(std::size_t index, const Event& event,
@@ -98,6 +114,8 @@ void StatisticsRecorder::record_event(std::size_t index, const Event& event,
     channel.innovation.store(report.innovation, kRelaxed);
     channel.trend.store(report.trend, kRelaxed);
   }
+  const bool counts = report.used() || report.outcome == EventOutcome::kGated;
+  if (counts && report.innovations != nullptr) record_innovation(channel, event.size, report);
   if (!report.interval) return;
   channel.interval.record(*report.interval);
   const bool is_short = report.interval_check == IntervalCheck::kShort;
@@ -147,6 +165,11 @@ void StatisticsRecorder::take(RunStatistics& statistics) noexcept {
     to.after_bound = from.after_bound.exchange(0, kRelaxed);
     to.innovation = from.innovation.load(kRelaxed);
     to.trend = from.trend.load(kRelaxed);
+    {
+      const std::lock_guard<std::mutex> lock(from.innovations_mutex);
+      to.innovations = from.innovations;
+      from.innovations.clear();
+    }
     const std::lock_guard<std::mutex> lock(from.missing_transform_mutex);
     to.missing_transform = from.missing_transform;
   }

@@ -72,6 +72,9 @@ gains: {L: [[1]]}
     send(1, 0.0);
     send(2, 9.0);
     EXPECT_EQ(EventStatus::GATED, status.outcome);
+    EXPECT_EQ(std::vector<double>{9.0}, status.innovation);
+    EXPECT_EQ(9.0, status.gate_share);
+    EXPECT_TRUE(std::isnan(status.nis));
     EXPECT_NE(std::string::npos, status.reason.find("outside the gate"));
     EXPECT_TRUE(std::isnan(status.interval));
     EXPECT_TRUE(send(4, 9.0).recovers());
@@ -81,6 +84,34 @@ gains: {L: [[1]]}
     EXPECT_LE(status.reason.size(), 64u);
     EXPECT_EQ(3.0, status.interval);
   }
+}
+
+TEST(GateStatusTest, AFilterTellsItsNormalizedInnovations) {
+  const ObserverConfig config = read_observer_config(read_yaml_text(R"(
+observer: HybridKalmanFilter
+plant: {states: [p], A: [[0]]}
+sensors: {s: {C: [[1]], gate: {mahalanobis: 4, recovery: {after: 2, action: accept}}, source: {topic: s}}}
+sampling: {T1: 0.5, T2: 2}
+gains: {P0: [[3]], Q: [[0]], R: {s: [[1]]}}
+)",
+                                                                    "test.yaml"),
+                                                     no_plant_plugins);
+  const std::vector<EventChannel> channels = event_channels(config);
+  ObserverRuntime runtime(config);
+  EventStatus status;
+  const auto send = [&](Stamp seconds, double value) {
+    const Stamp stamp = seconds * kNanosecondsPerSecond;
+    const Event event{stamp, EventKind::kSample, 0, &value, 1};
+    write(channels[0], event, runtime.receive(event, stamp), "", stamp, status);
+  };
+  send(1, 0.0);
+  EXPECT_TRUE(status.innovation.empty());  // there was no estimate
+  EXPECT_TRUE(std::isnan(status.gate_share));
+  EXPECT_TRUE(std::isnan(status.nis));
+  send(2, 2.0);  // P = 3 / 4
+  EXPECT_EQ(std::vector<double>{2.0}, status.innovation);
+  EXPECT_NEAR(4.0 / 1.75, status.nis, 1e-12);
+  EXPECT_NEAR(2.0 / std::sqrt(1.75) / 4.0, status.gate_share, 1e-12);
 }
 
 TEST_F(ObserverRuntimeTest, WritesStatusAndEstimate) {
@@ -93,6 +124,9 @@ TEST_F(ObserverRuntimeTest, WritesStatusAndEstimate) {
   EXPECT_DOUBLE_EQ(0.1, status_.interval);
   EXPECT_EQ(EventStatus::INTERVAL_WITHIN, status_.interval_check);
   EXPECT_EQ("used", status_.reason);
+  ASSERT_EQ(1u, status_.innovation.size());
+  EXPECT_NEAR(0.0, status_.innovation[0], 1e-12);
+  EXPECT_TRUE(std::isnan(status_.gate_share));
 
   std::string reason;
   const Estimate* estimate = runtime_.estimate_at(1'150'000'000, reason);

@@ -257,6 +257,23 @@ TEST_F(DiagnosisTest, StampsAheadOfTheClockAreToldByHowMuch) {
   EXPECT_EQ("-3100.2 ms", value(diagnosis_.channel(0), "latency, median"));
 }
 
+TEST_F(DiagnosisTest, InnovationsOfAllTimeAreShownForEachOutput) {
+  DiagnosisSubject with_outputs = subject();
+  with_outputs.channels[0].outputs = 2;
+  diagnosis_.set_subject(with_outputs);
+  for (const double sign : {1.0, -1.0}) {
+    RunStatistics window = good();
+    const double innovation[] = {3.0, 4.0 * sign};
+    window.channels[0].innovations.add(innovation, 2, 2.0 + sign);
+    update(window);
+  }
+  const Finding finding = diagnosis_.channel(0);
+  EXPECT_EQ("3, 0", value(finding, "innovation, mean in all"));
+  EXPECT_EQ("3, 4", value(finding, "innovation, RMS in all"));
+  EXPECT_EQ("2 (2 where the model is right)",
+            value(finding, "normalized innovation squared, mean in all"));
+}
+
 TEST_F(DiagnosisTest, AnInputOlderThanItsTimeoutIsTold) {
   DiagnosisSubject with_timeout = subject();
   with_timeout.channels[1].timeout = kSecond / 2;

@@ -61,6 +61,36 @@ Estimate estimate(Stamp stamp, double value) {
   return result;
 }
 
+TEST(StatisticsRecorderTest, InnovationsAreSummedWithoutAllocation) {
+  StatisticsRecorder recorder(1, 2);
+  RunStatistics statistics(1);
+  const double innovation[] = {1.0, -2.0};
+  EventReport used = report(EventOutcome::kUsed);
+  used.innovations = innovation;
+  used.nis = 3.0;
+  Event event = sample(1);
+  event.size = 2;
+  const std::size_t before = test::allocations();
+  recorder.record_event(0, event, used, 0);
+  used.outcome = EventOutcome::kGated;
+  used.nis = 5.0;
+  recorder.record_event(0, event, used, 0);
+  used.outcome = EventOutcome::kWouldOverflow;
+  recorder.record_event(0, event, used, 0);
+  event.size = 3;
+  used.outcome = EventOutcome::kUsed;
+  recorder.record_event(0, event, used, 0);  // more than there is place for
+  EXPECT_EQ(before, test::allocations());
+  recorder.take(statistics);
+  const InnovationStatistics& found = statistics.channels[0].innovations;
+  EXPECT_EQ(2u, found.count);
+  EXPECT_EQ(-2.0, found.mean(1));
+  EXPECT_EQ(1.0, found.rms(0));
+  EXPECT_EQ(4.0, found.nis());
+  recorder.take(statistics);
+  EXPECT_EQ(0u, statistics.channels[0].innovations.count);
+}
+
 TEST(RangeRecorderTest, TakesWhatWasRecordedSince) {
   RangeRecorder recorder;
   EXPECT_EQ(0u, recorder.take().count);

@@ -154,6 +154,15 @@ class ObserverLaw : public HybridSystem {
   /// among the plant's.
   std::size_t told_mode(const double* state) const;
 
+  /// How large the innovation of what a sensor measured is in a state, beside its gate: 1 at the
+  /// edge, more outside; NaN where the sensor has no gate.
+  virtual double gate_share(const Event& measured, const double* state, double* workspace) const {
+    static_cast<void>(measured);
+    static_cast<void>(state);
+    static_cast<void>(workspace);
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+
   /// A guaranteed bound on the norm |x − x̂| of the estimate's error in a state, units of the state:
   /// infinite where what it rests on did not hold, NaN where the law gives none.
   double error_bound(const double* state) const {

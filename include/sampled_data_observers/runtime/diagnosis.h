@@ -38,6 +38,8 @@ struct DiagnosisSubject {
     std::string type;
     /// Index of the sensor, for samples.
     std::size_t sensor = 0;
+    /// How many numbers it measures.
+    std::size_t outputs = 0;
     /// Of inputs: how long they hold [ns]; 0: until the next ones.
     Duration timeout = 0;
     /// What they are then, in words; empty: they hold all the same.
@@ -124,6 +126,7 @@ class Diagnosis {
   std::string why_stamps_are_old() const;
   std::string rejections(const ChannelStatistics& statistics) const;
   std::string why_input_is_stale(std::size_t index) const;
+  void add_innovations(std::size_t index, Finding& finding) const;
   void add_times_between_samples(std::size_t index, Finding& finding) const;
   void add_bounds_of_all(Finding& finding) const;
 

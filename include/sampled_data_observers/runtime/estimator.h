@@ -200,7 +200,7 @@ class Estimator {
   void begin(Stamp stamp);
   void begin_at(const Event& sample);
   DwellCheck dwell_check_at(Stamp stamp);
-  double innovation_of(const Event& measured);
+  void look_at_innovation(const Event& measured, EventReport& report);
   bool has_earlier() const;
   bool is_earlier(Stamp stamp) const;
   EventReport submit_earlier(Event event, Stamp now);

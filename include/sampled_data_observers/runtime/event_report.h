@@ -39,6 +39,15 @@ struct EventReport {
   /// The norm of the innovation of a sample or a continuous output, before it took effect; NaN for
   /// other events, and where there was no estimate.
   double innovation = std::numeric_limits<double>::quiet_NaN();
+  /// Its entries, as many as the event has values, angles wrapped; null where `innovation` is NaN.
+  /// They live until the next event is taken in.
+  const double* innovations = nullptr;
+  /// Its size beside the sensor's gate (ObserverLaw::gate_share()); NaN as `innovation`, and where
+  /// there is no gate.
+  double gate_share = std::numeric_limits<double>::quiet_NaN();
+  /// The normalized innovation squared, νᵀ S⁻¹ ν, whose mean is the number of outputs where the
+  /// filter's model is right; NaN as `innovation`, and where the observer has no covariance.
+  double nis = std::numeric_limits<double>::quiet_NaN();
   /// Whether an estimate of its stamp or a later one was published with a finite bound before this
   /// input or jump came: that bound was one of a run without it. Or whether its number tells of a
   /// jump that was lost, perhaps before an estimate that was published with a finite bound.

@@ -15,6 +15,33 @@
 
 namespace sampled_data_observers {
 
+/// The innovations of a sensor, of samples that were used or gated.
+struct InnovationStatistics {
+  /// How many there were.
+  std::uint64_t count = 0;
+  /// Sum of each output's; empty where nothing was recorded yet.
+  std::vector<double> sums;
+  /// Sum of each output's square.
+  std::vector<double> squares;
+  /// How many of them had a normalized square (EventReport::nis).
+  std::uint64_t nis_count = 0;
+  /// The sum of these.
+  double nis_sum = 0.0;
+
+  /// Takes in one, with its normalized square or NaN.
+  void add(const double* innovation, Eigen::Index size, double nis);
+  /// Joins others.
+  void add(const InnovationStatistics& other);
+  /// Forgets all, and keeps its memory.
+  void clear();
+  /// Of an output; NaN where there are none.
+  double mean(std::size_t output) const;
+  /// Root mean square of an output; NaN where there are none.
+  double rms(std::size_t output) const;
+  /// Mean of the normalized squares; NaN where there are none.
+  double nis() const;
+};
+
 /// What became of the events of one channel.
 struct ChannelStatistics {
   /// By the codes of EventOutcome.
@@ -41,6 +68,8 @@ struct ChannelStatistics {
   std::string missing_transform;
   /// The norm of the innovation of the last sample; NaN without.
   double innovation = std::numeric_limits<double>::quiet_NaN();
+  /// Mean and size of them.
+  InnovationStatistics innovations;
   /// What the innovations do, as of the last sample.
   InnovationTrend trend = InnovationTrend::kSteady;
 
@@ -98,7 +127,9 @@ struct RunStatistics {
 class StatisticsRecorder {
  public:
   /// All that it needs for so many channels is allocated here.
-  explicit StatisticsRecorder(std::size_t channels);
+  /// @param channels      how many there are
+  /// @param most_outputs  of a sensor; the innovations of more are not recorded
+  explicit StatisticsRecorder(std::size_t channels, std::size_t most_outputs = 0);
 
   /// @param channel  position in RunStatistics::channels
   /// @param event    as it was received
@@ -139,9 +170,14 @@ class StatisticsRecorder {
     std::atomic<std::uint64_t> after_bound{0};
     std::atomic<double> innovation{std::numeric_limits<double>::quiet_NaN()};
     std::atomic<InnovationTrend> trend{InnovationTrend::kSteady};
+    std::mutex innovations_mutex;
+    InnovationStatistics innovations;
     std::mutex missing_transform_mutex;
     std::string missing_transform;
   };
+
+  static void record_innovation(Channel& channel, Eigen::Index size,
+                                const EventReport& report) noexcept;
 
   std::vector<Channel> channels_;
   RangeRecorder lateness_;
