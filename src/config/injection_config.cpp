@@ -18,7 +18,8 @@ Eigen::VectorXd read_injection_constants(ConfigSection& section, const Plant& pl
   const AffineMap* output = plant.modes().front().outputs[injection.sensor]->affine();
   Eigen::RowVectorXd picks = Eigen::RowVectorXd::Zero(plant.states());
   picks(injection.state) = 1.0;
-  if (output == nullptr || output->M() != picks || !output->c().isZero(0.0)) {
+  if (output == nullptr || output->M() != picks || !output->c().isZero(0.0) ||
+      !output->N().isZero(0.0)) {
     throw section.error("injection_lipschitz",
                         "a sensor '" + sensor.name + "' whose output is the state " + name +
                             ", since gains/output_injection takes it in its place",

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "config/expression_config.h"
+#include "plant/affine_formula.h"
 #include "plant/bounded_slope_map.h"
 #include "plant/lipschitz_map.h"
 #include "plant/polytopic_map.h"
@@ -105,9 +106,18 @@ std::shared_ptr<const VectorMap> read_jump_map(ConfigSection& mode, const Expres
 
 std::shared_ptr<const VectorMap> read_output_map(ConfigSection& sensor,
                                                  const ExpressionNames& names) {
-  if (sensor.has("h")) return ExpressionReader(names).read_list(sensor, "h", 0);
-  return std::make_shared<const AffineMap>(
-      sensor.matrix("C", -1, static_cast<Eigen::Index>(names.x.size())));
+  const auto n = static_cast<Eigen::Index>(names.x.size());
+  if (sensor.has("h")) {
+    std::shared_ptr<const VectorMap> map = ExpressionReader(names).read_list(sensor, "h", 0);
+    const std::shared_ptr<const AffineMap> affine = affine_map_of(names, sensor.texts("h"));
+    return affine ? affine : map;
+  }
+  Eigen::MatrixXd C = sensor.matrix("C", -1, n);
+  if (!sensor.has("d")) return std::make_shared<const AffineMap>(C);
+  Eigen::VectorXd d = sensor.vector("d", C.rows());
+  const Eigen::Index outputs = C.rows();
+  return std::make_shared<const AffineMap>(std::move(C), Eigen::MatrixXd::Zero(outputs, 0),
+                                           std::move(d));
 }
 
 }  // namespace sampled_data_observers

@@ -69,6 +69,22 @@ std::vector<std::string> sorted_keys(const ConfigSection& section) {
   return names;
 }
 
+/// Which outputs of a sensor are angles, as the fields of its source say: rolls, pitches and yaws
+/// of orientations, as they are. A joint may have such a name, and turn as often as it likes.
+std::vector<bool> angles_among(ConfigSection& sensor, std::size_t outputs) {
+  std::vector<bool> angular(outputs, false);
+  if (!sensor.is_map("source")) return angular;
+  ConfigSection source = sensor.section("source");
+  if (!source.is_list("fields") || source.has("scale") || source.has("offset")) return angular;
+  if (source.has("type") && source.text("type") == "sensor_msgs/JointState") return angular;
+  const std::vector<std::string> fields = source.texts("fields");
+  for (std::size_t i = 0; i < std::min(outputs, fields.size()); ++i) {
+    const std::string last = fields[i].substr(fields[i].rfind('.') + 1);
+    angular[i] = last == "roll" || last == "pitch" || last == "yaw";
+  }
+  return angular;
+}
+
 class PlantReader {
  public:
   PlantReader(ConfigSection& root, const PlantPluginLoader& load_plugin)
@@ -211,8 +227,8 @@ class PlantReader {
     sensor.name = name;
     sensor.timing = read_timing(section);
     const auto outputs = static_cast<std::size_t>(map->size());
-    sensor.angular = section.has("angular") ? section.flags("angular", outputs)
-                                            : std::vector<bool>(outputs, false);
+    sensor.angular =
+        section.has("angular") ? section.flags("angular", outputs) : angles_among(section, outputs);
     read_biases(section, outputs);
     for (std::size_t mode = 0; mode < plant_.modes.size(); ++mode) {
       plant_.modes[mode].outputs.push_back(output_in_mode(mode, name, map));
@@ -221,6 +237,9 @@ class PlantReader {
   }
 
   std::shared_ptr<const VectorMap> read_output(ConfigSection& section) {
+    if (section.has("d") && !section.has("C")) {
+      throw section.error("d", "the key C beside it: y = C x + d", "none");
+    }
     if (!section.has("output") || compiled_.flow == nullptr) {
       return read_output_map(section, names_);
     }

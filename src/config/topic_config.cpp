@@ -105,7 +105,7 @@ std::vector<std::optional<TopicSource>> read_sensor_sources(ConfigSection& root,
   for (const Sensor& sensor : plant.sensors()) {
     ConfigSection section = sensors.section(sensor.name);
     for (const char* key :
-         {"C", "h", "output", "measured", "angular", "bias", "gate", "sampling"}) {
+         {"C", "d", "h", "output", "measured", "angular", "bias", "gate", "sampling"}) {
       section.has(key);
     }
     const bool in_jump_events = sensor.timing == SensorTiming::kAtJumps && !section.has("source");

@@ -96,6 +96,67 @@ TEST(PlantConfigTest, ReadsAPlantByFormulas) {
   EXPECT_EQ(Eigen::Vector2d(6.0, std::cos(3.0)), evaluate(*mode.outputs[0], x, u));
 }
 
+const char kAngles[] = R"(
+observer: ConstantGainObserver
+plant: {states: [p, yaw], A: [[0, 0], [0, 0]]}
+sensors:
+  a: {C: [[1, 0], [0, 1]], source: {topic: a, type: nav_msgs/Odometry,
+      fields: [pose.pose.position.x, pose.pose.orientation.yaw]}}
+sampling: {T1: 0.1, T2: 0.2}
+gains: {L: [[0.5, 0], [0, 0.5]]}
+)";
+
+TEST(PlantConfigTest, AnglesOfOrientationsAreAngularUnlessSaidOtherwise) {
+  const auto angular = [](const std::string& text) {
+    return parse(text).plant->sensors()[0].angular;
+  };
+  EXPECT_EQ((std::vector<bool>{false, true}), angular(kAngles));
+  const std::vector<bool> none = {false, false};
+  EXPECT_EQ(none, angular(replaced(kAngles, "[0, 1]], source",
+                                   "[0, 1]], angular: [false, false], source")));
+  EXPECT_EQ(none, angular(replaced(kAngles, "topic: a", "topic: a, scale: [1, 57.3]")));
+  EXPECT_EQ(none, angular(replaced(replaced(kAngles, "nav_msgs/Odometry", "sensor_msgs/JointState"),
+                                   "[pose.pose.position.x, pose.pose.orientation.yaw]",
+                                   "[position.pitch, position.yaw]")));
+}
+
+TEST(PlantConfigTest, AffineOutputsAreSuchHoweverTheyAreWritten) {
+  const auto output = [](const std::string& keys) {
+    return parse(replaced(kAngles, "C: [[1, 0], [0, 1]]", keys)).plant->modes()[0].outputs[0];
+  };
+  for (const char* keys :
+       {"C: [[0, -11.9], [1, 0]], d: [101325, 0]", "h: [101325 - 11.9*yaw, p]"}) {
+    const AffineMap* map = output(keys)->affine();
+    ASSERT_NE(nullptr, map) << keys;
+    EXPECT_EQ(-11.9, map->M()(0, 1));
+    EXPECT_EQ(Eigen::Vector2d(101325.0, 0.0), map->c());
+    const double x[] = {2.0, 100.0};
+    double y[2];
+    map->evaluate(x, nullptr, y);
+    EXPECT_DOUBLE_EQ(101325.0 - 1190.0, y[0]);
+  }
+  EXPECT_EQ(nullptr, output("h: [p*yaw, p]")->affine());
+  EXPECT_NE(std::string::npos,
+            fault(replaced(kAngles, "C: [[1, 0], [0, 1]]", "C: [[1, 0], [0, 1]], d: [1]"))
+                .find("sensors/a/d: expected a list of 2"));
+  EXPECT_NE(std::string::npos,
+            fault(replaced(kAngles, "C: [[1, 0], [0, 1]]", "h: [p, yaw], d: [1, 2]"))
+                .find("sensors/a/d: expected the key C beside it"));
+}
+
+TEST(PlantConfigTest, AFilterTakesAnOutputByAnAffineFormula) {
+  const ObserverConfig config = parse(R"(
+observer: HybridKalmanFilter
+plant: {states: [z], A: [[0]]}
+sensors: {pressure: {h: [101325 - 11.9*z], source: {topic: pressure}}}
+sampling: {T1: 0.1, T2: 0.2}
+gains: {P0: [[100]], Q: [[0]], R: {pressure: [[1e-6]]}}
+)");
+  test::LawRunner runner(config.law);
+  runner.sample(0, {101325.0 - 11.9 * 8.0});
+  EXPECT_NEAR(8.0, runner.state()(0), 1e-6);
+}
+
 TEST(PlantConfigTest, ReadsALipschitzPlantWithItsVertices) {
   const ObserverConfig config = parse(kLipschitz);
   const auto map =

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "plant/affine_formula.h"
 #include "plant/lipschitz_map.h"
 #include "sampled_data_observers/plant/expression_map.h"
 #include "sampled_data_observers/plant/runge_kutta_flow.h"
@@ -31,6 +32,28 @@ TEST(ExpressionMapTest, EvaluatesFormulasOfStatesInputsAndConstants) {
   map.evaluate(x, u, out);
   EXPECT_DOUBLE_EQ(-2.0 * std::sin(0.7) + 4.5 + 4.0, out[0]);
   EXPECT_DOUBLE_EQ(0.5 * 0.7 * 0.7 + std::acos(-1.0), out[1]);
+}
+
+TEST(AffineFormulaTest, FormulasThatAreAffineAreTheMapThatTheyAre) {
+  const auto map = affine_map_of(
+      kNames, {"x2", "101325 - 11.9*x1", "-(x1 - 2*(a*x2 + u))/4 + 1.5e-1", "pi*+x1*2 - -u"});
+  ASSERT_NE(nullptr, map);
+  Eigen::MatrixXd M(4, 2);
+  M << 0.0, 1.0, -11.9, 0.0, -0.25, 0.25, 2.0 * std::acos(-1.0), 0.0;
+  EXPECT_TRUE(M.isApprox(map->M(), 1e-15));
+  EXPECT_EQ(Eigen::Vector4d(0.0, 0.0, 0.5, 1.0), Eigen::VectorXd(map->N()));
+  EXPECT_EQ(Eigen::Vector4d(0.0, 101325.0, 0.15, 0.0), map->c());
+  EXPECT_EQ(0, affine_map_of(kNames, {"x1"})->N().cols());
+}
+
+TEST(AffineFormulaTest, WhatIsNotOrCanNotBeToldIsNone) {
+  for (const char* text :
+       {"x1*x2", "1/x1", "sin(x1)", "x1^1", "x1 > 0 ? x1 : x2", "abs(x1)", "x1/0", "(x1", "x1)",
+        "x1 x2", "1e", "y", "", "x1 +", "min(x1, x2)", "1..2*x1", "x1 && u"}) {
+    EXPECT_EQ(nullptr, affine_map_of(kNames, {"x1", text})) << text;
+  }
+  EXPECT_EQ(nullptr,
+            affine_map_of(kNames, {std::string(5000, '(') + "x1" + std::string(5000, ')')}));
 }
 
 TEST(ExpressionMapTest, DefinitionsServeTheFormulasBehindThem) {
