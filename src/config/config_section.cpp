@@ -9,6 +9,7 @@
 #include <sstream>
 #include <utility>
 
+#include "config/fault_list.h"
 #include "config/misspelling.h"
 #include "config/number_text.h"
 
@@ -355,13 +356,20 @@ std::vector<std::string> ConfigSection::keys() const {
 }
 
 void ConfigSection::finish() const {
+  const std::vector<std::string> known(asked_.begin(), asked_.end());
+  std::vector<std::string> missing;
+  for (const std::string& key : known) {
+    if (node_.find(key) == nullptr) missing.push_back(key);
+  }
+  FaultList faults;
   for (const auto& [key, node] : node_.entries) {
     if (asked_.count(key) != 0) continue;
-    throw ConfigError(
-        node.origin, path_of(key),
-        "one of the keys " + joined(std::vector<std::string>(asked_.begin(), asked_.end())),
-        "the unknown key '" + key + "'");
+    const std::string meant = misspelling_of(key, missing);
+    faults.add(ConfigError(node.origin, path_of(key), "one of the keys " + joined(known),
+                           "the unknown key '" + key + "'" +
+                               (meant.empty() ? "" : "; is it a misspelling of '" + meant + "'?")));
   }
+  faults.require_none();
 }
 
 }  // namespace sampled_data_observers

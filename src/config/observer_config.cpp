@@ -5,6 +5,7 @@
 
 #include "config/contraction_check.h"
 #include "config/dwell_times.h"
+#include "config/fault_list.h"
 #include "config/gate_config.h"
 #include "config/guarantee_config.h"
 #include "config/integration_check.h"
@@ -90,6 +91,20 @@ RealTimeOptions read_real_time(ConfigSection& root) {
   return options;
 }
 
+/// What stands at the top and depends on nothing else.
+void read_settings(ConfigSection& root, ObserverConfig& config) {
+  config.options.future_tolerance =
+      from_seconds(root.number_in("future_tolerance", 0.0, kLongest, 0.5));
+  config.period = from_seconds(1.0 / root.number_in("rate", 1e-3, 1e5, 100.0));
+  config.publish_delay = from_seconds(root.number_in("publish_delay", 0.0, kLongest, 0.0));
+  config.frame_id = root.text("frame_id", "");
+  config.publish_on_event = root.flag("publish_on_event", false);
+  config.reset_on_time_jump_back = root.flag("reset_on_time_jump_back", false);
+  config.jump_back_tolerance =
+      from_seconds(root.number_in("jump_back_tolerance", 0.0, kLongest, 1.0));
+  config.gains_directory = root.text("gains_directory", "");
+}
+
 }  // namespace
 
 ObserverConfig read_observer_config(const ConfigNode& tree, const PlantPluginLoader& load_plugin) {
@@ -108,22 +123,30 @@ ObserverConfig read_observer_config(const ConfigNode& tree, const PlantPluginLoa
   config.plant = plant_config.plant;
   const Plant& plant = *config.plant;
 
-  config.sensors = read_sensor_sources(root, plant);
+  // What does not depend on each other is read on, so that all faults are told at once.
+  FaultList faults;
+  LawLayers layers;
+  faults.attempt([&] { config.sensors = read_sensor_sources(root, plant); });
+  faults.attempt([&] {
+    config.law = read_law(root, plant_config);
+    if (const auto error = objection_to_step(root, plant, *config.law, false)) {
+      throw ConfigError(*error);
+    }
+  });
+  faults.attempt([&] { config.inputs = read_input_sources(root, plant); });
+  faults.attempt([&] {
+    if (!plant.jumps()) return;
+    config.jumps = read_jumps(root, plant_config, layers, config.options.jump_stamp_error);
+  });
+  faults.attempt([&] { config.static_transforms = read_static_transforms(root); });
+  faults.attempt([&] { config.options.sampling = read_sensor_sampling(root, plant); });
+  faults.attempt([&] { config.options.history = read_history(root); });
+  faults.attempt([&] { config.options.start = read_start(root); });
+  faults.attempt([&] { config.real_time = read_real_time(root); });
+  faults.attempt([&] { read_settings(root, config); });
+  faults.require_none();
   for (const auto& source : config.sensors) config.has_topic.push_back(source.has_value());
 
-  config.law = read_law(root, plant_config);
-  if (const auto error = objection_to_step(root, plant, *config.law, false)) {
-    throw ConfigError(*error);
-  }
-  config.inputs = read_input_sources(root, plant);
-  LawLayers layers;
-  if (plant.jumps()) {
-    config.jumps = read_jumps(root, plant_config, layers, config.options.jump_stamp_error);
-  }
-
-  config.static_transforms = read_static_transforms(root);
-
-  config.options.sampling = read_sensor_sampling(root, plant);
   Guarantee guarantee = read_guarantee(root, tree, config, layers.delays_jumps);
   config.guarantee = std::move(guarantee.text);
   config.warning = std::move(guarantee.warning);
@@ -140,25 +163,12 @@ ObserverConfig read_observer_config(const ConfigNode& tree, const PlantPluginLoa
   for (const DwellTime& claimed : guarantee.dwell_times) watch(claimed, layers.dwell_times);
   layers.gates = read_gates(root, plant, *config.law);
   config.law = assemble(config.law, config.plant, std::move(layers));
-  config.options.history = read_history(root);
-  config.options.start = read_start(root);
-  config.options.future_tolerance =
-      from_seconds(root.number_in("future_tolerance", 0.0, kLongest, 0.5));
-  config.period = from_seconds(1.0 / root.number_in("rate", 1e-3, 1e5, 100.0));
-  config.publish_delay = from_seconds(root.number_in("publish_delay", 0.0, kLongest, 0.0));
-  config.frame_id = root.text("frame_id", "");
-  config.publish_on_event = root.flag("publish_on_event", false);
-  config.real_time = read_real_time(root);
   config.outputs = read_outputs(root, {config.law->estimate_names(), config.plant->input_names()},
                                 config.frame_id, config.law->has_bound());
-  config.reset_on_time_jump_back = root.flag("reset_on_time_jump_back", false);
-  config.jump_back_tolerance =
-      from_seconds(root.number_in("jump_back_tolerance", 0.0, kLongest, 1.0));
   if (config.jumps && config.jumps->detector) {
     config.jumps->detector->future_tolerance = config.options.future_tolerance;
     config.jumps->detector->jump_back_tolerance = config.jump_back_tolerance;
   }
-  config.gains_directory = root.text("gains_directory", "");
   // Otherwise stamps would leave the window before they are due, or an event from the tolerated
   // future would push all present ones out of it.
   if (config.publish_delay >= config.options.history.history) {

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "config/fault_list.h"
 #include "config/input_channels.h"
 #include "config/value_correction_config.h"
 
@@ -102,7 +103,8 @@ std::vector<std::optional<TopicSource>> read_sensor_sources(ConfigSection& root,
                                                             const Plant& plant) {
   std::vector<std::optional<TopicSource>> sources;
   ConfigSection sensors = root.section("sensors");
-  for (const Sensor& sensor : plant.sensors()) {
+  FaultList faults;
+  const auto read_sensor_source = [&](const Sensor& sensor) {
     ConfigSection section = sensors.section(sensor.name);
     for (const char* key :
          {"C", "d", "h", "output", "measured", "angular", "bias", "gate", "sampling"}) {
@@ -116,7 +118,11 @@ std::vector<std::optional<TopicSource>> read_sensor_sources(ConfigSection& root,
                                          static_cast<std::size_t>(sensor.outputs()));
     }
     section.finish();
+  };
+  for (const Sensor& sensor : plant.sensors()) {
+    faults.attempt([&] { read_sensor_source(sensor); });
   }
+  faults.require_none();
   return sources;
 }
 

@@ -82,6 +82,21 @@ bool has_several_documents(const std::string& text, const std::string& name) {
   return parser.HandleNextDocument(gate) && parser.HandleNextDocument(gate);
 }
 
+/// The first line that a tab indents, of a text that is no YAML: nobody sees it, and the parser's
+/// words don't name it. Empty where there is none.
+std::string describe_tab(const std::string& text) {
+  std::size_t line = 1;
+  bool is_indentation = true;
+  for (const char c : text) {
+    if (c == '\t' && is_indentation) {
+      return "line " + std::to_string(line) + " is indented by a tab, where YAML takes spaces only";
+    }
+    if (c == '\n') ++line;
+    is_indentation = c == '\n' || (is_indentation && c == ' ');
+  }
+  return "";
+}
+
 class Converter {
  public:
   explicit Converter(const std::string& name) : name_(name) {}
@@ -145,7 +160,9 @@ ConfigNode read_yaml_text(const std::string& text, const std::string& name) {
       throw ConfigError(name, "", "one YAML document", "several");
     root = Converter(name).convert(YAML::Load(text), "", 0);
   } catch (const YAML::Exception& error) {
-    throw ConfigError(place(name, error.mark), "", "valid YAML", error.msg);
+    const std::string tab = describe_tab(text);
+    throw ConfigError(place(name, error.mark), "", "valid YAML",
+                      error.msg + (tab.empty() ? "" : "; " + tab));
   }
   if (root.kind != ConfigNode::Kind::kMap) {
     throw ConfigError(name, "", "a map of keys at the top", root.describe());

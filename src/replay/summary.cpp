@@ -118,6 +118,8 @@ void print_intervals(const ReplaySummary& summary, std::ostream& out) {
     out << ", " << intervals.above_T2 << " above T2";
     if (has_several) out << " = " << shown(sensor.T2) << " s";
     out << "\n";
+    const std::string hint = describe_unit_of_times(intervals.mean(), sensor.T1, sensor.T2);
+    if (!hint.empty()) out << "            " << hint << "\n";
   }
 }
 

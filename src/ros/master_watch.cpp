@@ -9,14 +9,18 @@
 #include <ros/topic_manager.h>
 #include <ros/xmlrpc_manager.h>
 
+#include <algorithm>
 #include <utility>
 
+#include "config/misspelling.h"
 #include "sampled_data_observers/runtime/diagnosis.h"
 
 namespace sampled_data_observers {
 namespace {
 
 constexpr double kPeriod = 3.0;  // s
+/// Nodes may start one after the other: so many checks without a publisher are reported.
+constexpr int kSilentChecks = 2;
 
 XmlRpc::XmlRpcValue list_of(const std::vector<std::string>& texts) {
   XmlRpc::XmlRpcValue list;
@@ -36,13 +40,23 @@ bool call_master(const std::string& method, std::vector<std::string> arguments,
   return ros::master::execute(method, list_of(arguments), response, payload, wait);
 }
 
-/// The type of a topic among pairs of topic and type; empty where it is not there, or unknown.
-std::string type_of(const std::string& topic, XmlRpc::XmlRpcValue& published) {
+using TopicsAndTypes = std::vector<std::pair<std::string, std::string>>;
+
+/// As the master gives them.
+TopicsAndTypes pairs_of(XmlRpc::XmlRpcValue& published) {
+  TopicsAndTypes pairs;
   const int count = published.size();  // of a list: no iterators
   for (int i = 0; i < count; ++i) {
-    if (static_cast<std::string>(published[i][0]) != topic) continue;
-    const std::string type = published[i][1];
-    return type == "*" ? "" : type;
+    pairs.emplace_back(static_cast<std::string>(published[i][0]),
+                       static_cast<std::string>(published[i][1]));
+  }
+  return pairs;
+}
+
+/// The type of a topic; empty where it is not there, or unknown.
+std::string type_of(const std::string& topic, const TopicsAndTypes& published) {
+  for (const auto& [name, type] : published) {
+    if (name == topic) return type == "*" ? "" : type;
   }
   return "";
 }
@@ -63,6 +77,26 @@ void tell_of_publishers(const std::string& topic, const XmlRpc::XmlRpcValue& pub
 
 }  // namespace
 
+std::string describe_silent_topic(const ExpectedType& expected, const TopicsAndTypes& published) {
+  constexpr std::size_t kMostNamed = 10;
+  std::vector<std::string> others;
+  for (const auto& [name, type] : published) {
+    if (type == expected.type && name != expected.topic) others.push_back(name);
+  }
+  if (others.empty()) return "";
+  std::sort(others.begin(), others.end());
+  const std::string meant = misspelling_of(expected.topic, others);
+  std::string named;
+  for (std::size_t i = 0; i < std::min(others.size(), kMostNamed); ++i) {
+    named += (i > 0 ? ", " : "") + others[i];
+  }
+  if (others.size() > kMostNamed) {
+    named += " and " + std::to_string(others.size() - kMostNamed) + " more";
+  }
+  return "nobody publishes " + expected.topic + "; of its type, " + expected.type +
+         ", there are: " + named + (meant.empty() ? "" : "; is it a misspelling of " + meant + "?");
+}
+
 MasterWatch::MasterWatch(const ros::NodeHandle& handle, std::vector<std::string> services,
                          std::vector<ExpectedType> topics, TypeReceiver take_type, NodeLog log)
     : services_(std::move(services)),
@@ -71,6 +105,7 @@ MasterWatch::MasterWatch(const ros::NodeHandle& handle, std::vector<std::string>
       server_("rosrpc://" + ros::network::getHost() + ":" +
               std::to_string(ros::ConnectionManager::instance()->getTCPPort())),
       warned_(topics_.size()),
+      silent_(topics_.size(), 0),
       log_(std::move(log)) {
   timer_ = handle.createSteadyTimer(ros::WallDuration(kPeriod),
                                     [this](const ros::SteadyTimerEvent&) { check(); });
@@ -87,12 +122,18 @@ void MasterWatch::check() {
 
 void MasterWatch::check_types() {
   XmlRpc::XmlRpcValue response;
-  XmlRpc::XmlRpcValue published;
+  XmlRpc::XmlRpcValue topics;
   const std::string everywhere;
-  if (!call_master("getPublishedTopics", {everywhere}, response, published)) return;
+  if (!call_master("getPublishedTopics", {everywhere}, response, topics)) return;
+  const TopicsAndTypes published = pairs_of(topics);
   for (std::size_t i = 0; i < topics_.size(); ++i) {
     const std::string type = type_of(topics_[i].topic, published);
     take_type_(i, type);
+    silent_[i] = type.empty() ? silent_[i] + 1 : 0;
+    if (silent_[i] == kSilentChecks) {
+      const std::string hint = describe_silent_topic(topics_[i], published);
+      if (!hint.empty()) log_.warn("%s", hint.c_str());
+    }
     if (type.empty() || type == topics_[i].type) {
       warned_[i].clear();
     } else if (type != warned_[i]) {

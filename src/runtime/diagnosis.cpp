@@ -320,6 +320,10 @@ Finding Diagnosis::channel(std::size_t index) const {
                       std::to_string(statistics.short_intervals + statistics.long_intervals) +
                       " times between samples are outside of [" + seconds(sampling.T1) + ", " +
                       longest(sampling.T2) + "]";
+    const std::string hint =
+        describe_unit_of_times(statistics.interval.mean() / kNanosecondsPerSecond,
+                               to_seconds(sampling.T1), longest_to_seconds(sampling.T2));
+    if (!hint.empty()) finding.message += ": " + hint;
   } else if (statistics.received() == 0 && channel.kind == EventKind::kInput &&
              now_ - received > kSilence) {
     finding.message = "nothing for " + seconds(now_ - received) + ": the last input holds";

@@ -1,5 +1,6 @@
 // What diagnostics say of the times between events, and of innovations.
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "runtime/diagnosis_text.h"
@@ -12,6 +13,19 @@ using diagnosis_text::seconds;
 
 const SamplingBounds& DiagnosisSubject::sampling_of(const Channel& channel) const {
   return sampling.of(channel.kind, channel.sensor);
+}
+
+std::string describe_unit_of_times(double mean, double T1, double T2) {
+  constexpr double kFar = 100.0;
+  if (mean > 0.0 && T1 >= kFar * mean) {
+    return "T1 is " + diagnosis_text::shown(std::round(T1 / mean)) +
+           " times the mean time between samples: are T1 and T2 in seconds?";
+  }
+  if (T2 > 0.0 && mean >= kFar * T2) {
+    return "the mean time between samples is " + diagnosis_text::shown(std::round(mean / T2)) +
+           " times T2: are T1 and T2 in seconds?";
+  }
+  return "";
 }
 
 /// Those of a channel of samples. How long ago the last one was, by its stamp, says whether it is

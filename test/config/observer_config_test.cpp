@@ -85,6 +85,33 @@ TEST(ObserverConfigTest, TakesTimesBetweenSamplesWithoutBounds) {
   EXPECT_EQ(kNoLongestTime, config.options.sampling.of_sensor(1).T2);
 }
 
+TEST(ObserverConfigTest, FaultsThatHaveNothingToDoWithEachOtherAreToldAtOnce) {
+  const std::string text = fault(R"(
+observer: ConstantGainObserver
+plant: {states: [x], inputs: [u], A: [[0]], B: [[1]]}
+sensors:
+  a: {C: [[1]], source: {topik: a}}
+  b: {C: [[1]], source: {topic: b, stamp: never, min_interval: -1}}
+input: {fields: [a, b]}
+sampling: {T1: 1, T2: 0.1}
+gains: {L: [[0.5]]}
+rate: never
+history: {duration: 0, maxevents: 3}
+)");
+  for (const char* part :
+       {"test.yaml:5: sensors/a/source/topic: expected", "is 'topik' a misspelling of it?",
+        "test.yaml:6: sensors/b/source/stamp", "input/fields: expected", "sampling/T2: expected",
+        "gains/L", "rate: expected", "history/duration: expected"}) {
+    EXPECT_NE(std::string::npos, text.find(part)) << part << " | " << text;
+  }
+  const std::string keys = fault(replaced(kGood, "frame_id: map", "frameid: map\nstrt: 1\nrat: 2"));
+  for (const char* part :
+       {"the unknown key 'frameid'; is it a misspelling of 'frame_id'?",
+        "the unknown key 'strt'; is it a misspelling of 'start'?", "the unknown key 'rat'"}) {
+    EXPECT_NE(std::string::npos, keys.find(part)) << part << " | " << keys;
+  }
+}
+
 TEST(ObserverConfigTest, OptionalKeysHaveDefaults) {
   const ObserverConfig config = parse(R"(
 observer: ConstantGainObserver

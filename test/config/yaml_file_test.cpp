@@ -89,6 +89,15 @@ TEST(YamlFileTest, MessagesQuoteTheBeginOfLongTexts) {
   EXPECT_NE(std::string::npos, message.find("yyy... (100002 characters)"));
 }
 
+TEST(YamlFileTest, ATabThatIndentsIsNamed) {
+  const auto refusal = [](const std::string& text) {
+    return test::fault_of([&] { read_yaml_text(text, "a.yaml"); });
+  };
+  EXPECT_NE(std::string::npos, refusal("plant:\n  states: [p]\n\tinputs: [u]\nrate: 5\n")
+                                   .find("line 3 is indented by a tab"));
+  EXPECT_EQ(std::string::npos, refusal("plant: [p\n").find("tab"));
+}
+
 TEST(YamlFileTest, ATokenThatBelongsToNoDocumentIsRefused) {
   for (const char* text : {",a: 1", "]", "}", "a: 1\n]", "a: 1\n--- \nb: 2"}) {
     EXPECT_NE("no fault", yaml_fault(text)) << text;

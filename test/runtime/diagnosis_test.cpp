@@ -257,6 +257,22 @@ TEST_F(DiagnosisTest, StampsAheadOfTheClockAreToldByHowMuch) {
   EXPECT_EQ("-3100.2 ms", value(diagnosis_.channel(0), "latency, median"));
 }
 
+TEST_F(DiagnosisTest, TimesInAnotherUnitAreToldByTheirFactor) {
+  DiagnosisSubject milliseconds = subject();
+  milliseconds.sampling = {50 * kSecond, 200 * kSecond};
+  diagnosis_.set_subject(milliseconds);
+  RunStatistics window = good();
+  window.channels[0].interval = {10, kSecond, kSecond / 20, kSecond / 5};
+  window.channels[0].short_intervals = 10;
+  update(window);
+  expect(HealthLevel::kWarn,
+         {"outside of [50 s, 200 s]", "T1 is 500 times the mean time", "in seconds?"},
+         diagnosis_.channel(0));
+  EXPECT_EQ("", describe_unit_of_times(0.1, 0.5, 2.0));
+  EXPECT_NE(std::string::npos, describe_unit_of_times(20.0, 0.0, 0.1).find("200 times T2"));
+  EXPECT_EQ("", describe_unit_of_times(20.0, 0.0, std::numeric_limits<double>::infinity()));
+}
+
 TEST_F(DiagnosisTest, InnovationsOfAllTimeAreShownForEachOutput) {
   DiagnosisSubject with_outputs = subject();
   with_outputs.channels[0].outputs = 2;

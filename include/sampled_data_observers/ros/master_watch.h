@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sampled_data_observers/ros/node_log.h"
@@ -18,11 +19,20 @@ struct ExpectedType {
   std::string type;   ///< "package/Type"
 };
 
+/// What is said of a topic that nobody publishes: which others of its type there are. Empty where
+/// there are none.
+/// @param expected   that topic
+/// @param published  topics and types, as the master has them
+std::string describe_silent_topic(
+    const ExpectedType& expected,
+    const std::vector<std::pair<std::string, std::string>>& published);
+
 /// Looks every few seconds whether the ROS master still knows this nodelet. roscpp registers topics
 /// and services once only, so that after a restart of the master nobody would find them any more,
 /// although connections stay. Then all topics of this process and the services of this nodelet are
 /// registered again. It also asks of what type the topics are that this nodelet subscribes to: what
-/// is of another never arrives, and only its publisher is told.
+/// is of another never arrives, and only its publisher is told. Of a topic that nobody publishes
+/// for a while the log names those of its type that there are.
 class MasterWatch {
  public:
   /// Takes the place of a topic among those expected and the type under which it is published now;
@@ -49,6 +59,8 @@ class MasterWatch {
   const std::string server_;
   /// The type that was last warned of, for each topic; empty: none.
   std::vector<std::string> warned_;
+  /// How often in a row nobody published each of them.
+  std::vector<int> silent_;
   const NodeLog log_;
   ros::SteadyTimer timer_;
 };

@@ -148,6 +148,13 @@ class Diagnosis {
   Suspension last_suspension_;
 };
 
+/// A hint where T1 and T2 are so far from the mean time between samples that their unit must be
+/// another one than seconds; else empty.
+/// @param mean  time between samples [s]
+/// @param T1    as configured [s]
+/// @param T2    likewise; may be infinite
+std::string describe_unit_of_times(double mean, double T1, double T2);
+
 /// What is said of a topic with another type of messages than what is configured.
 std::string describe_wrong_type(const std::string& topic, const std::string& published,
                                 const std::string& expected);
