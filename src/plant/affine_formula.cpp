@@ -10,9 +10,9 @@
 namespace sampled_data_observers {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+constexpr double kPiOfFormulas = 3.14159265358979323846;
 /// Brackets within each other; more than that nobody writes.
-constexpr int kDeepest = 100;
+constexpr int kDeepestBrackets = 100;
 
 /// Coefficients of x and u, and behind them the constant.
 using AffineForm = Eigen::RowVectorXd;
@@ -92,7 +92,7 @@ class AffineFormula {
   }
 
   std::optional<AffineForm> in_brackets() {
-    if (++depth_ > kDeepest) return std::nullopt;
+    if (++depth_ > kDeepestBrackets) return std::nullopt;
     ++at_;
     std::optional<AffineForm> form = sum();
     if (!form || next() != ')') return std::nullopt;
@@ -145,7 +145,7 @@ std::shared_ptr<const AffineMap> affine_map_of(const ExpressionNames& names,
     form(n + p) = value;
     return form;
   };
-  known["pi"] = constant(kPi);
+  known["pi"] = constant(kPiOfFormulas);
   for (const auto& [name, value] : names.constants) known[name] = constant(value);
   for (Eigen::Index i = 0; i < n + p; ++i) {
     const auto at = static_cast<std::size_t>(i < n ? i : i - n);

@@ -90,7 +90,7 @@ TEST(ObserverConfigTest, FaultsThatHaveNothingToDoWithEachOtherAreToldAtOnce) {
 observer: ConstantGainObserver
 plant: {states: [x], inputs: [u], A: [[0]], B: [[1]]}
 sensors:
-  a: {C: [[1]], source: {topik: a}}
+  a: {C: [[1]], source: {topc: a}}
   b: {C: [[1]], source: {topic: b, stamp: never, min_interval: -1}}
 input: {fields: [a, b]}
 sampling: {T1: 1, T2: 0.1}
@@ -99,7 +99,7 @@ rate: never
 history: {duration: 0, maxevents: 3}
 )");
   for (const char* part :
-       {"test.yaml:5: sensors/a/source/topic: expected", "is 'topik' a misspelling of it?",
+       {"test.yaml:5: sensors/a/source/topic: expected", "is 'topc' a misspelling of it?",
         "test.yaml:6: sensors/b/source/stamp", "input/fields: expected", "sampling/T2: expected",
         "gains/L", "rate: expected", "history/duration: expected"}) {
     EXPECT_NE(std::string::npos, text.find(part)) << part << " | " << text;

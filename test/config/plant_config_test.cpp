@@ -126,7 +126,8 @@ TEST(PlantConfigTest, AffineOutputsAreSuchHoweverTheyAreWritten) {
   };
   for (const char* keys :
        {"C: [[0, -11.9], [1, 0]], d: [101325, 0]", "h: [101325 - 11.9*yaw, p]"}) {
-    const AffineMap* map = output(keys)->affine();
+    const std::shared_ptr<const VectorMap> found = output(keys);
+    const AffineMap* map = found->affine();
     ASSERT_NE(nullptr, map) << keys;
     EXPECT_EQ(-11.9, map->M()(0, 1));
     EXPECT_EQ(Eigen::Vector2d(101325.0, 0.0), map->c());

@@ -96,7 +96,7 @@ TEST(TopicConfigTest, CorrectionsAreForAllValuesOrForEach) {
   EXPECT_EQ(250'000'000, config.jumps->stamp_offset);
   const char* const own = "min_interval: 0.25";
   const std::vector<Fault> faults = {
-      {own, "stamp_offset: 1e7", {"source/stamp_offset", "1e+07"}},
+      {own, "stamp_offset: 1e7", {"source/stamp_offset", "a number from"}},
       {own, "scale: 0", {"source/scale", "other than 0"}},
       {own, "scale: [1, 2]", {"source/scale", "a list of 1"}},
       {own, "offset: x", {"source/offset"}},
@@ -320,7 +320,7 @@ TEST(DetectorConfigTest, FaultsSayWhatIsExpected) {
       {"2*w", "2*v", {"detector/signal", "v"}},
       {"refractory", "deadtime", {"detector/deadtime", "unknown key"}},
       {", type: sensor_msgs/Imu", "", {"detector/source/type", "missing"}},
-      {"sensor_msgs/Imu", "sampled_data_observers/JumpEvent", {"source/type", "standard"}},
+      {"sensor_msgs/Imu", "sampled_data_observers/JumpEvent", {"source/type", "another package"}},
   };
   for (const Fault& change : faults) {
     const ConfigNode tree =

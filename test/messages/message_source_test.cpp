@@ -175,10 +175,10 @@ TEST(MessageSourceTest, ValuesAreScaledMovedAndKeptWithinLimits) {
   EXPECT_EQ((std::vector<double>{5.0, -1.5}), read.values);
   message.point.x = std::numeric_limits<double>::quiet_NaN();  // whoever takes events rejects it
   EXPECT_EQ(Reading::kEvent, test::read(*messages, message).reading);
-  const auto shared = boost::make_shared<geometry_msgs::PointStamped>(message);
+  const MessagePointer sent = test::sent(*messages, message);
   Event event;
   const std::size_t before = test::allocations();
-  messages->read(shared, test::kReceipt, event);
+  messages->read(sent, test::kReceipt, event);
   EXPECT_EQ(before, test::allocations());
 }
 

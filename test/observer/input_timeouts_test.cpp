@@ -30,7 +30,7 @@ sampling: {T1: 0.1, T2: 0.2}
 gains: {L: [[0.5], [0.2]]}
 )";
 
-bool same_bits(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+bool are_same_bits(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
   return a.size() == b.size() &&
          std::memcmp(a.data(), b.data(), static_cast<std::size_t>(a.size()) * sizeof(double)) == 0;
 }
@@ -94,7 +94,7 @@ TEST(InputTimeoutsTest, WithoutAValueAfterItTheInputHoldsAndIsStale) {
   EXPECT_EQ(2.0, first_input(late));
   const Estimate held = at(holding, kStart + kSecond);
   EXPECT_FALSE(is_stale(held));
-  EXPECT_TRUE(same_bits(held.state.head(2), late.state.head(2)));
+  EXPECT_TRUE(are_same_bits(held.state.head(2), late.state.head(2)));
 }
 
 TEST(InputTimeoutsTest, AnInputThatNeverCameIsAsOldAsTheEstimate) {
@@ -156,7 +156,7 @@ TEST(InputTimeoutsTest, HoweverAFlowIsSplitAtWholeStepsItGivesTheSameBits) {
       left -= part;
     }
     law.flow(rest, parts.data(), workspace.data());
-    EXPECT_TRUE(same_bits(once, parts)) << i;
+    EXPECT_TRUE(are_same_bits(once, parts)) << i;
   }
   if (test::allocations_are_counted()) {
     EXPECT_EQ(before + 50, test::allocations());  // one for each copy

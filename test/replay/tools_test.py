@@ -227,7 +227,7 @@ class ToolsTest(FolderTest):
             "{topic: input}", "{topic: input, min_interval: 1, timeout: 0.5, after_timeout: {u: 0}}"))
         self.scenario = self.path("timeout.yaml")
         text = self.succeed("replay", *self.replay("--json", self.path("summary.json")))
-        self.assertIn("inputs      3 used, none for at most 1 s (from 100", text)
+        self.assertIn("inputs      4 used, none for at most 1 s (from 100", text)
         self.assertRegex(text, r"            [67]\d estimates rest on one older than its timeout, "
                                r"from 1000\.500 s on\n")
         with open(self.path("summary.json")) as summary:

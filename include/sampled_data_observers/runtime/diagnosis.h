@@ -43,7 +43,7 @@ struct DiagnosisSubject {
     /// Of inputs: how long they hold [ns]; 0: until the next ones.
     Duration timeout = 0;
     /// What they are then, in words; empty: they hold all the same.
-    std::string after_timeout;
+    std::string after_timeout = {};
   };
 
   /// In the order of RunStatistics::channels.
