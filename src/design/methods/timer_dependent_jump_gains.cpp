@@ -62,7 +62,7 @@ class ConstantJumpGain : public JumpGainDesign {
     GainProducts products;
     if (subject.T1 == 0.0) {
       const MatrixExpression Z = program.matrix("Z", m, m);
-      products.Z = [Z](std::size_t, std::size_t) { return Z; };
+      products.Z = [value = Z](std::size_t, std::size_t) { return value; };
       const MatrixExpression P_K = transpose(MatrixExpression(subject.plant.C())) * Z;
       products.P_K = [product = P_K](std::size_t, std::size_t) { return product; };
     } else {
