@@ -166,11 +166,11 @@ nlohmann::json report_data(const ObserverConfig& config, const std::vector<std::
   const ErrorFigures norm = error_figures(record.compared, record.compared.norms);
 
   Json verdict = Json::array();
-  for (const Finding& finding : verdict_of(summary, norm, config.warning)) {
+  for (const ReportFinding& finding : verdict_of(summary, norm, config.warning)) {
     verdict.push_back({{"level", name_of(finding.level)}, {"text", finding.text}});
   }
   for (const BesideRun& other : beside) {
-    const Finding finding = finding_beside(other.name, other.summary, summary);
+    const ReportFinding finding = finding_beside(other.name, other.summary, summary);
     verdict.push_back({{"level", name_of(finding.level)}, {"text", finding.text}});
   }
   std::vector<Stamp> jumps;

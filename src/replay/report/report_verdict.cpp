@@ -34,7 +34,7 @@ Exceeded exceeded(const ReplaySummary& summary) {
   return result;
 }
 
-Finding of_bound(const ReplaySummary& summary, const std::string& warning) {
+ReportFinding of_bound(const ReplaySummary& summary, const std::string& warning) {
   if (!summary.bounded) {
     if (!warning.empty()) return {FindingLevel::kWarning, "No guaranteed bound: " + warning};
     return {FindingLevel::kOpen,
@@ -92,7 +92,7 @@ BesideHold beside_hold(const ReplaySummary& summary) {
   return result;
 }
 
-Finding of_errors(const ReplaySummary& summary, const ErrorFigures& norm) {
+ReportFinding of_errors(const ReplaySummary& summary, const ErrorFigures& norm) {
   if (summary.compared_stamps == 0) {
     return {FindingLevel::kOpen, "No truth: errors are not known (--truth, --thin)"};
   }
@@ -113,7 +113,7 @@ Finding of_errors(const ReplaySummary& summary, const ErrorFigures& norm) {
   return {level, what};
 }
 
-Finding of_intervals(const ReplaySummary& summary) {
+ReportFinding of_intervals(const ReplaySummary& summary) {
   const SampleIntervals all = summary.intervals();
   if (all.below_T1 == 0 && all.above_T2 == 0) {
     return {FindingLevel::kGood,
@@ -131,7 +131,7 @@ Finding of_intervals(const ReplaySummary& summary) {
   return {FindingLevel::kWarning, what};
 }
 
-Finding of_events(const ReplaySummary& summary) {
+ReportFinding of_events(const ReplaySummary& summary) {
   std::string what = sentence(summary.events_used, " events used");
   if (!summary.sensors.empty()) {
     what += sentence(", among them ", summary.samples_used, " samples, ", summary.samples_late,
@@ -159,9 +159,9 @@ Finding of_events(const ReplaySummary& summary) {
 
 }  // namespace
 
-std::vector<Finding> verdict_of(const ReplaySummary& summary, const ErrorFigures& norm,
-                                const std::string& warning) {
-  std::vector<Finding> findings;
+std::vector<ReportFinding> verdict_of(const ReplaySummary& summary, const ErrorFigures& norm,
+                                      const std::string& warning) {
+  std::vector<ReportFinding> findings;
   if (!summary.diverged.empty()) {
     findings.push_back({FindingLevel::kBad, "DIVERGED: " + summary.diverged});
   }
@@ -183,8 +183,8 @@ std::vector<Finding> verdict_of(const ReplaySummary& summary, const ErrorFigures
   return findings;
 }
 
-Finding finding_beside(const std::string& name, const ReplaySummary& other,
-                       const ReplaySummary& own) {
+ReportFinding finding_beside(const std::string& name, const ReplaySummary& other,
+                             const ReplaySummary& own) {
   std::string what = "With " + name + " instead: ";
   if (!other.diverged.empty()) what += "DIVERGED; ";
   if (!other.rmse_norm || !own.rmse_norm) return {FindingLevel::kOpen, what + "no truth"};

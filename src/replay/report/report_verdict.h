@@ -12,7 +12,7 @@ namespace sampled_data_observers {
 enum class FindingLevel { kGood, kOpen, kWarning, kBad };
 
 /// One sentence of a verdict.
-struct Finding {
+struct ReportFinding {
   FindingLevel level = FindingLevel::kOpen;
   std::string text;
 };
@@ -22,11 +22,11 @@ struct Finding {
 /// between samples, what was rejected.
 /// @param norm     of the norm of the errors
 /// @param warning  why there is no guarantee although there is a certificate; else empty
-std::vector<Finding> verdict_of(const ReplaySummary& summary, const ErrorFigures& norm,
-                                const std::string& warning);
+std::vector<ReportFinding> verdict_of(const ReplaySummary& summary, const ErrorFigures& norm,
+                                      const std::string& warning);
 
 /// What other gains would have done, beside those that the report is about.
-Finding finding_beside(const std::string& name, const ReplaySummary& other,
-                       const ReplaySummary& own);
+ReportFinding finding_beside(const std::string& name, const ReplaySummary& other,
+                             const ReplaySummary& own);
 
 }  // namespace sampled_data_observers
