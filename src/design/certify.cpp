@@ -75,7 +75,7 @@ DesignCandidate certify_inside(
     const LmiProgram program = program_for(further);
     bool can_improve = program.scalar_variables() > 0;
     if (can_improve) {
-      const LmiSolution inside = solve_with_csdp(program, SolverOptions());
+      const LmiSolution inside = solve_here(program, SolverOptions());
       candidate.solver = inside.solver;
       if (inside.values.empty()) {
         candidate.message = "the program of the proof " + why_unsolved(inside);
@@ -128,7 +128,7 @@ DesignCandidate certify_here(const Theorem& theorem, const CertificateSubject& s
   const bool is_asked = objective == Objective::kMinGamma;
   if (names(theorem.parameters(subject), "gamma") && (is_asked || fixed.count("gamma") == 0)) {
     const LmiSolution best =
-        solve_with_csdp(analysis_program(theorem, subject, fixed, true), SolverOptions());
+        solve_here(analysis_program(theorem, subject, fixed, true), SolverOptions());
     candidate.solver = best.solver;
     if (best.values.empty() || best.status == SolverStatus::kInfeasible) {
       candidate.message = "the program of the proof " + why_unsolved(best);
@@ -162,7 +162,7 @@ DesignCandidate certify_final_error(const Theorem& theorem, const CertificateSub
     }
     return candidate;
   }
-  const LmiSolution least = solve_with_csdp(program_for({}), SolverOptions());
+  const LmiSolution least = solve_here(program_for({}), SolverOptions());
   candidate.solver = least.solver;
   if (least.values.empty() || least.status == SolverStatus::kInfeasible) {
     candidate.message = "the program of the proof " + why_unsolved(least);

@@ -38,7 +38,7 @@ bool is_better(const DesignCandidate& a, const DesignCandidate& b) {
 DesignCandidate LmiDesignMethod::solve(const CertificateSubject& subject,
                                        const Parameters& parameters, Objective objective) const {
   DesignCandidate candidate;
-  LmiSolution solution = solve_with_csdp(program(subject, parameters, objective), SolverOptions());
+  LmiSolution solution = solve_here(program(subject, parameters, objective), SolverOptions());
   const auto least = solution.values.find(kFinalErrorLevel);
   std::optional<double> level;
   if (objective == Objective::kMinFinalError && least != solution.values.end()) {
@@ -46,7 +46,7 @@ DesignCandidate LmiDesignMethod::solve(const CertificateSubject& subject,
     level = kFinalErrorRoom * least->second(0, 0);
     Parameters with_room = parameters;
     with_room[kFinalErrorLevel] = *level;
-    solution = solve_with_csdp(program(subject, with_room, objective), SolverOptions());
+    solution = solve_here(program(subject, with_room, objective), SolverOptions());
   }
   candidate.solver = solution.solver;
   candidate.message = "the design's program " + why_unsolved(solution);

@@ -7,9 +7,6 @@
 namespace sampled_data_observers {
 namespace {
 
-/// For the one program that is solved [s].
-constexpr double kTimeLimit = 20.0;
-
 bool is_about(const CertificateSubject& subject) {
   try {
     require_subject(*find_theorem("ferrante2019_theorem2"), subject);
@@ -53,8 +50,7 @@ void say_least_gain(ExplanationContext& c) {
     relevant.plant.C_p.resize(0, relevant.plant.states());
   }
   // What samples at any interval, however short, can't do either.
-  const LmiSolution solution =
-      solve_lmi(continuous_program(relevant.plant), kTimeLimit, SolverOptions());
+  const LmiSolution solution = solve_here(continuous_program(relevant.plant));
   c.out.heading("WHAT NO T2 CAN DO");
   if (!solution.satisfies_all()) {
     c.out.paragraph("(31) of ferrante2019, of an observer that measures at all times, " +

@@ -49,6 +49,7 @@ class LmiProgram {
   /// Minimizes a scalar expression. Without objective the solution is as far inside the strict
   /// inequalities as the bounds allow.
   void minimize(const MatrixExpression& objective);
+  bool has_objective() const { return objective_.has_value(); }
 
   /// Number of scalar decision variables (as in Table II of ferrante2019).
   int scalar_variables() const { return variables_; }

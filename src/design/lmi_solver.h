@@ -55,6 +55,15 @@ struct SolverOptions {
   double margin = 1e-7;
 };
 
+/// Solves with the package's own interior point method (interior_point.h), in the calling thread;
+/// several may run at a time.
+LmiSolution solve_with_interior_point(const LmiProgram& program, const SolverOptions& options = {});
+
+/// Solves with the own method and, where that leaves in doubt whether there is a solution, with
+/// CSDP as a second opinion, in a worker process of its own, where it may work for 0.3 s. The
+/// better solution of the two is given.
+LmiSolution solve_here(const LmiProgram& program, const SolverOptions& options = {});
+
 /// Solves in the calling process with CSDP, which is not thread-safe, may loop for ever, and writes
 /// to standard output: to be called in a worker process only (see workers.h).
 LmiSolution solve_with_csdp(const LmiProgram& program, const SolverOptions& options);

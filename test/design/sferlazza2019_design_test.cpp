@@ -49,7 +49,7 @@ TEST(Sferlazza2019Aircraft, HasThePrintedPWhereItHoldsAndWhereNot) {
 
 TEST(Sferlazza2019Aircraft, IsDesignedForInOneIterationFor1To3Seconds) {
   const Design design = design_by(kAlgorithm1, aircraft(1.0, 3.0));
-  EXPECT_EQ(design.solver, "CSDP, in 1 iteration");
+  EXPECT_EQ(design.solver, "interior point, in 1 iteration");
   EXPECT_TRUE(all_hold(check(design.certificate)));
   EXPECT_TRUE(verified(design.certificate.values, 1.0, 3.0).holds);
 }

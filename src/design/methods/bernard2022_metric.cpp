@@ -40,7 +40,7 @@ class MetricDesign : public DesignMethod {
     DesignCandidate none;
     for (int round = 0; round < kMostRounds; ++round) {
       const LmiSolution solution =
-          solve_with_csdp(program(subject, conditions, scalars, times), SolverOptions());
+          solve_here(program(subject, conditions, scalars, times), SolverOptions());
       none.solver = solution.solver;
       if (!solution.satisfies_all()) {
         none.message = "the program of the metrics " + why_unsolved(solution);

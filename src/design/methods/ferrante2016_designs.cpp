@@ -193,12 +193,12 @@ class Proposition1 : public ConstantGainDesign {
                                      const Parameters& parameters, Objective objective,
                                      const std::vector<double>& times) {
     LmiSolution solution =
-        solve_with_csdp(program_at_times(subject, parameters, objective, times), SolverOptions());
+        solve_here(program_at_times(subject, parameters, objective, times), SolverOptions());
     const auto level = solution.values.find(kFinalErrorLevel);
     if (level == solution.values.end()) return solution;
     Parameters with_room = parameters;
     with_room[kFinalErrorLevel] = kFinalErrorRoom * level->second(0, 0);
-    return solve_with_csdp(program_at_times(subject, with_room, objective, times), SolverOptions());
+    return solve_here(program_at_times(subject, with_room, objective, times), SolverOptions());
   }
 
   /// Where (12) holds least, if it does not hold there by the margin that a design needs.

@@ -131,12 +131,12 @@ class Alternating : public DesignMethod {
   NamedMatrices better_gains(const CertificateSubject& subject, const Parameters& parameters,
                              Objective objective, const NamedMatrices& values) const {
     LmiSolution solution =
-        solve_with_csdp(gain_program(subject, parameters, objective, values), SolverOptions());
+        solve_here(gain_program(subject, parameters, objective, values), SolverOptions());
     if (objective == Objective::kMinGamma && !solution.values.empty()) {
       Parameters with_room = parameters;
       with_room["gamma"] = kRoom * scalar_value(solution.values, "gamma");
-      solution = solve_with_csdp(gain_program(subject, with_room, Objective::kFeasible, values),
-                                 SolverOptions());
+      solution = solve_here(gain_program(subject, with_room, Objective::kFeasible, values),
+                            SolverOptions());
     }
     const bool is_of_use =
         !solution.values.empty() && keeps_gain_bound(solution.values.at("L"), parameters);

@@ -62,7 +62,7 @@ class Algorithm1 : public DesignMethod {
     if (subject.T2 > subject.T1) times.push_back(subject.T2);
     for (int iteration = 1; iteration <= kMaxIterations; ++iteration) {
       const LmiSolution solution =
-          solve_with_csdp(program(conditions, subject, scalars, times), SolverOptions());
+          solve_here(program(conditions, subject, scalars, times), SolverOptions());
       none.solver = solution.solver;
       if (!solution.satisfies_all()) {
         none.message = "(21) for " + std::to_string(times.size()) + " times between T1 and T2 " +

@@ -99,7 +99,7 @@ class AlternatingDesign : public DesignMethod {
                              Objective objective, const NamedMatrices& values) const {
     Parameters with_room = parameters;
     LmiSolution solution =
-        solve_with_csdp(gain_program(subject, parameters, objective, values), SolverOptions());
+        solve_here(gain_program(subject, parameters, objective, values), SolverOptions());
     Objective inside = objective;
     if (objective == Objective::kMinGamma && !solution.values.empty()) {
       with_room["gamma"] = kRoom * scalar_value(solution.values, "gamma");
@@ -110,7 +110,7 @@ class AlternatingDesign : public DesignMethod {
       with_room[kFinalErrorLevel] = kRoom * level->second(0, 0);
     }
     if (with_room.size() > parameters.size() || inside != objective) {
-      solution = solve_with_csdp(gain_program(subject, with_room, inside, values), SolverOptions());
+      solution = solve_here(gain_program(subject, with_room, inside, values), SolverOptions());
     }
     NamedMatrices gains;
     for (const NamedShape& shape : theorem().gains(subject)) {

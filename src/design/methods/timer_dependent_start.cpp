@@ -78,7 +78,7 @@ class RateSearch {
     }
     add_scalars(program);
     require_conditions(program);
-    const LmiSolution solution = solve_with_csdp(program, SolverOptions());
+    const LmiSolution solution = solve_here(program, SolverOptions());
     return solution.satisfies_all() ? solution.values : NamedMatrices();
   }
 
@@ -102,11 +102,11 @@ class RateSearch {
       require_conditions(program);
       return program;
     };
-    LmiSolution solution = solve_with_csdp(program_for(std::nullopt), SolverOptions());
+    LmiSolution solution = solve_here(program_for(std::nullopt), SolverOptions());
     if (solution.values.empty()) return std::nullopt;
     const double largest = scalar_value(solution.values, "lambda_t");
     const double rate = from + (1.0 - kRoomForRate) * (largest - from);
-    solution = solve_with_csdp(program_for(rate), SolverOptions());
+    solution = solve_here(program_for(rate), SolverOptions());
     if (!solution.satisfies_all()) return std::nullopt;
     NamedMatrices gains;
     for (const NamedShape& shape : theorem_.gains(subject_)) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 
 #include "design/lmi_solver.h"
 
@@ -17,7 +18,8 @@ void cross_check(const DesignMethod& method, const Design& design, double time_l
   const Objective objective =
       design.objective == Objective::kMinGamma ? Objective::kMinGamma : Objective::kFeasible;
   const LmiProgram program = lmi->program(design.certificate.subject, design.parameters, objective);
-  const LmiSolution solutions[] = {solve_lmi(program, time_limit),
+  const LmiSolution solutions[] = {solve_with_interior_point(program),
+                                   solve_lmi(program, time_limit),
                                    solve_with_sdpa(program, time_limit)};
   std::printf("cross-check of the semidefinite program of %s:\n", method.name().c_str());
   for (const LmiSolution& solution : solutions) {
@@ -29,10 +31,15 @@ void cross_check(const DesignMethod& method, const Design& design, double time_l
                 solution.dual_objective, to_string(solution.status), solution.message.c_str(),
                 solution.seconds);
   }
-  const double first = solutions[0].dual_objective;
-  const double second = solutions[1].dual_objective;
+  const auto smaller = [](const LmiSolution& a, const LmiSolution& b) {
+    return a.dual_objective < b.dual_objective;
+  };
+  const auto [least, largest] =
+      std::minmax_element(std::begin(solutions), std::end(solutions), smaller);
+  const double low = least->dual_objective;
+  const double high = largest->dual_objective;
   std::printf("  they differ by %.2g %%\n",
-              100.0 * std::abs(first - second) / std::max(std::abs(first), std::abs(second)));
+              100.0 * (high - low) / std::max(std::abs(low), std::abs(high)));
 }
 
 }  // namespace sampled_data_observers

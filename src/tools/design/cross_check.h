@@ -4,7 +4,7 @@
 
 namespace sampled_data_observers {
 
-/// Solves the semidefinite program that led to a design once more with both solvers, and prints
+/// Solves the semidefinite program that led to a design once more with the three solvers, and prints
 /// their objectives.
 /// @param time_limit  for each [s]
 /// @throws DesignError where the method is not one program, or the second solver gives no answer
