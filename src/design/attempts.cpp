@@ -1,6 +1,8 @@
 #include "design/attempts.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <locale>
 #include <sstream>
 #include <string>
@@ -18,6 +20,8 @@ namespace {
 
 /// By which a least gamma is enlarged where its own proof fails.
 constexpr double kFurtherInflations[] = {1.003, 1.01, 1.03};
+/// How many of several choices are tried at a time, those first that promise most.
+constexpr std::size_t kPromising = 2;
 /// Of the norm of a gain, for rounding.
 constexpr double kBoundTolerance = 1e-9;
 
@@ -167,6 +171,27 @@ struct ScaledAttempt {
   }
 };
 
+/// The plant, the parameters and their units in which an attempt is made.
+struct AttemptInUnits {
+  AttemptInUnits(const DesignMethod& method, const CertificateSubject& subject,
+                 const Parameters& given, Objective objective, GainBound gain_bound)
+      : parameters(with_sizes(given, objective)),
+        bounded(method.bounded_gains(subject)),
+        keeps_norms(gain_bound == GainBound::kGiven && !bounded.empty()),
+        scaling(units_for(method, subject, parameters, objective, keeps_norms)),
+        in_units(scaled(method.theorem(), parameters, scaling)),
+        subject_in_units(scaled(subject, scaling)) {
+    if (keeps_norms) in_units["gain_bound"] /= gain_unit(bounded.front(), scaling);
+  }
+
+  Parameters parameters;
+  std::vector<std::string> bounded;
+  bool keeps_norms;
+  PlantScaling scaling;
+  Parameters in_units;
+  CertificateSubject subject_in_units;
+};
+
 std::string packed(const DesignCandidate& candidate) {
   Packer packer;
   packer.add(candidate.values);
@@ -206,22 +231,49 @@ DesignCandidate unpacked(const WorkerOutcome& outcome) {
   return candidate;
 }
 
+/// What an attempt for each choice will cost: 0 where the method can't tell, infinite where there
+/// is no solution, as the message of its candidate says.
+std::vector<double> estimated_costs(const DesignMethod& method, const CertificateSubject& subject,
+                                    const std::vector<Parameters>& choices, Objective objective,
+                                    GainBound gain_bound, const WorkerOptions& workers,
+                                    std::vector<DesignCandidate>& candidates) {
+  const auto outcomes = run_in_workers(
+      choices.size(),
+      [&](std::size_t i) {
+        const AttemptInUnits units(method, subject, choices[i], objective, gain_bound);
+        const auto estimate = method.estimate(units.subject_in_units, units.in_units, objective);
+        Packer packer;
+        packer.add(estimate ? estimate->cost : 0.0);
+        packer.add(estimate ? estimate->message : std::string());
+        return packer.bytes();
+      },
+      workers);
+  std::vector<double> costs;
+  for (std::size_t i = 0; i < choices.size(); ++i) {
+    if (outcomes[i].status == WorkerOutcome::Status::kDone) {
+      Unpacker unpacker(outcomes[i].result);
+      costs.push_back(unpacker.number());
+      candidates[i].message = unpacker.text();
+    } else {
+      costs.push_back(std::numeric_limits<double>::infinity());
+      candidates[i] = unpacked(outcomes[i]);
+    }
+  }
+  return costs;
+}
+
 }  // namespace
 
 DesignCandidate proved_attempt(const DesignMethod& method, const CertificateSubject& subject,
                                const Parameters& given, Objective objective, GainBound gain_bound) {
-  const Parameters parameters = with_sizes(given, objective);
-  const std::vector<std::string> bounded = method.bounded_gains(subject);
-  const bool keeps_norms = gain_bound == GainBound::kGiven && !bounded.empty();
-  const ScaledAttempt attempt{method, subject, parameters, objective,
-                              units_for(method, subject, parameters, objective, keeps_norms)};
-  Parameters in_units = scaled(method.theorem(), parameters, attempt.scaling);
-  if (keeps_norms) in_units["gain_bound"] /= gain_unit(bounded.front(), attempt.scaling);
+  const AttemptInUnits units(method, subject, given, objective, gain_bound);
+  const std::vector<std::string>& bounded = units.bounded;
+  const ScaledAttempt attempt{method, subject, units.parameters, objective, units.scaling};
   DesignCandidate first =
-      method.attempt_scaled(scaled(subject, attempt.scaling), in_units, objective, attempt.scaling);
+      method.attempt_scaled(units.subject_in_units, units.in_units, objective, units.scaling);
   if (!first.is_verified()) return first;
   const double norm = bounded_norm(bounded, first.values);
-  if (!bounded.empty()) require_gain_bound(norm, in_units.at("gain_bound"), first);
+  if (!bounded.empty()) require_gain_bound(norm, units.in_units.at("gain_bound"), first);
   if (!first.is_verified()) return first;
   DesignCandidate candidate = attempt.proved(first);
   for (const double factor : kFurtherInflations) {
@@ -231,9 +283,9 @@ DesignCandidate proved_attempt(const DesignMethod& method, const CertificateSubj
   }
   if (candidate.is_verified() && !bounded.empty()) {
     const double factor = bounded_norm(bounded, candidate.values) / norm;
-    candidate.gain_bound =
-        keeps_norms ? parameters.at("gain_bound") : in_units.at("gain_bound") * factor;
-    if (keeps_norms) {
+    candidate.gain_bound = units.keeps_norms ? units.parameters.at("gain_bound")
+                                             : units.in_units.at("gain_bound") * factor;
+    if (units.keeps_norms) {
       require_gain_bound(bounded_norm(bounded, candidate.values), candidate.gain_bound, candidate);
     }
   }
@@ -245,15 +297,44 @@ std::vector<DesignCandidate> proved_attempts(const DesignMethod& method,
                                              const std::vector<Parameters>& choices,
                                              Objective objective, GainBound gain_bound,
                                              const WorkerOptions& workers) {
-  const auto outcomes = run_in_workers(
-      choices.size(),
-      [&](std::size_t i) {
-        return packed(proved_attempt(method, subject, choices[i], objective, gain_bound));
-      },
-      workers);
-  std::vector<DesignCandidate> candidates;
-  candidates.reserve(outcomes.size());
-  for (const WorkerOutcome& outcome : outcomes) candidates.push_back(unpacked(outcome));
+  std::vector<DesignCandidate> candidates(choices.size());
+  const auto try_all = [&](const std::vector<std::size_t>& numbers) {
+    WorkerOptions options = workers;
+    if (choices.size() > 1) options.on_outcome = nullptr;  // each was told of already
+    const auto outcomes = run_in_workers(
+        numbers.size(),
+        [&](std::size_t i) {
+          return packed(
+              proved_attempt(method, subject, choices[numbers[i]], objective, gain_bound));
+        },
+        options);
+    for (std::size_t i = 0; i < numbers.size(); ++i) candidates[numbers[i]] = unpacked(outcomes[i]);
+  };
+  std::vector<double> costs(choices.size(), 0.0);
+  if (choices.size() > 1) {
+    costs = estimated_costs(method, subject, choices, objective, gain_bound, workers, candidates);
+  }
+  std::vector<std::size_t> waiting;
+  for (std::size_t i = 0; i < choices.size(); ++i) waiting.push_back(i);
+  std::stable_sort(waiting.begin(), waiting.end(),
+                   [&](std::size_t a, std::size_t b) { return costs[a] < costs[b]; });
+  bool is_found = false;
+  for (std::size_t done = 0; done < waiting.size();) {
+    if (std::isinf(costs[waiting[done]])) break;
+    // Estimates that are equal, as where there are none, are tried together.
+    std::vector<std::size_t> next;
+    const double least = costs[waiting[done]];
+    while (done < waiting.size() && !std::isinf(costs[waiting[done]]) &&
+           (next.size() < kPromising || costs[waiting[done]] == least)) {
+      next.push_back(waiting[done++]);
+    }
+    if (is_found) {
+      for (const std::size_t i : next) candidates[i].message = "promised less than others";
+      continue;
+    }
+    try_all(next);
+    for (const std::size_t i : next) is_found = is_found || candidates[i].is_verified();
+  }
   return candidates;
 }
 

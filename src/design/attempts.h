@@ -19,8 +19,11 @@ DesignCandidate proved_attempt(const DesignMethod& method, const CertificateSubj
                                const Parameters& parameters, Objective objective,
                                GainBound gain_bound);
 
-/// An attempt for each choice of the parameters, each in a worker process of its own. One that is
+/// The best of the attempts for these choices of the parameters, in worker processes. Where the
+/// method tells by one program what an attempt will cost, only those that promise most are made,
+/// until one is verified, and the others are no designs, with a message that says so. One that is
 /// lost says why in its message.
+/// @return  a candidate for each choice
 std::vector<DesignCandidate> proved_attempts(const DesignMethod& method,
                                              const CertificateSubject& subject,
                                              const std::vector<Parameters>& choices,

@@ -78,10 +78,47 @@ DesignCandidate LmiDesignMethod::solve(const CertificateSubject& subject,
   return candidate;
 }
 
+DesignEstimate LmiDesignMethod::estimate_by_program(const CertificateSubject& subject,
+                                                    const Parameters& parameters,
+                                                    Objective objective) const {
+  DesignEstimate estimate;
+  const LmiSolution solution = solve_here(program(subject, parameters, objective));
+  const bool is_of_use = !solution.values.empty() && solution.status != SolverStatus::kInfeasible &&
+                         solution.status != SolverStatus::kUnbounded &&
+                         (objective != Objective::kFeasible || solution.satisfies_all());
+  if (!is_of_use) {
+    estimate.message = "the design's program " + why_unsolved(solution);
+    return estimate;
+  }
+  if (gains(subject, parameters, solution.values).empty()) {
+    estimate.message = "the solver left a bound";
+    return estimate;
+  }
+  estimate.cost = objective == Objective::kFeasible ? -solution.margin : solution.dual_objective;
+  return estimate;
+}
+
 DesignCandidate LmiDesignMethod::attempt(const CertificateSubject& subject,
                                          const Parameters& parameters, Objective objective) const {
-  DesignCandidate solved = solve(subject, parameters, objective);
+  const DesignCandidate solved = solve(subject, parameters, objective);
   if (solved.values.empty()) return solved;
+  DesignCandidate candidate = certified(subject, parameters, objective, solved);
+  const auto gamma = solved.values.find("gamma");
+  const bool is_at_edge =
+      objective == Objective::kMinGamma && gamma != solved.values.end() && !candidate.is_verified();
+  if (is_at_edge) {
+    Parameters with_room = parameters;
+    with_room["gamma"] = gamma->second(0, 0);
+    const DesignCandidate inside = solve(subject, with_room, Objective::kFeasible);
+    if (!inside.values.empty()) candidate = certified(subject, parameters, objective, inside);
+  }
+  return candidate;
+}
+
+/// With the gains of a solution, and the matrices that the theorem finds for them.
+DesignCandidate LmiDesignMethod::certified(const CertificateSubject& subject,
+                                           const Parameters& parameters, Objective objective,
+                                           const DesignCandidate& solved) const {
   NamedMatrices fixed;
   for (const NamedShape& shape : theorem().gains(subject)) {
     fixed[shape.name] = solved.values.at(shape.name);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -77,6 +78,15 @@ struct DesignCandidate {
 /// of less cost.
 bool is_better(const DesignCandidate& a, const DesignCandidate& b);
 
+/// What the first program of an attempt tells of it.
+struct DesignEstimate {
+  /// By the objective, in the units of the attempt, to be compared with other estimates of the
+  /// method; infinite where there is no solution.
+  double cost = std::numeric_limits<double>::infinity();
+  /// Why there is none.
+  std::string message;
+};
+
 /// A way to find gains for which the conditions of a theorem hold.
 class DesignMethod {
  public:
@@ -119,7 +129,14 @@ class DesignMethod {
   virtual DesignCandidate attempt(const CertificateSubject& subject, const Parameters& parameters,
                                   Objective objective) const = 0;
 
-  /// The same for a plant and parameters in the units of a scaling; one who knows the gains
+  /// What one program tells of an attempt; none where that takes a whole attempt.
+  virtual std::optional<DesignEstimate> estimate(const CertificateSubject& /*subject*/,
+                                                 const Parameters& /*parameters*/,
+                                                 Objective /*objective*/) const {
+    return std::nullopt;
+  }
+
+  /// attempt() for a plant and parameters in the units of a scaling; one who knows the gains
   /// scales them as well.
   virtual DesignCandidate attempt_scaled(const CertificateSubject& subject,
                                          const Parameters& parameters, Objective objective,
@@ -150,9 +167,17 @@ class LmiDesignMethod : public DesignMethod {
                              Objective objective) const = 0;
 
  protected:
+  /// For methods whose attempts are those of this class.
+  DesignEstimate estimate_by_program(const CertificateSubject& subject,
+                                     const Parameters& parameters, Objective objective) const;
+
   /// The gains by name; none where the solution is so inaccurate that they are not what was asked.
   virtual NamedMatrices gains(const CertificateSubject& subject, const Parameters& parameters,
                               const NamedMatrices& solution) const = 0;
+
+ private:
+  DesignCandidate certified(const CertificateSubject& subject, const Parameters& parameters,
+                            Objective objective, const DesignCandidate& solved) const;
 };
 
 /// All methods, and the one of a name; null where there is none.

@@ -14,7 +14,7 @@ constexpr const char* kNoise = "noise";
 constexpr const char* kDisturbance = "disturbance";
 constexpr const char* kFinalErrorLevel = "final_error_level";
 /// By how much a least level is enlarged, so that what is found does not lie on the edge.
-constexpr double kFinalErrorRoom = 1.02;
+constexpr double kFinalErrorRoom = 1.01;
 
 /// What bounds the final error at such a level, but for a factor that is common to all gains.
 double final_error_of_level(const Theorem& theorem, const CertificateSubject& subject,

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 /// How near rays must come to proving that there is no solution, or no least one.
-constexpr double kRayTolerance = 1e-7;
+constexpr double kRayTolerance = 1e-9;
 constexpr double kLargeStart = 100.0;
 /// Of a gap and infeasibilities that have stopped falling: what may do.
 constexpr double kNearlySolved = 1e-5;

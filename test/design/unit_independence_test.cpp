@@ -61,7 +61,7 @@ struct Aim {
   Objective objective;
   double tolerance;
 };
-constexpr Aim kLongest = {Objective::kMaxT2, 1e-3};
+constexpr Aim kLongest = {Objective::kMaxT2, 2e-3};
 constexpr Aim kFastest = {Objective::kMaxDecay, 1e-2};
 constexpr Aim kLeastGain = {Objective::kMinGamma, 1e-2};
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "design/design_method.h"
@@ -46,6 +47,11 @@ class Ferrante2019Proposition : public LmiDesignMethod {
   std::vector<std::string> bounded_gains(const CertificateSubject&) const override { return {"L"}; }
   std::vector<Objective> objectives(const CertificateSubject& subject) const override {
     return ferrante2019_objectives(subject);
+  }
+  std::optional<DesignEstimate> estimate(const CertificateSubject& subject,
+                                         const Parameters& parameters,
+                                         Objective objective) const override {
+    return estimate_by_program(subject, parameters, objective);
   }
 
  protected:

@@ -1,3 +1,4 @@
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -22,6 +23,11 @@ class JumpGainDesign : public LmiDesignMethod {
   }
   std::vector<Objective> objectives(const CertificateSubject& subject) const override {
     return timer_dependent_objectives(subject);
+  }
+  std::optional<DesignEstimate> estimate(const CertificateSubject& subject,
+                                         const Parameters& parameters,
+                                         Objective objective) const override {
+    return estimate_by_program(subject, parameters, objective);
   }
 
  protected:
