@@ -4,8 +4,8 @@
 
 namespace sampled_data_observers {
 
-/// Solves the semidefinite program that led to a design once more with the three solvers, and prints
-/// their objectives.
+/// Solves the semidefinite program that led to a design once more with the three solvers, and
+/// prints their objectives.
 /// @param time_limit  for each [s]
 /// @throws DesignError where the method is not one program, or the second solver gives no answer
 void cross_check(const DesignMethod& method, const Design& design, double time_limit);
