@@ -99,6 +99,10 @@ TopicSource read_detected_jumps(ConfigSection& section, const Plant& plant) {
 
 }  // namespace
 
+bool TopicSource::is_of_own_type() const {
+  return type == kMeasurementType || type == kInputType || type == kJumpType;
+}
+
 std::vector<std::optional<TopicSource>> read_sensor_sources(ConfigSection& root,
                                                             const Plant& plant) {
   std::vector<std::optional<TopicSource>> sources;

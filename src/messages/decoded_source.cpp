@@ -25,20 +25,31 @@ std::optional<MessagePath> path_to_stamp(const MessageDefinition& definition) {
   return path_to(definition, *header, {"stamp"});
 }
 
-/// Its seconds are its number 0, and its nanoseconds number 1.
+/// Asks for the stamp that events have, where it is that of messages; the first thing asked for, it
+/// has the slots 0 and 1.
+std::pair<std::size_t, std::size_t> want_stamp(const TopicSource& source,
+                                               const MessageDefinition& definition,
+                                               PlanCompiler& compiler) {
+  if (source.stamped_on_receipt) return {0, 0};
+  const std::optional<MessagePath> path = path_to_stamp(definition);
+  if (path) return compiler.want_time(*path);
+  throw ConfigError(source.origin, source.path + "/stamp",
+                    "receipt (" + source.type + " carries no stamp)", "none");
+}
+
 DecodingPlan compile_stamp(const TopicSource& source,
                            const std::shared_ptr<const MessageDefinition>& definition) {
   PlanCompiler compiler(definition);
-  if (!source.stamped_on_receipt) {
-    const std::optional<MessagePath> path = path_to_stamp(*definition);
-    if (!path) {
-      throw ConfigError(source.origin, source.path + "/stamp",
-                        "receipt (" + source.type + " carries no stamp)", "none");
-    }
-    compiler.want_time(*path);
-  }
+  want_stamp(source, *definition, compiler);
   const bool is_whole = true;
   return compiler.compile(!is_whole);
+}
+
+Stamp stamp_from(double seconds, double nanoseconds) {
+  ros::Time time;
+  time.sec = static_cast<std::uint32_t>(seconds);
+  time.nsec = static_cast<std::uint32_t>(nanoseconds);
+  return to_stamp(time);
 }
 
 }  // namespace
@@ -62,9 +73,10 @@ DecodedSource::DecodedSource(const TopicSource& source,
 DecodedSource::Parts DecodedSource::compile(
     const TopicSource& source, const std::shared_ptr<const MessageDefinition>& definition) {
   PlanCompiler compiler(definition);
+  const auto stamp = want_stamp(source, *definition, compiler);
   DecodedFields fields(source, *definition, compiler);
   FrameBlocks frames(source, *definition, fields.paths(), compiler);
-  return {std::move(fields), std::move(frames), compiler.compile()};
+  return {stamp, std::move(fields), std::move(frames), compiler.compile()};
 }
 
 ros::Subscriber DecodedSource::subscribe(ros::NodeHandle& handle, std::uint32_t queue_length,
@@ -95,10 +107,7 @@ Stamp DecodedSource::own_stamp(const RawMessage& message) const {
   std::array<char, 2> are_held{};
   const DecodingSlots slots{numbers.data(), are_held.data(), nullptr, nullptr, nullptr};
   if (stamp_plan_.run(message.bytes.data(), message.bytes.size(), slots).any()) return 0;
-  ros::Time time;
-  time.sec = static_cast<std::uint32_t>(numbers[0]);
-  time.nsec = static_cast<std::uint32_t>(numbers[1]);
-  return to_stamp(time);
+  return stamp_from(numbers[0], numbers[1]);
 }
 
 Stamp DecodedSource::stamp_of(const MessagePointer& message, Stamp receipt) const {
@@ -115,7 +124,10 @@ Reading DecodedSource::read(const MessagePointer& message, Stamp receipt, Event&
   }
   if (parts_.plan.run(bytes.data(), bytes.size(), decoded_.slots()).any())
     return Reading::kMalformed;
-  event.stamp = stamp_of(message, receipt);
+  const auto [seconds, nanoseconds] = parts_.stamp;
+  event.stamp =
+      by_receipt_ ? receipt : stamp_from(decoded_.number(seconds), decoded_.number(nanoseconds));
+  if (event.stamp > 0) event.stamp += stamp_offset_;
   const bool has_stamp = event.stamp > 0;
   if (has_stamp && !parts_.frames.transform(decoded_, event.stamp, transforms_.get())) {
     return Reading::kNoTransform;

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "messages/corrected_values.h"
@@ -34,12 +35,15 @@ class DecodedSource : public MessageSource {
 
  private:
   struct Parts {
+    std::pair<std::size_t, std::size_t>
+        stamp;  ///< slots, where messages are not stamped on receipt
     DecodedFields fields;
     FrameBlocks frames;
     DecodingPlan plan;
   };
   static Parts compile(const TopicSource& source,
                        const std::shared_ptr<const MessageDefinition>& definition);
+  /// The stamp that a message carries; 0 where it is malformed.
   Stamp own_stamp(const RawMessage& message) const;
 
   std::string topic_;

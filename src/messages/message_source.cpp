@@ -68,8 +68,9 @@ EventOutcome outcome_of(Reading reading) {
 std::unique_ptr<MessageSource> make_message_source(
     const TopicSource& source, std::shared_ptr<const TransformBuffer> transforms,
     std::shared_ptr<const MessageDefinition> definition) {
+  const bool is_live = definition == nullptr;
   std::string fault;
-  if (!ros::names::validate(source.topic, fault)) {
+  if (is_live && !ros::names::validate(source.topic, fault)) {
     throw ConfigError(source.origin, source.path + "/topic", "a name of a topic",
                       "'" + source.topic + "' (" + fault + ")");
   }

@@ -4,6 +4,7 @@
 #include <ros/message_traits.h>
 #include <ros/serialization.h>
 
+#include <algorithm>
 #include <boost/shared_ptr.hpp>
 #include <cstdint>
 #include <string>
@@ -19,13 +20,14 @@ struct RawMessage {
 
   /// Whether its publisher has that definition.
   bool is_of(const std::string& type, const std::string& md5sum) const {
-    return connection == nullptr || (says("md5sum", md5sum) && says("type", type));
+    return connection == nullptr || (said("md5sum") == md5sum && said("type") == type);
   }
 
- private:
-  bool says(const char* key, const std::string& value) const {
+  /// "*" where that is not said.
+  const char* said(const char* key) const {
+    if (connection == nullptr) return "*";
     const auto found = connection->find(key);
-    return found != connection->end() && found->second == value;
+    return found == connection->end() ? "*" : found->second.c_str();
   }
 };
 
@@ -43,11 +45,24 @@ struct IsMessage<const sampled_data_observers::RawMessage> : TrueType {};
 template <>
 struct MD5Sum<sampled_data_observers::RawMessage> {
   static const char* value() { return "*"; }
+  static const char* value(const sampled_data_observers::RawMessage& message) {
+    return message.said("md5sum");
+  }
 };
 
 template <>
 struct DataType<sampled_data_observers::RawMessage> {
   static const char* value() { return "*"; }
+  static const char* value(const sampled_data_observers::RawMessage& message) {
+    return message.said("type");
+  }
+};
+
+template <>
+struct Definition<sampled_data_observers::RawMessage> {
+  static const char* value(const sampled_data_observers::RawMessage& message) {
+    return message.said("message_definition");
+  }
 };
 
 }  // namespace message_traits
@@ -59,6 +74,14 @@ struct Serializer<sampled_data_observers::RawMessage> {
   template <class Stream>
   static void read(Stream& stream, sampled_data_observers::RawMessage& message) {
     message.bytes.assign(stream.getData(), stream.getData() + stream.getLength());
+  }
+  template <class Stream>
+  static void write(Stream& stream, const sampled_data_observers::RawMessage& message) {
+    const std::vector<std::uint8_t>& bytes = message.bytes;
+    std::copy(bytes.begin(), bytes.end(), stream.advance(serializedLength(message)));
+  }
+  static std::uint32_t serializedLength(const sampled_data_observers::RawMessage& message) {
+    return static_cast<std::uint32_t>(message.bytes.size());
   }
 };
 

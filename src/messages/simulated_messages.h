@@ -1,71 +1,93 @@
 #pragma once
 
+#include <ros/node_handle.h>
 #include <sampled_data_observers/Input.h>
 #include <sampled_data_observers/JumpEvent.h>
 #include <sampled_data_observers/Measurement.h>
 #include <sampled_data_observers/StateEstimate.h>
 
-#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
 
+#include "messages/definition/message_writer.h"
+#include "messages/raw_message.h"
 #include "messages/time_conversion.h"
 #include "simulation/simulator.h"
 
 namespace sampled_data_observers {
 
-template <class M>
-struct MessageTag {
-  using type = M;
+/// Messages of a type that a source reads, with the values that it is to find in them.
+class MessageEncoder {
+ public:
+  /// @throws ConfigError for a type or field that does not exist, or frames that its messages have
+  /// no use for.
+  explicit MessageEncoder(const TopicSource& source);
+
+  RawMessage encode(const SimulatedMessage& from) const;
+
+  /// How its messages are advertised.
+  ros::AdvertiseOptions advertise_options(const std::string& topic, std::uint32_t queue) const;
+
+ private:
+  std::shared_ptr<const MessageDefinition> definition_;
+  bool has_mode_;
+  /// With the stamp as the last one, where messages have one.
+  std::vector<MessageItem> items_;
+  std::size_t values_ = 0;  ///< of the items: the mode's, and those of the event's
+  boost::shared_ptr<ros::M_string> connection_;
 };
 
-/// Calls `visitor` with the MessageTag of a channel's message type and returns what it returns.
-template <class Visitor>
-auto visit_simulated_type(const SimulatedChannel& channel, Visitor&& visitor) {
-  switch (channel.kind) {
-    case SimulatedChannel::Kind::kMeasurement:
-    case SimulatedChannel::Kind::kSignal:
-      return visitor(MessageTag<Measurement>{});
-    case SimulatedChannel::Kind::kInput:
-      return visitor(MessageTag<Input>{});
-    case SimulatedChannel::Kind::kJump:
-      return visitor(MessageTag<JumpEvent>{});
-    case SimulatedChannel::Kind::kTruth:
-      break;
+/// What a simulation sends, as ROS messages.
+class SimulatedMessages {
+ public:
+  /// @throws ConfigError as MessageEncoder
+  explicit SimulatedMessages(const std::vector<SimulatedChannel>& channels);
+
+  ros::Publisher advertise(std::size_t channel, ros::NodeHandle& handle, std::uint32_t queue) const;
+
+  /// Calls `visitor` with the message that a simulated one stands for.
+  template <class Visitor>
+  void visit(const SimulatedMessage& simulated, Visitor&& visitor) const {
+    using Kind = SimulatedChannel::Kind;
+    const SimulatedChannel& channel = channels_[simulated.channel];
+    const SimulatedMessage from = uncorrected(channel, simulated);
+    if (encoders_[from.channel]) return visitor(encoders_[from.channel]->encode(from));
+    switch (channel.kind) {
+      case Kind::kMeasurement:
+      case Kind::kSignal:
+        return visitor(made<Measurement>(channel, from));
+      case Kind::kInput:
+        return visitor(made<Input>(channel, from));
+      case Kind::kJump:
+        return visitor(made<JumpEvent>(channel, from));
+      case Kind::kTruth:
+        break;
+    }
+    visitor(made<StateEstimate>(channel, from));
   }
-  return visitor(MessageTag<StateEstimate>{});
-}
 
-inline void fill(const SimulatedChannel&, const SimulatedMessage& from, Measurement& message) {
-  message.values = from.values;
-}
-
-inline void fill(const SimulatedChannel&, const SimulatedMessage& from, Input& message) {
-  message.values = from.values;
-}
-
-inline void fill(const SimulatedChannel&, const SimulatedMessage& from, JumpEvent& message) {
-  message.mode = from.mode;
-  message.values = from.values;
-  message.release = to_ros_time(from.arrival);
-}
-
-inline void fill(const SimulatedChannel& channel, const SimulatedMessage& from,
-                 StateEstimate& message) {
-  message.names = channel.names;
-  message.state = from.values;
-  message.jumps = from.jumps;
-  message.time_since_sample = std::numeric_limits<double>::quiet_NaN();
-}
-
-/// Calls `visitor` with the ROS message that a simulated one stands for.
-template <class Visitor>
-void visit_message(const SimulatedChannel& channel, const SimulatedMessage& from,
-                   Visitor&& visitor) {
-  visit_simulated_type(channel, [&](auto tag) {
-    typename decltype(tag)::type message;
+ private:
+  /// With the stamp and values that the source corrects to those simulated.
+  static SimulatedMessage uncorrected(const SimulatedChannel& channel, SimulatedMessage message);
+  template <class M>
+  static M made(const SimulatedChannel& channel, const SimulatedMessage& from) {
+    M message;
     message.header.stamp = to_ros_time(from.stamp);
     fill(channel, from, message);
-    visitor(message);
-  });
-}
+    return message;
+  }
+  static void fill(const SimulatedChannel& channel, const SimulatedMessage& from,
+                   Measurement& message);
+  static void fill(const SimulatedChannel& channel, const SimulatedMessage& from, Input& message);
+  static void fill(const SimulatedChannel& channel, const SimulatedMessage& from,
+                   JumpEvent& message);
+  static void fill(const SimulatedChannel& channel, const SimulatedMessage& from,
+                   StateEstimate& message);
+
+  std::vector<SimulatedChannel> channels_;
+  /// Of channels that are of another package's type.
+  std::vector<std::optional<MessageEncoder>> encoders_;
+};
 
 }  // namespace sampled_data_observers

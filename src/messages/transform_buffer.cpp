@@ -71,6 +71,7 @@ std::optional<Eigen::Isometry3d> TransformBuffer::find(const std::string& target
                                                        const std::string& source,
                                                        Stamp stamp) const {
   const std::string from = without_slash(source);
+  if (from == target) return Eigen::Isometry3d::Identity();
   const ros::Time time = to_ros_time(stamp);
   if (from.empty() || !buffer_.canTransform(target, from, time)) return std::nullopt;
   const geometry_msgs::Transform transform = buffer_.lookupTransform(target, from, time).transform;

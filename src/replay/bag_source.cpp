@@ -15,7 +15,7 @@
 namespace sampled_data_observers {
 namespace {
 
-std::string listed(const std::vector<std::pair<std::string, std::string>>& topics) {
+std::string listed(const std::map<std::string, std::string>& topics) {
   std::string text;
   for (const auto& [topic, type] : topics) text += "\n  " + topic + " (" + type + ")";
   return text.empty() ? "\n  nothing" : text;
@@ -36,25 +36,45 @@ void open_for_reading(rosbag::Bag& bag, const std::string& path) {
   }
 }
 
-std::vector<std::pair<std::string, std::string>> bag_topics(const rosbag::Bag& bag) {
-  rosbag::View view(bag);
-  std::map<std::string, std::string> topics;
-  for (const rosbag::ConnectionInfo* connection : view.getConnections()) {
-    topics[connection->topic] = connection->datatype;
+BagSet::BagSet(const std::vector<std::string>& paths) {
+  for (const std::string& path : paths) {
+    bags_.push_back(std::make_unique<rosbag::Bag>());
+    open_for_reading(*bags_.back(), path);
   }
-  return {topics.begin(), topics.end()};
+  rosbag::View view;
+  look_through(view);
+  for (const rosbag::ConnectionInfo* connection : view.getConnections()) {
+    topics_[connection->topic] = connection->datatype;
+  }
 }
 
-std::shared_ptr<const MessageDefinition> definition_in(const rosbag::Bag& bag,
-                                                       const std::string& topic) {
-  rosbag::View view(bag, rosbag::TopicQuery(topic));
+void BagSet::look_through(rosbag::View& view) const {
+  for (const auto& bag : bags_) view.addQuery(*bag);
+}
+
+void BagSet::look_through(rosbag::View& view, const std::vector<std::string>& topics) const {
+  for (const auto& bag : bags_) view.addQuery(*bag, rosbag::TopicQuery(topics));
+}
+
+std::string BagSet::name_of(const std::string& name) const {
+  if (topics_.count(name) > 0) return name;
+  std::string fault;
+  if (!ros::names::validate(name, fault)) return name;
+  const std::string resolved = ros::names::resolve(name);
+  const std::string bare = resolved.substr(1);
+  return topics_.count(resolved) == 0 && topics_.count(bare) > 0 ? bare : resolved;
+}
+
+std::shared_ptr<const MessageDefinition> BagSet::definition_of(const std::string& topic) const {
+  rosbag::View view;
+  look_through(view, {topic});
   const std::vector<const rosbag::ConnectionInfo*> connections = view.getConnections();
   if (connections.empty()) return nullptr;
   try {
     return std::make_shared<const MessageDefinition>(connections.front()->datatype,
                                                      connections.front()->msg_def);
   } catch (const DefinitionError& fault) {
-    throw ReplayError(bag.getFileName() + ": on " + topic + ": " + fault.what());
+    throw ReplayError("the type of " + topic + ": " + fault.what());
   }
 }
 
@@ -105,17 +125,16 @@ Reading BagChannel::read(const rosbag::MessageInstance& instance, Event& event) 
   return source->read(message_, to_stamp(instance.getTime()), event);
 }
 
-std::vector<BagChannel> bind_channels(const ObserverConfig& config, const rosbag::Bag& bag,
+std::vector<BagChannel> bind_channels(const ObserverConfig& config, const BagSet& bags,
                                       const std::shared_ptr<const TransformBuffer>& transforms,
                                       bool may_lack_input) {
-  const auto topics = bag_topics(bag);
+  const std::map<std::string, std::string>& topics = bags.topics();
   std::vector<BagChannel> result;
   for (const EventChannel& channel : event_channels(config)) {
     BagChannel bound;
     bound.channel = channel;
-    bound.topic = ros::names::resolve(channel.source.topic);
-    const auto found = std::find_if(topics.begin(), topics.end(),
-                                    [&](const auto& topic) { return topic.first == bound.topic; });
+    bound.topic = bags.name_of(channel.source.topic);
+    const auto found = topics.find(bound.topic);
     bound.is_recorded = found != topics.end();
     // Jumps may never have happened, and a topic without messages is not recorded. A sensor without
     // a single sample is a mistake, and so is the signal of a detector.
@@ -134,21 +153,17 @@ std::vector<BagChannel> bind_channels(const ObserverConfig& config, const rosbag
                         channel.source.type + " on " + bound.topic + ", found " + found->second +
                         " in the bag");
     }
-    if (bound.is_recorded) bound.definition = definition_in(bag, bound.topic);
+    if (bound.is_recorded) bound.definition = bags.definition_of(bound.topic);
     bound.source = make_message_source(channel.source, transforms, bound.definition);
     result.push_back(std::move(bound));
   }
   return result;
 }
 
-std::vector<std::string> transform_topics() {
-  return {ros::names::resolve("/tf"), ros::names::resolve("/tf_static")};
-}
-
-void take_transforms(const rosbag::MessageInstance& instance, TransformBuffer& transforms) {
+void take_transforms(const rosbag::MessageInstance& instance, bool are_static,
+                     TransformBuffer& transforms) {
   const auto message = instantiate<tf2_msgs::TFMessage>(instance);
-  transforms.take(*message, instance.getTopic() == transform_topics().back(),
-                  to_stamp(instance.getTime()));
+  transforms.take(*message, are_static, to_stamp(instance.getTime()));
 }
 
 }  // namespace sampled_data_observers

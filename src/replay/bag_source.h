@@ -4,9 +4,11 @@
 #include <ros/serialization.h>
 #include <rosbag/bag.h>
 #include <rosbag/message_instance.h>
+#include <rosbag/view.h>
 
 #include <boost/make_shared.hpp>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -32,6 +34,33 @@ class BagMessageError : public ReplayError {
 /// Opens a bag for reading. @throws ReplayError when it can't be read as a whole.
 void open_for_reading(rosbag::Bag& bag, const std::string& path);
 
+/// Bags that are read as one: their messages in the order of their times.
+class BagSet {
+ public:
+  /// @throws ReplayError when one can't be read as a whole.
+  explicit BagSet(const std::vector<std::string>& paths);
+
+  /// Makes a view one of all messages, or of those on some topics.
+  void look_through(rosbag::View& view) const;
+  void look_through(rosbag::View& view, const std::vector<std::string>& topics) const;
+
+  /// Datatypes by topic, for all topics.
+  const std::map<std::string, std::string>& topics() const { return topics_; }
+
+  /// The name by which the bags have a topic: `name` as it stands, which need not be one that ROS
+  /// allows, or as ROS resolves and remaps it, with or without the slash in front. Where they have
+  /// none of these: as ROS resolves it.
+  std::string name_of(const std::string& name) const;
+
+  /// The definition of a topic's type as its first connection has it; null where there is none.
+  /// @throws ReplayError for one that is none.
+  std::shared_ptr<const MessageDefinition> definition_of(const std::string& topic) const;
+
+ private:
+  std::vector<std::unique_ptr<rosbag::Bag>> bags_;
+  std::map<std::string, std::string> topics_;
+};
+
 /// Does what reads a bag's messages; the bag's path precedes what faults say of these.
 /// @throws ReplayError
 template <class Action>
@@ -45,19 +74,10 @@ void name_in_faults(const std::string& path, const Action& action) {
   }
 }
 
-/// Datatypes by topic, for all topics of a bag.
-std::vector<std::pair<std::string, std::string>> bag_topics(const rosbag::Bag& bag);
-
-/// The definition of a topic's type as its first connection in the bag has it; null where the bag
-/// has no such topic.
-/// @throws ReplayError for one that is none.
-std::shared_ptr<const MessageDefinition> definition_in(const rosbag::Bag& bag,
-                                                       const std::string& topic);
-
 /// A channel of the observer bound to a topic of a bag.
 struct BagChannel {
   EventChannel channel;
-  /// Absolute name of the topic in the bag.
+  /// Name of the topic in the bags.
   std::string topic;
   std::shared_ptr<MessageSource> source;
   /// Of its type, as the bag has it; null where it has none.
@@ -103,15 +123,13 @@ MessagePointer instantiate(const MessageSource& source, const rosbag::MessageIns
 /// @throws ReplayError when the topic of a sensor, of the input or of a detector's signal is not in
 /// the bag, or any topic is of another type.
 /// @throws ConfigError for a source that no message type fits.
-std::vector<BagChannel> bind_channels(const ObserverConfig& config, const rosbag::Bag& bag,
+std::vector<BagChannel> bind_channels(const ObserverConfig& config, const BagSet& bags,
                                       const std::shared_ptr<const TransformBuffer>& transforms,
                                       bool may_lack_input);
 
-/// The topics of a bag that transforms come on.
-std::vector<std::string> transform_topics();
-
-/// Takes the transforms of a message on one of these.
+/// Takes the transforms of a message.
 /// @throws ReplayError when the message can't be read as transforms.
-void take_transforms(const rosbag::MessageInstance& instance, TransformBuffer& transforms);
+void take_transforms(const rosbag::MessageInstance& instance, bool are_static,
+                     TransformBuffer& transforms);
 
 }  // namespace sampled_data_observers

@@ -31,16 +31,23 @@ namespace {
 /// A gap longer than this is a clock that was set, not a robot that waited.
 constexpr Duration kClockJump = Duration{24} * 3600 * kNanosecondsPerSecond;
 
+/// Of all, for people.
+std::string name_of(const std::vector<std::string>& bags) {
+  std::string all;
+  for (const std::string& bag : bags) all += (all.empty() ? "" : " ") + bag;
+  return all;
+}
+
 class Replay {
  public:
   Replay(const ObserverConfig& config, const ReplayOptions& options, RunRecord* record)
       : config_(config),
         options_(options),
         runtime_(config),
+        bags_(options.bags),
         transforms_(std::make_shared<TransformBuffer>(config.static_transforms)) {
-    open_for_reading(bag_, options.bag);
-    channels_ = bind_channels(config, bag_, transforms_, options.may_lack_input);
-    if (has_frames(config)) transform_topics_ = transform_topics();
+    channels_ = bind_channels(config, bags_, transforms_, options.may_lack_input);
+    if (has_frames(config)) transform_topics_ = {bags_.name_of("/tf"), bags_.name_of("/tf_static")};
     for (const BagChannel& bound : channels_) {
       intakes_.emplace_back(
           bound.channel, bound.source,
@@ -48,7 +55,7 @@ class Replay {
                  const std::string& missing) { handle(channel, event, reading, missing); });
     }
     if (!options.truth_topic.empty()) {
-      truth_ = truth_from_topic(config, bag_, options.truth_topic, options.truth_fields);
+      truth_ = truth_from_topic(config, bags_, options.truth_topic, options.truth_fields);
     } else if (options.thinning) {
       truth_ = truth_from_samples(config, channels_, transforms_);
     }
@@ -74,8 +81,8 @@ class Replay {
     std::set<std::string> topics(transform_topics_.begin(), transform_topics_.end());
     if (!truth_.topic.empty()) topics.insert(truth_.topic);
     for (const BagChannel& bound : channels_) topics.insert(bound.topic);
-    rosbag::View view(bag_,
-                      rosbag::TopicQuery(std::vector<std::string>(topics.begin(), topics.end())));
+    rosbag::View view;
+    bags_.look_through(view, {topics.begin(), topics.end()});
     require_truth_in_range();
     thin_samples(view);
     {
@@ -87,7 +94,8 @@ class Replay {
     }
     // The clock of a live run would go on to the end of the bag, and estimates wait for their
     // delay.
-    rosbag::View all(bag_);
+    rosbag::View all;
+    bags_.look_through(all);
     const Stamp end = to_stamp(all.getEndTime());
     if (clock_) publish_due(end + std::max(config_.publish_delay, settling_time()));
     if (clock_) compare_waiting(*clock_);
@@ -95,7 +103,7 @@ class Replay {
     if (output_) output_->finish();
 
     ReplaySummary summary = recorder_->summary();
-    summary.bag = options_.bag;
+    summary.bag = name_of(options_.bags);
     summary.observer = config_.type;
     summary.bag_seconds = view.size() > 0 ? (view.getEndTime() - view.getBeginTime()).toSec() : 0.0;
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
@@ -117,13 +125,14 @@ class Replay {
   /// Else a long run would end with nothing compared.
   void require_truth_in_range() {
     if (truth_.topic.empty()) return;
-    rosbag::View view(bag_, rosbag::TopicQuery(truth_.topic));
+    rosbag::View view;
+    bags_.look_through(view, {truth_.topic});
     const double length = (view.getEndTime() - view.getBeginTime()).toSec();
     if (options_.from <= length) return;
     std::ostringstream text;
     text << "--from " << options_.from << ": expected at most " << length
-         << " s, since that is when the truth on " << truth_.topic << " in " << options_.bag
-         << " ends";
+         << " s, since that is when the truth on " << truth_.topic << " in "
+         << name_of(options_.bags) << " ends";
     throw ReplayError(text.str());
   }
 
@@ -134,7 +143,7 @@ class Replay {
     std::vector<std::vector<Stamp>> stamps(channels_.size());
     // Sources remember what they read; those of the replay proper have read nothing yet.
     std::vector<BagChannel> channels =
-        bind_channels(config_, bag_, transforms_, options_.may_lack_input);
+        bind_channels(config_, bags_, transforms_, options_.may_lack_input);
     Event event;
     for (const rosbag::MessageInstance& instance : view) {
       for (std::size_t i = 0; i < channels_.size(); ++i) {
@@ -176,7 +185,9 @@ class Replay {
     const Stamp now = to_stamp(instance.getTime());
     publish_due(now);
     bool received = is_transform(instance.getTopic());
-    if (received) take_transforms(instance, *transforms_);
+    if (received) {
+      take_transforms(instance, instance.getTopic() == transform_topics_.back(), *transforms_);
+    }
     for (EventIntake& intake : intakes_) intake.retry(now);
     for (std::size_t i = 0; i < channels_.size(); ++i) {
       if (channels_[i].topic != instance.getTopic()) continue;
@@ -359,7 +370,7 @@ class Replay {
   const ObserverConfig& config_;
   const ReplayOptions& options_;
   ObserverRuntime runtime_;
-  rosbag::Bag bag_;
+  const BagSet bags_;
   std::optional<BagWriter> output_;
   std::shared_ptr<TransformBuffer> transforms_;
   std::vector<std::string> transform_topics_;
@@ -387,7 +398,7 @@ class Replay {
 ReplaySummary replay(const ObserverConfig& config, const ReplayOptions& options,
                      RunRecord* record) {
   ReplaySummary summary;
-  name_in_faults(options.bag, [&] { summary = Replay(config, options, record).run(); });
+  name_in_faults(name_of(options.bags), [&] { summary = Replay(config, options, record).run(); });
   return summary;
 }
 

@@ -15,7 +15,8 @@ namespace sampled_data_observers {
 struct RunRecord;
 
 struct ReplayOptions {
-  std::string bag;
+  /// Bags to read, as one: their messages in the order of their times.
+  std::vector<std::string> bags;
   /// Bag to write: the estimates and event statuses, and the messages that the observer received.
   /// Empty: none.
   std::string output;
@@ -39,8 +40,8 @@ struct ReplayOptions {
   bool may_lack_input = false;
 };
 
-/// Runs the observer over a bag: its messages in the order and at the times in which the bag
-/// received them, without waiting.
+/// Runs the observer over bags: their messages in the order and at the times in which they were
+/// received, without waiting.
 /// @param record  where not null, all that a report shows of the run is written there
 /// @throws ReplayError, ConfigError, OutputError
 ReplaySummary replay(const ObserverConfig& config, const ReplayOptions& options,

@@ -18,11 +18,12 @@ SimulationSummary record_simulation(const Scenario& scenario, const std::string&
     topics.push_back(ros::names::resolve(channel.topic));
     summary.messages[topics.back()] = 0;
   }
+  const SimulatedMessages messages(simulator.channels());
   BagWriter bag(path);
   ProgressBar progress("simulate", static_cast<std::size_t>(scenario.duration));
   while (const std::optional<SimulatedMessage> simulated = simulator.next()) {
     const std::string& topic = topics[simulated->channel];
-    visit_message(simulator.channels()[simulated->channel], *simulated, [&](const auto& message) {
+    messages.visit(*simulated, [&](const auto& message) {
       bag.write(topic, to_ros_time(simulated->arrival), message);
     });
     ++summary.messages[topic];

@@ -94,17 +94,15 @@ Truth truth_from_fields(const Plant& plant, const std::string& type,
 
 }  // namespace
 
-Truth truth_from_topic(const ObserverConfig& config, const rosbag::Bag& bag,
-                       const std::string& topic, const std::map<std::string, std::string>& fields) {
-  const std::string name = ros::names::resolve(topic);
-  std::string type;
-  for (const auto& [bag_topic, datatype] : bag_topics(bag)) {
-    if (bag_topic == name) type = datatype;
-  }
-  if (type.empty()) throw ReplayError("--truth: the bag has no topic " + name);
+Truth truth_from_topic(const ObserverConfig& config, const BagSet& bags, const std::string& topic,
+                       const std::map<std::string, std::string>& fields) {
+  const std::string name = bags.name_of(topic);
+  const auto found = bags.topics().find(name);
+  if (found == bags.topics().end()) throw ReplayError("--truth: the bag has no topic " + name);
+  const std::string& type = found->second;
   Truth truth = type == "sampled_data_observers/StateEstimate"
                     ? truth_from_states(*config.plant, fields)
-                    : truth_from_fields(*config.plant, type, fields, definition_in(bag, name));
+                    : truth_from_fields(*config.plant, type, fields, bags.definition_of(name));
   truth.topic = name;
   return truth;
 }

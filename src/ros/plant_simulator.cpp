@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "messages/plant_plugins.h"
-#include "messages/simulated_messages.h"
 #include "ros/parameter_tree.h"
 #include "sampled_data_observers/config/config_section.h"
 #include "sampled_data_observers/ros/node_log.h"
@@ -51,6 +50,7 @@ void PlantSimulatorNodelet::onInit() {
       NodeLog(getName()).warn("%s", warning.c_str());
     }
     simulator_ = std::make_unique<Simulator>(scenario);
+    messages_ = std::make_unique<const SimulatedMessages>(simulator_->channels());
     start();
   } catch (const std::exception& error) {
     NodeLog(getName()).fatal("not started: %s", error.what());
@@ -89,10 +89,8 @@ PlantSimulatorNodelet::Options PlantSimulatorNodelet::read_options(ConfigNode& t
 
 void PlantSimulatorNodelet::start() {
   ros::NodeHandle& handle = getNodeHandle();
-  for (const SimulatedChannel& channel : simulator_->channels()) {
-    publishers_.push_back(visit_simulated_type(channel, [&](auto tag) {
-      return handle.advertise<typename decltype(tag)::type>(channel.topic, kPublisherQueue);
-    }));
+  for (std::size_t i = 0; i < simulator_->channels().size(); ++i) {
+    publishers_.push_back(messages_->advertise(i, handle, kPublisherQueue));
   }
   if (options_.clock_speed > 0.0) {
     clock_publisher_ = handle.advertise<rosgraph_msgs::Clock>("/clock", 1);
@@ -227,8 +225,7 @@ void PlantSimulatorNodelet::publish(SimulatedMessage message) {
   message.stamp += offset_;
   message.arrival += offset_;
   last_arrival_ = message.arrival;
-  const SimulatedChannel& channel = simulator_->channels()[message.channel];
-  visit_message(channel, message, [&](const auto& filled) {
+  messages_->visit(message, [&](const auto& filled) {
     using M = std::decay_t<decltype(filled)>;
     publishers_[message.channel].publish(boost::make_shared<M>(filled));
   });

@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "messages/simulated_messages.h"
 #include "sampled_data_observers/config/config_node.h"
 #include "simulation/simulator.h"
 
@@ -52,6 +53,7 @@ class PlantSimulatorNodelet : public nodelet::Nodelet {
 
   Options options_;
   std::unique_ptr<Simulator> simulator_;
+  std::unique_ptr<const SimulatedMessages> messages_;
   std::vector<ros::Publisher> publishers_;
   ros::Publisher clock_publisher_;
   /// From the scenario's stamps to those of this run.

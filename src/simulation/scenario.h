@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "sampled_data_observers/config/topic_config.h"
 #include "sampled_data_observers/hybrid/time.h"
 #include "sampled_data_observers/plant/plant.h"
 #include "sampled_data_observers/plant/vector_map.h"
@@ -32,8 +33,8 @@ struct Noise {
 
 /// A sensor of the plant in a scenario.
 struct SensorScenario {
-  /// Topic of its measurements; empty where the jump events carry them.
-  std::string topic;
+  /// Where observers read its measurements; empty where the jump events carry them.
+  std::optional<TopicSource> source;
   /// Empty for a sensor that measures at jumps.
   std::optional<Schedule> schedule;
   Noise noise;
@@ -55,7 +56,7 @@ struct SignalScenario {
 /// The known input: evaluated at a fixed rate and held in between, for plant and observer alike.
 struct InputScenario {
   /// One per channel of the plant's inputs.
-  std::vector<std::string> topics;
+  std::vector<TopicSource> sources;
   Duration period = 0;
   /// Of (t, x): p entries.
   std::shared_ptr<const VectorMap> formulas;
@@ -107,7 +108,7 @@ struct Scenario {
   /// One per sensor of the plant.
   std::vector<SensorScenario> sensors;
   std::vector<SignalScenario> signals;
-  std::string jumps_topic;
+  TopicSource jumps_source;
   /// Empty: the plant does not jump.
   std::optional<JumpScenario> jumps;
   /// What a person should know before it runs.

@@ -1,6 +1,7 @@
 #include "simulation/scenario_config.h"
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include "config/expression_config.h"
@@ -18,14 +19,6 @@ constexpr double kLatestStart = 4e9;  // s: ros::Time ends at 2^32 s
 constexpr std::size_t kLargestSeed = std::size_t{1} << 53;
 
 const char kTimeName[] = "t";
-
-/// The topic of a source of the package's own type.
-std::string simulated_topic(const TopicSource& source, const std::string& type) {
-  const std::string own = "sampled_data_observers/" + type;
-  if (source.type == own) return source.topic;
-  throw ConfigError(source.origin, source.path + "/type", own + " (no other type can be simulated)",
-                    "'" + source.type + "'");
-}
 
 /// What only an observer reads from the same tree.
 const char* const kObserverKeys[] = {"observer",
@@ -126,11 +119,33 @@ class ScenarioReader {
     return names;
   }
 
+  /// A source whose messages can be simulated.
+  TopicSource simulated(const TopicSource& source) {
+    if (source.detector) {
+      throw ConfigError(source.origin, source.path,
+                        "a topic of jumps (no messages are simulated "
+                        "that a detector finds them in; see scenario/signals)",
+                        "a detector");
+    }
+    if (!source.frames.body_frame.empty()) {
+      throw ConfigError(source.origin, source.path + "/body_frame",
+                        "none (no transforms are simulated)", "'" + source.frames.body_frame + "'");
+    }
+    const auto [other, is_alone] = topics_.emplace(source.topic, source.is_of_own_type());
+    if (!is_alone && !(other->second && source.is_of_own_type())) {
+      throw ConfigError(source.origin, source.path + "/topic",
+                        "a topic of its own: a message is simulated for each sensor and input, and "
+                        "would hold nothing for the others",
+                        "'" + source.topic + "'");
+    }
+    return source;
+  }
+
   void read_input() {
     ConfigSection section = section_.section("input");
     InputScenario input;
     for (const TopicSource& source : read_input_sources(root_, plant())) {
-      input.topics.push_back(simulated_topic(source, "Input"));
+      input.sources.push_back(simulated(source));
     }
     input.period = from_seconds(1.0 / section.number_in("rate", 1e-3, 1e5, 100.0));
     input.formulas = ExpressionReader(timed_names(section, "formulas", true))
@@ -156,7 +171,7 @@ class ScenarioReader {
     for (std::size_t i = 0; i < sources.size(); ++i) {
       const Sensor& sensor = plant().sensors()[i];
       SensorScenario scenario;
-      if (sources[i]) scenario.topic = simulated_topic(*sources[i], "Measurement");
+      if (sources[i]) scenario.source = simulated(*sources[i]);
       const bool at_jumps = sensor.timing == SensorTiming::kAtJumps;
       ConfigSection section =
           at_jumps ? sensors.section_or_empty(sensor.name) : sensors.section(sensor.name);
@@ -237,7 +252,7 @@ class ScenarioReader {
       return;
     }
     ConfigSection topic = root_.section_or_empty("jumps");
-    scenario_.jumps_topic = simulated_topic(read_jump_source(root_, topic, plant()), "JumpEvent");
+    scenario_.jumps_source = simulated(read_jump_source(root_, topic, plant()));
     // Of an observer.
     for (const char* key :
          {"late", "min_separation", "max_per_second", "stamp_error", "gate", "missing", "rest",
@@ -333,6 +348,8 @@ class ScenarioReader {
 
   ConfigSection& root_;
   Scenario scenario_;
+  /// Of sensors, inputs and jumps, and whether the package's own types are on them.
+  std::map<std::string, bool> topics_;
   ExpressionNames names_;
   ConfigSection section_;
 };

@@ -17,14 +17,14 @@ Simulator::Simulator(Scenario scenario)
   for (std::size_t i = 0; i < scenario_.sensors.size(); ++i) add_sensor(i);
   for (const SignalScenario& signal : scenario_.signals) add_signal(signal);
   if (scenario_.input) {
-    for (const std::string& topic : scenario_.input->topics) {
+    for (const TopicSource& source : scenario_.input->sources) {
       const std::size_t input_channel = input_channels_.size();
-      input_channels_.push_back(add_channel(Kind::kInput, topic));
+      input_channels_.push_back(add_channel(Kind::kInput, source));
       channels_.back().input_channel = input_channel;
     }
   }
   if (scenario_.jumps) {
-    jump_channel_ = add_channel(Kind::kJump, scenario_.jumps_topic);
+    jump_channel_ = add_channel(Kind::kJump, scenario_.jumps_source);
     if (scenario_.jumps->schedule) {
       jump_times_.emplace(*scenario_.jumps->schedule, stream("jumps/schedule"));
       next_jump_ = jump_times_->next();
@@ -39,6 +39,12 @@ std::size_t Simulator::add_channel(SimulatedChannel::Kind kind, const std::strin
   return channels_.size() - 1;
 }
 
+std::size_t Simulator::add_channel(SimulatedChannel::Kind kind, const TopicSource& source) {
+  const std::size_t channel = add_channel(kind, source.topic);
+  channels_[channel].source = source;
+  return channel;
+}
+
 void Simulator::add_sensor(std::size_t sensor) {
   const SensorScenario& scenario = scenario_.sensors[sensor];
   const std::string name = "sensors/" + scenario_.plant->sensors()[sensor].name;
@@ -51,10 +57,10 @@ void Simulator::add_sensor(std::size_t sensor) {
                      stream(name + "/noise"),
                      DeliveryLine(scenario.delivery, stream(name + "/delivery")),
                      stream(name + "/false_noise")};
-  if (scenario.topic.empty()) {
-    values_in_jumps_ = true;
+  if (scenario.source) {
+    added.channel = add_channel(SimulatedChannel::Kind::kMeasurement, *scenario.source);
   } else {
-    added.channel = add_channel(SimulatedChannel::Kind::kMeasurement, scenario.topic);
+    values_in_jumps_ = true;
   }
   if (scenario.schedule) {
     added.times.emplace(*scenario.schedule, stream(name + "/schedule"));

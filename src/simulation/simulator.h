@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "sampled_data_observers/config/topic_config.h"
 #include "simulation/jump_detection.h"
 #include "simulation/scenario.h"
 #include "simulation/simulated_plant.h"
@@ -24,6 +25,8 @@ struct SimulatedChannel {
   std::vector<std::string> names;
   /// Of inputs: which of the plant's channels it is.
   std::size_t input_channel = 0;
+  /// How observers read its messages; nothing for signals and the truth.
+  std::optional<TopicSource> source = {};
 };
 
 /// A message that a robot's sensors would send.
@@ -111,6 +114,7 @@ class Simulator {
 
   RandomNumbers stream(const std::string& name) const { return {scenario_.seed, name}; }
   std::size_t add_channel(SimulatedChannel::Kind kind, const std::string& topic);
+  std::size_t add_channel(SimulatedChannel::Kind kind, const TopicSource& source);
   void add_sensor(std::size_t sensor);
   void add_signal(const SignalScenario& signal);
   Duration next_time() const;

@@ -3,6 +3,7 @@
 
 #include <ros/init.h>
 
+#include <algorithm>
 #include <array>
 #include <iostream>
 #include <map>
@@ -32,7 +33,8 @@ constexpr int kDiverged = 3;
 
 struct Arguments {
   sdo::ReplayOptions options;
-  std::vector<std::string> config;
+  std::string bag;
+  std::vector<std::string> config;  // and further bags
   std::vector<std::string> assignments;
   std::optional<std::array<double, 2>> thin;  // [s]
   bool thin_to_sampling = false;
@@ -73,6 +75,20 @@ std::optional<sdo::ReplayOptions::Thinning> thinning_of(const Arguments& argumen
       sdo::SamplingBounds{sdo::from_seconds(T1), sdo::from_seconds(T2)}, seed};
 }
 
+/// Takes further bags, which are called .bag, out of the configuration files.
+void separate_bags(Arguments& arguments) {
+  const auto is_config = [](const std::string& file) {
+    const std::string suffix = ".bag";
+    return file.size() < suffix.size() ||
+           file.compare(file.size() - suffix.size(), suffix.size(), suffix) != 0;
+  };
+  std::vector<std::string>& files = arguments.config;
+  const auto bags = std::stable_partition(files.begin(), files.end(), is_config);
+  arguments.options.bags = {arguments.bag};
+  arguments.options.bags.insert(arguments.options.bags.end(), bags, files.end());
+  files.erase(bags, files.end());
+}
+
 /// What all arguments together ask for.
 /// @throws UsageError where they contradict each other
 sdo::ReplayOptions options_of(const Arguments& arguments) {
@@ -97,7 +113,7 @@ sdo::ReplayOptions options_of(const Arguments& arguments) {
   }
   std::vector<sdo::GivenFile> inputs = sdo::given_files("CONFIG", arguments.config);
   for (const std::string& path : arguments.beside) inputs.push_back({"--beside", path});
-  inputs.push_back({"BAG", options.bag});
+  for (const std::string& bag : options.bags) inputs.push_back({"BAG", bag});
   sdo::refuse_overwriting(inputs, {{"--output", options.output},
                                    {"--json", arguments.json},
                                    {"--plot", arguments.plot},
@@ -156,7 +172,7 @@ int replay(const Arguments& arguments) {
 
 void declare(Arguments& arguments, sdo::CommandLine& tool) {
   sdo::ReplayOptions& options = arguments.options;
-  tool.argument("BAG", options.bag, "Bag to read");
+  tool.argument("BAG", arguments.bag, "Bag to read; more bags may follow, all as one");
   tool.argument("CONFIG...", arguments.config,
                 "Configuration files; a key may stand in one of them only");
   tool.option("-o, --output BAG", options.output,
@@ -208,7 +224,10 @@ int run(int argc, char** argv) {
       "guaranteed error bound, 3 the estimate diverged, else wrong usage.");
   Arguments arguments;
   declare(arguments, tool);
-  tool.action([&arguments] { return replay(arguments); });
+  tool.action([&arguments] {
+    separate_bags(arguments);
+    return replay(arguments);
+  });
   return tool.run(argc, argv);
 }
 

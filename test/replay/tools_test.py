@@ -7,8 +7,12 @@ import subprocess
 import sys
 import unittest
 
+import genpy.dynamic
+import rosbag
+
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "support"))
 from folder_test import FolderTest  # noqa: E402
+import recordings  # noqa: E402
 
 TOOLS = {}
 WRONG_USAGE = range(100, 128)
@@ -103,6 +107,22 @@ rate: 50
 gains: {L: {gps: [[0.5], [0.1]], wheel: [[0], [0.5]]}}
 """
 
+WHEELS = """
+observer: ConstantGainObserver
+plant: {states: [x], A: [[0]]}
+sensors: {s: {C: [[1]], source: {topic: TOPIC, type: my_msgs/Wheel, fields: [places.1]}}}
+sampling: {T1: 0.5, T2: 2}
+gains: {L: [[1]]}
+"""
+CRAZYFLIE = """
+observer: ConstantGainObserver
+plant: {states: [x, y, front], A: [[0, 0, 0], [0, 0, 0], [0, 0, 0]]}
+sensors:
+  ranges: {C: [[0, 0, 1]], source: {topic: array_recording, type: crazyflie_demo/crazyflie_sensors, fields: [front], stamp: receipt}}
+  stabilizer: {C: [[1, 0, 0], [0, 1, 0]], source: {topic: cf1/log_pos, type: crazyflie_driver/GenericLogData, fields: [values.0, values.1]}}
+sampling: {T1: 0, T2: .inf}
+gains: {L: {ranges: [[0], [0], [1]], stabilizer: [[1, 0], [0, 1], [0, 0]]}}
+"""
 
 # Two sensors, each sampled at times of its own; what they measure comes late, in another order.
 FUSED = """
@@ -246,6 +266,88 @@ class ToolsTest(FolderTest):
         self.succeed("replay", *self.replay("--json", self.path("summary.json")))
         with open(self.path("summary.json")) as summary:
             return json.load(summary)
+
+    def replayed(self, bags, *configuration, status=0):
+        json_file = self.path("summary.json")
+        self.fault("replay", *bags, *configuration, "--json", json_file, status=status)
+        with open(json_file) as file:
+            return json.load(file)
+
+    def test_one_file_serves_simulation_and_robot(self):
+        # The same cart by messages of other packages' types, and of the package's own.
+        self.simulate()
+        own = self.replayed([self.path("run.bag")], self.scenario, self.observer)
+        for number, (source, topic) in enumerate([
+                ("{topic: pose, type: geometry_msgs/PoseStamped, fields: [pose.position.x]}",
+                 "{topic: push, type: geometry_msgs/WrenchStamped, fields: [wrench.force.z]}"),
+                ("{topic: odometry, type: nav_msgs/Odometry, fields: [pose.pose.position.y], frame: map}",
+                 "{topic: joints, type: sensor_msgs/JointState, fields: [effort.motor]}")]):
+            scenario = self.write("standard.yaml", SCENARIO.replace("{topic: position}", source).replace(
+                "{topic: input}", topic))
+            bag = self.path("standard%d.bag" % number)
+            self.succeed("simulate", scenario, "-o", bag)
+            self.assertEqual(own["final_state"],
+                             self.replayed([bag], scenario, self.observer)["final_state"])
+
+    def wheel_type(self, definition):
+        types = genpy.dynamic.generate_dynamic("my_msgs/Wheel", definition)
+        return types["my_msgs/Wheel"]
+
+    def write_wheels(self, name, stamps, wheel, topic):
+        with rosbag.Bag(self.path(name), "w") as bag:
+            for stamp in stamps:
+                message = wheel()
+                message.stamped.stamp = genpy.Time.from_sec(stamp)
+                message.rims = ["steel"]
+                message.places = [0.0, 10.0 * stamp]
+                bag.write(topic, message, message.stamped.stamp)
+        return self.path(name)
+
+    def test_types_that_nobody_installed_are_read_from_bags(self):
+        wheel = self.wheel_type("string[] rims\nfloat32[] places\nHeader stamped\n" + "=" * 80 +
+                                "\nMSG: std_msgs/Header\nuint32 seq\ntime stamp\nstring frame_id\n")
+        configuration = WHEELS.replace("TOPIC", "S-PTAM/wheel")
+        self.write_wheels("all.bag", [1, 2, 3, 4, 5, 6], wheel, "S-PTAM/wheel")
+        observer = self.write("wheel.yaml", configuration)
+        whole = self.replayed([self.path("all.bag")], observer)
+        self.assertEqual(whole["samples_used"], 6)
+        self.assertEqual(whole["final_state"], {"x": 50.0})
+        # The same in two bags, in whatever order they are given.
+        first = self.write_wheels("first.bag", [1, 2, 3], wheel, "S-PTAM/wheel")
+        second = self.write_wheels("second.bag", [4, 5, 6], wheel, "S-PTAM/wheel")
+        for bags in ([first, second], [second, first]):
+            halves = self.replayed([bags[0]], observer, bags[1])
+            self.assertEqual(halves["samples_used"], 6)
+            self.assertEqual(halves["final_state"], {"x": 50.0})
+        # A name that ROS knows, with a slash or without.
+        for given, recorded in (("/groundtruth", "groundtruth"), ("groundtruth", "groundtruth"),
+                                ("groundtruth", "/groundtruth")):
+            self.write_wheels("all.bag", [1, 2], wheel, recorded)
+            observer = self.write("wheel.yaml", WHEELS.replace("TOPIC", given))
+            self.assertEqual(self.replayed([self.path("all.bag")], observer)["samples_used"], 2)
+        text = self.fault("replay", self.path("all.bag"),
+                          self.write("wheel.yaml", WHEELS.replace("TOPIC", "groundtruth").replace(
+                              "places.1", "place")))
+        self.assertIn("places.INDEX, stamped.seq, found 'place'", text)
+
+    def test_of_several_definitions_the_first_is_read(self):
+        header = "=" * 80 + "\nMSG: std_msgs/Header\nuint32 seq\ntime stamp\nstring frame_id\n"
+        wheel = self.wheel_type("string[] rims\nfloat32[] places\nHeader stamped\n" + header)
+        other = self.wheel_type("string[] rims\nfloat64[] places\nHeader stamped\n" + header)
+        first = self.write_wheels("first.bag", [1, 2, 3], wheel, "/wheel")
+        second = self.write_wheels("second.bag", [4, 5], other, "/wheel")
+        observer = self.write("wheel.yaml", WHEELS.replace("TOPIC", "wheel"))
+        summary = self.replayed([first], observer, second)
+        self.assertEqual((summary["samples_used"], summary["samples_rejected"]), (3, 2))
+
+    def test_a_robots_own_types_are_read_from_its_recording(self):
+        bag = recordings.find("crazyflie_crash.bag")
+        if bag is None:
+            self.skipTest("crazyflie_crash.bag is not there")
+        observer = self.write("crazyflie.yaml", CRAZYFLIE)
+        summary = self.replayed([bag], observer)
+        self.assertGreater(summary["samples_used"], 300)
+        self.assertEqual(summary["samples_rejected"], 0)
 
     def test_a_bag_without_jumps_will_do_and_the_summary_says_so(self):
         self.scenario = self.write("jumping.yaml", JUMPING)

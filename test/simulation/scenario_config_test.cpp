@@ -71,7 +71,8 @@ TEST(ScenarioConfigTest, ReadsEveryKey) {
   EXPECT_EQ("real", scenario.truth_topic);
   EXPECT_EQ(20000000, scenario.truth_period);
   ASSERT_TRUE(scenario.input);
-  EXPECT_EQ(std::vector<std::string>{"force"}, scenario.input->topics);
+  ASSERT_EQ(1u, scenario.input->sources.size());
+  EXPECT_EQ("force", scenario.input->sources[0].topic);
   EXPECT_EQ(100000000, scenario.input->period);
   const double arguments[] = {0.0, 2.0, 0.0};  // t, p, v
   double u = 0.0;
@@ -80,13 +81,14 @@ TEST(ScenarioConfigTest, ReadsEveryKey) {
   ASSERT_TRUE(scenario.disturbance);
   EXPECT_EQ(1.0, scenario.disturbance->N(1, 0));
   ASSERT_EQ(3u, scenario.sensors.size());
-  EXPECT_EQ("", scenario.sensors[0].topic);
+  EXPECT_FALSE(scenario.sensors[0].source);
   EXPECT_FALSE(scenario.sensors[0].schedule);
   EXPECT_EQ(Noise::Kind::kGaussian, scenario.sensors[0].noise.kind);
   EXPECT_EQ(Schedule::Kind::kPeriodic, scenario.sensors[1].schedule->kind);
   EXPECT_EQ(Noise::Kind::kFormulas, scenario.sensors[1].noise.kind);
   const SensorScenario& wheel = scenario.sensors[2];
-  EXPECT_EQ("wheel", wheel.topic);
+  ASSERT_TRUE(wheel.source);
+  EXPECT_EQ("wheel", wheel.source->topic);
   EXPECT_EQ(100000000, wheel.schedule->T1);
   EXPECT_EQ(200000000, wheel.schedule->T2);
   EXPECT_EQ(0.1, wheel.noise.size);
@@ -96,7 +98,7 @@ TEST(ScenarioConfigTest, ReadsEveryKey) {
   EXPECT_EQ(0.2, wheel.delivery.duplication);
   EXPECT_EQ(0.3, wheel.delivery.reordering);
   ASSERT_TRUE(scenario.jumps);
-  EXPECT_EQ("bumps", scenario.jumps_topic);
+  EXPECT_EQ("bumps", scenario.jumps_source.topic);
   EXPECT_NE(nullptr, scenario.jumps->guard);
   EXPECT_EQ((std::vector<int>{1, 2}), scenario.jumps->modes);
   EXPECT_EQ(1000000, scenario.jumps->min_separation);
@@ -209,8 +211,11 @@ TEST(ScenarioConfigTest, FaultsAreNamedWithPathExpectedAndFound) {
       {"duplicate: 0.2", "duplicate: 2", {"scenario/jumps/duplicate", "from 0 to 1"}},
       {"false_rate: 0.5", "false_rate: -1", {"scenario/jumps/false_rate", "from 0"}},
       {"source: {topic: wheel}",
-       "source: {topic: w, type: geometry_msgs/PointStamped, fields: [point.x]}",
-       {"sensors/wheel/source/type", "sampled_data_observers/Measurement", "PointStamped"}},
+       "source: {topic: force, type: geometry_msgs/PointStamped, fields: [point.x]}",
+       {"sensors/wheel/source/topic", "a topic of its own", "'force'"}},
+      {"source: {topic: wheel}",
+       "source: {topic: w, type: nav_msgs/Odometry, fields: [twist.twist.linear.x], body_frame: b}",
+       {"sensors/wheel/source/body_frame", "no transforms are simulated", "'b'"}},
       {"gains: {read", "gain: {read", {"gain", "unknown key 'gain'"}},
       {"  seed: 7", "  sed: 7", {"scenario/sed", "unknown key 'sed'"}},
   };

@@ -62,6 +62,9 @@ struct TopicSource {
   std::string origin;
   /// Where in these: keys joined by '/'.
   std::string path;
+
+  /// Whether its messages are Measurement, Input or JumpEvent, which carry values in order.
+  bool is_of_own_type() const;
 };
 
 /// Reads the source of each sensor, below `sensors`; nothing for a sensor that measures at jumps

@@ -89,8 +89,9 @@ class MessageSource {
 /// @param source      topic, type and fields
 /// @param transforms  where a source with frames finds what it needs; else it may be null
 /// @param definition  of its type, as a bag has it; null: the one that is installed
-/// @throws ConfigError for a message type, field or stamp that does not exist; it lists those that
-/// do, or says what to install. The same for frames of a type that has none.
+/// @throws ConfigError for a topic that is no name of ROS (bags may have others), and a message
+/// type, field or stamp that does not exist; it lists those that do, or says what to install. The
+/// same for frames of a type that has none.
 std::unique_ptr<MessageSource> make_message_source(
     const TopicSource& source, std::shared_ptr<const TransformBuffer> transforms = nullptr,
     std::shared_ptr<const MessageDefinition> definition = nullptr);

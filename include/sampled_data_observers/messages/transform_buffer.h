@@ -36,7 +36,8 @@ class TransformBuffer {
   void take(const tf2_msgs::TFMessage& message, bool is_static, Stamp now);
 
   /// The pose of frame `source` in frame `target` at a stamp; nothing where it is not known (yet).
-  /// Transforms between two stamps are interpolated, and never extrapolated.
+  /// Transforms between two stamps are interpolated, and never extrapolated; that of a frame in
+  /// itself is always known.
   /// @pre stamp > 0
   std::optional<Eigen::Isometry3d> find(const std::string& target, const std::string& source,
                                         Stamp stamp) const;

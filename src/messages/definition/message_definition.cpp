@@ -135,9 +135,9 @@ std::vector<std::string> types_within(const std::string& package, const std::str
   return types;
 }
 
-MessageDefinition::MessageDefinition(std::string type, const std::string& text)
-    : type_(std::move(type)) {
-  std::istringstream lines(text);
+MessageDefinition::MessageDefinition(std::string type, std::string text)
+    : type_(std::move(type)), text_(std::move(text)) {
+  std::istringstream lines(text_);
   std::string name = type_;
   std::string one;
   for (std::string line; std::getline(lines, line);) {

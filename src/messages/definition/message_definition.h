@@ -57,9 +57,12 @@ class MessageDefinition {
   /// @param text  its definition, and behind lines of '=' those of the types within, each below a
   ///   line "MSG: package/Type": as bags and publishers give it
   /// @throws DefinitionError for a text that is no definition, or leaves out a type.
-  MessageDefinition(std::string type, const std::string& text);
+  MessageDefinition(std::string type, std::string text);
 
   const std::string& type() const { return type_; }
+
+  /// As it was given.
+  const std::string& text() const { return text_; }
 
   /// The sum by which ROS tells definitions of one type apart.
   const std::string& md5sum() const { return md5sums_.at(type_); }
@@ -87,6 +90,7 @@ class MessageDefinition {
   std::optional<std::size_t> size_of_members(const Type& type) const;
 
   std::string type_;
+  std::string text_;
   std::map<std::string, Type> types_;
   std::map<std::string, std::string> md5sums_;
   std::map<std::string, std::optional<std::size_t>> sizes_;
