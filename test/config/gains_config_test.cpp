@@ -61,9 +61,10 @@ INSTANTIATE_TEST_SUITE_P(
         BadGains{kKalman, {"s: [[0.3]]", "s: [[0]]", {"gains", "R of sensor 's'"}}},
         BadGains{kKalman, {", s: [[0.3]]", "", {"gains/R/s", "missing"}}},
         BadGains{kKalman, {"Q: [[0, 0], [0, 0.5]]", "Q: [[0, 0], [0, -1]]", {"gains", "Q"}}},
-        BadGains{
-            kKalman,
-            {"Q: [[0, 0], [0, 0.5]]", "Q: {diagonal: [1]}", {"gains/Q/diagonal", "2 numbers"}}},
+        BadGains{kKalman,
+                 {"Q: [[0, 0], [0, 0.5]]",
+                  "Q: {diagonal: [1]}",
+                  {"gains/Q/diagonal", "2 finite numbers"}}},
         BadGains{kKalman,
                  {"Q: [[0, 0], [0, 0.5]]", "Q: {diag: [0, 0.5]}", {"gains/Q/diagonal", "missing"}}},
         BadGains{"hybrid_kalman_filter_formulas",
