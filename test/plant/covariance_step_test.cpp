@@ -28,7 +28,7 @@ Eigen::Matrix3d after_steps(double h, int steps, const Eigen::Matrix3d& F,
 
 Eigen::Matrix3d exactly(double seconds, const Eigen::Matrix3d& F, const Eigen::Matrix3d& Q) {
   Eigen::Matrix3d P = Eigen::Vector3d(2.0, 1.0, 0.5).asDiagonal();
-  std::vector<double> scratch(9);
+  std::vector<double> scratch(static_cast<std::size_t>(CovarianceFlow::scratch_size(3)));
   CovarianceFlow(F, Q).apply(from_seconds(seconds), P.data(), scratch.data());
   return P;
 }
