@@ -48,8 +48,7 @@ double largest_step(const Eigen::MatrixXd& L, const Eigen::MatrixXd& step) {
     const double eigenvalue = step(0, 0) / (L(0, 0) * L(0, 0));
     return eigenvalue < -1.0 / kLongStep ? -1.0 / eigenvalue : kLongStep;
   }
-  Eigen::MatrixXd relative = step;
-  L.triangularView<Eigen::Lower>().solveInPlace(relative);
+  Eigen::MatrixXd relative = L.triangularView<Eigen::Lower>().solve(step);
   L.triangularView<Eigen::Lower>().transpose().solveInPlace<Eigen::OnTheRight>(relative);
   if (!relative.allFinite()) return 0.0;
   const Eigen::Tridiagonalization<Eigen::MatrixXd> similar(relative);

@@ -100,7 +100,7 @@ DesignEstimate LmiDesignMethod::estimate_by_program(const CertificateSubject& su
 
 DesignCandidate LmiDesignMethod::attempt(const CertificateSubject& subject,
                                          const Parameters& parameters, Objective objective) const {
-  const DesignCandidate solved = solve(subject, parameters, objective);
+  DesignCandidate solved = solve(subject, parameters, objective);
   if (solved.values.empty()) return solved;
   DesignCandidate candidate = certified(subject, parameters, objective, solved);
   const auto gamma = solved.values.find("gamma");
