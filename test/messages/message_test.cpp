@@ -215,6 +215,7 @@ gains: {P0: [[3, 1], [1, 2]], R: [[1]]}
   write(runtime, runtime.estimator().make_estimate(), prototype);
   MessagePool<StateEstimate> estimates(prototype, 4);
   EventStatus status;
+  status.innovation.resize(1);  // room, as those of an observer have
   const double y = 1.0;
   const auto receive = [&](Stamp stamp) {
     const Event event{stamp, EventKind::kSample, 0, &y, 1};
