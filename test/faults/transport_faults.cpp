@@ -168,7 +168,7 @@ std::vector<Fault> transport_faults() {
        "guarded",
        "the publisher of the input dies after a wrong one, whose timeout is 0.25 s",
        input_times_out,
-       {},
+       {{EventStatus::USED_LATE, 1}},
        Meanwhile::kFinite},
       {"WrongType",
        "joint",
