@@ -303,7 +303,7 @@ TEST(GuaranteedBoundTest, IsLostWhereAnInputOrJumpIsRejectedButNotWhereASampleIs
 
 TEST(GuaranteedBoundTest, IsLostWhereAnInputIsOlderThanItsTimeout) {
   const ObserverConfig config = read_example("constant_gain_timeouts");
-  BoundedRun run(bounded(config, 0.4));
+  BoundedRun run(bounded(config));
   for (int i = 0; i <= 20; ++i) {
     run.submit(EventKind::kInput, 1.0 + 0.05 * i, {0.1});
     Event wind;
