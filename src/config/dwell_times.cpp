@@ -9,7 +9,7 @@
 namespace sampled_data_observers {
 namespace {
 
-constexpr double kLongestTime = 1e6;  // s
+constexpr double kLongestDwellTime = 1e6;  // s
 
 }  // namespace
 
@@ -17,7 +17,7 @@ std::optional<DwellTimes> read_dwell_times(ConfigSection& jumps) {
   DwellTimes times;
   const bool has_interval = jumps.has("dwell_time");
   if (has_interval) {
-    const Eigen::Vector2d interval = jumps.interval_in("dwell_time", 0.0, kLongestTime);
+    const Eigen::Vector2d interval = jumps.interval_in("dwell_time", 0.0, kLongestDwellTime);
     times.shortest = from_seconds(interval(0));
     if (std::isfinite(interval(1))) times.longest = from_seconds(interval(1));
   }

@@ -122,7 +122,8 @@ void SummaryRecorder::summarize_inputs() {
 
 void SummaryRecorder::summarize_latencies() {
   for (auto& [name, latencies] : latencies_) {
-    const auto middle = latencies.all.begin() + (latencies.all.size() - 1) / 2;
+    const auto middle =
+        latencies.all.begin() + static_cast<std::ptrdiff_t>((latencies.all.size() - 1) / 2);
     std::nth_element(latencies.all.begin(), middle, latencies.all.end());
     summary_.latencies[name] = to_seconds(*middle);
     if (latencies.has_future && *middle < 0) summary_.stamped_ahead.push_back(name);
