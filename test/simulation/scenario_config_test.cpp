@@ -129,6 +129,31 @@ scenario: {duration: 1, initial_state: {x: 0}, sensors: {s: {schedule: {sine: [0
   EXPECT_EQ(0, scenario.sensors[0].delivery.longest);
 }
 
+TEST(ScenarioConfigTest, LeavesAloneWhatOnlyAnObserverReads) {
+  const Scenario scenario = test::parse_scenario(R"yaml(
+plant: {states: [x], A: [[0]]}
+sensors: {s: {C: [[1]], source: {topic: s}}}
+scenario: {duration: 1, initial_state: {x: 0}, sensors: {s: {schedule: {sine: [0.1, 0.2]}}}}
+observer: ConstantGainObserver
+gains: {L: [[1]]}
+initial_estimate: {x: 0}
+rate: 50
+frame_id: odom
+outputs: {pose: {x: x}}
+start: at_first_sample
+static_transforms: []
+publish_on_event: true
+publish_delay: 0.1
+future_tolerance: 0.1
+reset_on_time_jump_back: true
+jump_back_tolerance: 0.1
+history: {duration: 1}
+gains_directory: /tmp
+real_time: {priority: 1}
+)yaml");
+  EXPECT_EQ(kNanosecondsPerSecond, scenario.duration);
+}
+
 TEST(ScenarioConfigTest, FaultsAreNamedWithPathExpectedAndFound) {
   const std::vector<test::Fault> faults = {
       {"  duration: 20\n", "", {"scenario/duration", "a finite number", "missing"}},
