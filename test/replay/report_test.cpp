@@ -7,6 +7,7 @@
 #include "replay/report/packed_array.h"
 #include "replay/report/report_errors.h"
 #include "replay/report/report_page.h"
+#include "replay/report/report_verdict.h"
 #include "support/stamps.h"
 
 namespace sampled_data_observers {
@@ -104,6 +105,48 @@ TEST(ErrorFigures, OfAnErrorThatGrowsOrIsThereFromTheStart) {
   EXPECT_EQ(error_figures(at_each_second(0), {}).largest, std::nullopt);
   // An error that is no number never settles.
   EXPECT_EQ(error_figures(at_each_second(2), {0, kNotANumber}).settling_time, std::nullopt);
+}
+
+std::vector<std::string> warnings_of(const ReplaySummary& summary) {
+  std::vector<std::string> texts;
+  for (const ReportFinding& finding : verdict_of(summary, ErrorFigures(), "")) {
+    if (finding.level == FindingLevel::kWarning) texts.push_back(finding.text);
+  }
+  return texts;
+}
+
+TEST(ReportVerdict, NamesWhatMakesAnEstimateDoubtful) {
+  ReplaySummary summary;
+  summary.estimates = 500;
+  EXPECT_TRUE(warnings_of(summary).empty());
+  summary.input_stale = 176;
+  summary.input_stale_since = 12.5;
+  summary.latencies["gps"] = -3.1;
+  summary.stamped_ahead = {"gps"};
+  EXPECT_THAT(warnings_of(summary),
+              testing::ElementsAre("176 of 500 estimates rest on an input older than its timeout, "
+                                   "from 12.500 s on",
+                                   HasSubstr("Stamps of gps are 3.1")));
+}
+
+TEST(ReportVerdict, ComparesInnovationsWithTheirCovariance) {
+  for (const double nis : {0.1, 1.0, 2.0, 5.0, 200.0}) {
+    ReplaySummary summary;
+    summary.innovations.push_back({"gps", 2, {}});
+    InnovationStatistics& innovations = summary.innovations.front().of;
+    innovations.count = innovations.nis_count = 100;
+    innovations.nis_sum = 100.0 * nis;
+    const std::vector<std::string> found = warnings_of(summary);
+    if (nis > 0.5 && nis < 6.0) {
+      EXPECT_TRUE(found.empty()) << nis;
+    } else {
+      EXPECT_THAT(found, testing::ElementsAre(HasSubstr(nis > 2.0 ? "gps are larger than"
+                                                                  : "gps are smaller than")));
+    }
+    innovations.nis_count = 10;
+    innovations.nis_sum = 10.0 * nis;
+    EXPECT_TRUE(warnings_of(summary).empty()) << "by few";
+  }
 }
 
 TEST(ReportPage, HoldsNoMarkupOfItsData) {

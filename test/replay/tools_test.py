@@ -12,6 +12,7 @@ import rosbag
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "support"))
 from folder_test import FolderTest  # noqa: E402
+from certified_plant import CERTIFIED  # noqa: E402
 import recordings  # noqa: E402
 
 TOOLS = {}
@@ -67,25 +68,6 @@ rate: 50
 sampling: {T1: 0.1, T2: 0.1}
 gains: {L: [[0]]}
 initial_estimate: {x: 3}
-"""
-# The error falls as exp(-t), whatever is measured.
-CERTIFIED = """
-observer: ConstantGainObserver
-plant: {states: [x], A: [[-1]]}
-sensors: {position: {C: [[1]], source: {topic: position}}}
-sampling: {T1: 0.1, T2: 0.1}
-gains: {L: [[0]]}
-certificate:
-  theorem: ferrante2016_theorem1
-  plant: {file: plant.yaml, hash: HASH}
-  T1: 0.1
-  T2: 0.1
-  decay: 0.5
-  P: [[1]]
-scenario:
-  duration: 3
-  initial_state: {x: 1}
-  sensors: {position: {schedule: {period: 0.1}}}
 """
 # Two sensors, each at its own pace: every other time between samples of wheel is too long.
 TWO_SENSORS = """

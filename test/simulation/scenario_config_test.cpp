@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 
 #include "simulation/simulation_support.h"
 #include "support/config_faults.h"
@@ -129,29 +131,38 @@ scenario: {duration: 1, initial_state: {x: 0}, sensors: {s: {schedule: {sine: [0
   EXPECT_EQ(0, scenario.sensors[0].delivery.longest);
 }
 
-TEST(ScenarioConfigTest, LeavesAloneWhatOnlyAnObserverReads) {
-  const Scenario scenario = test::parse_scenario(R"yaml(
+/// All keys at the top of an observer's configuration, as its refusal of another one lists them.
+std::vector<std::string> keys_of_an_observer() {
+  const std::string text = R"yaml(
+observer: ConstantGainObserver
+plant: {states: [x], A: [[0]]}
+sensors: {s: {C: [[1]], source: {topic: s}}}
+sampling: {T1: 0.1, T2: 0.2}
+gains: {L: [[1]]}
+unknown: 1
+)yaml";
+  const std::string refusal = test::fault(text);
+  const std::string before = "one of the keys ";
+  const std::size_t begin = refusal.find(before) + before.size();
+  std::istringstream list(refusal.substr(begin, refusal.find(", found") - begin));
+  std::vector<std::string> keys;
+  for (std::string key; std::getline(list >> std::ws, key, ',');) keys.push_back(key);
+  return keys;
+}
+
+TEST(ScenarioConfigTest, LeavesAloneAllThatOnlyAnObserverReads) {
+  const std::vector<std::string> keys = keys_of_an_observer();
+  EXPECT_LT(20U, keys.size());
+  EXPECT_EQ(1, std::count(keys.begin(), keys.end(), "outputs"));
+  for (const std::string& key : keys) {
+    if (key == "plant" || key == "sensors" || key == "scenario") continue;
+    const std::string text = R"yaml(
 plant: {states: [x], A: [[0]]}
 sensors: {s: {C: [[1]], source: {topic: s}}}
 scenario: {duration: 1, initial_state: {x: 0}, sensors: {s: {schedule: {sine: [0.1, 0.2]}}}}
-observer: ConstantGainObserver
-gains: {L: [[1]]}
-initial_estimate: {x: 0}
-rate: 50
-frame_id: odom
-outputs: {pose: {x: x}}
-start: at_first_sample
-static_transforms: []
-publish_on_event: true
-publish_delay: 0.1
-future_tolerance: 0.1
-reset_on_time_jump_back: true
-jump_back_tolerance: 0.1
-history: {duration: 1}
-gains_directory: /tmp
-real_time: {priority: 1}
-)yaml");
-  EXPECT_EQ(kNanosecondsPerSecond, scenario.duration);
+)yaml";
+    EXPECT_EQ(std::string::npos, fault(text + key + ": {}\n").find("one of the keys")) << key;
+  }
 }
 
 TEST(ScenarioConfigTest, FaultsAreNamedWithPathExpectedAndFound) {

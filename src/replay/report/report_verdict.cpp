@@ -5,10 +5,16 @@
 #include <iomanip>
 #include <sstream>
 
+#include "sampled_data_observers/runtime/diagnosis.h"
 #include "sampled_data_observers/runtime/event_outcome.h"
 
 namespace sampled_data_observers {
 namespace {
+
+/// Normalized squares of innovations are as many as outputs in the mean where the model is right;
+/// the mean of so many is by chance neither this many times that nor such a part of it.
+constexpr double kFarOff = 3.0;
+constexpr std::uint64_t kEnoughInnovations = 30;
 
 /// A text of parts, numbers with four digits.
 template <class... Parts>
@@ -157,6 +163,34 @@ ReportFinding of_events(const ReplaySummary& summary) {
   return {lost > 0 ? FindingLevel::kWarning : FindingLevel::kGood, what};
 }
 
+/// What makes the estimate doubtful although nothing was rejected.
+void add_doubts(const ReplaySummary& summary, std::vector<ReportFinding>& findings) {
+  if (summary.input_stale > 0) {
+    findings.push_back(
+        {FindingLevel::kWarning,
+         sentence(summary.input_stale, " of ", summary.estimates,
+                  " estimates rest on an input older than its timeout, from ", std::fixed,
+                  std::setprecision(3), summary.input_stale_since, " s on")});
+  }
+  for (const InnovationSummary& innovation : summary.innovations) {
+    if (innovation.of.nis_count < kEnoughInnovations) continue;
+    const auto expected = static_cast<double>(innovation.outputs);
+    const double found = innovation.of.nis();
+    if (found <= kFarOff * expected && found >= expected / kFarOff) continue;
+    findings.push_back(
+        {FindingLevel::kWarning,
+         sentence("Innovations of ", innovation.name, " are ",
+                  found > expected ? "larger" : "smaller",
+                  " than the covariance says: their normalized square is ", found,
+                  " in the mean, and ", innovation.outputs, " where the model is right")});
+  }
+  for (const std::string& name : summary.stamped_ahead) {
+    findings.push_back({FindingLevel::kWarning,
+                        "Stamps of " + name + " are " +
+                            describe_stamps_ahead(from_seconds(summary.latencies.at(name)))});
+  }
+}
+
 }  // namespace
 
 std::vector<ReportFinding> verdict_of(const ReplaySummary& summary, const ErrorFigures& norm,
@@ -180,6 +214,7 @@ std::vector<ReportFinding> verdict_of(const ReplaySummary& summary, const ErrorF
   findings.push_back(of_errors(summary, norm));
   if (summary.intervals().count > 0) findings.push_back(of_intervals(summary));
   findings.push_back(of_events(summary));
+  add_doubts(summary, findings);
   return findings;
 }
 

@@ -19,7 +19,8 @@ struct ReportFinding {
 
 /// What a replay shows at a glance, the most important finding first: whether the guaranteed bound
 /// held, whether the estimate diverged, the error beside that of holding the last sample, the times
-/// between samples, what was rejected.
+/// between samples, what was rejected, and what makes the estimate doubtful: inputs past their
+/// timeout, innovations that the covariance does not explain, stamps ahead of the clock.
 /// @param norm     of the norm of the errors
 /// @param warning  why there is no guarantee although there is a certificate; else empty
 std::vector<ReportFinding> verdict_of(const ReplaySummary& summary, const ErrorFigures& norm,
