@@ -1,5 +1,7 @@
 #include "plant/formula_parser.h"
 
+#include <muParser.h>
+
 #include <cctype>
 #include <locale>
 #include <sstream>
@@ -43,9 +45,8 @@ class FormulaReader {
 
  private:
   [[noreturn]] void fail() const {
-    throw std::invalid_argument("'" + text_.substr(0, 60) +
-                                "' can't be differentiated: character " + std::to_string(at_ + 1) +
-                                " is not understood");
+    throw std::invalid_argument("'" + text_.substr(0, 60) + "' can't be read: character " +
+                                std::to_string(at_ + 1) + " is not understood");
   }
 
   char peek() {
@@ -68,7 +69,7 @@ class FormulaReader {
   Node choice() {
     if (++depth_ > kDeepest) {
       throw std::invalid_argument("'" + text_.substr(0, 60) +
-                                  "...' can't be differentiated: it is nested more than " +
+                                  "...' can't be read: it is nested more than " +
                                   std::to_string(kDeepest) + " deep");
     }
     Node result = alternative();
@@ -243,6 +244,19 @@ class FormulaReader {
 };
 
 }  // namespace
+
+std::map<std::string, FormulaGraph::Node> nodes_of_names(const ExpressionNames& names,
+                                                         FormulaGraph& graph) {
+  std::map<std::string, FormulaGraph::Node> known;
+  const mu::Parser parser;
+  for (const auto& [name, value] : parser.GetConst()) known[name] = graph.constant(value);
+  known["pi"] = graph.constant(3.14159265358979323846);
+  for (const auto& [name, value] : names.constants) known[name] = graph.constant(value);
+  std::size_t variables = 0;
+  for (const std::string& name : names.x) known[name] = graph.variable(variables++);
+  for (const std::string& name : names.u) known[name] = graph.variable(variables++);
+  return known;
+}
 
 FormulaGraph::Node parse_formula(const std::string& text,
                                  const std::map<std::string, FormulaGraph::Node>& names,

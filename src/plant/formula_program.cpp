@@ -1,7 +1,5 @@
 #include "plant/formula_program.h"
 
-#include <muParser.h>
-
 #include <map>
 #include <string>
 
@@ -52,14 +50,7 @@ std::shared_ptr<const VectorMap> differentiated(const ExpressionNames& names,
                                                 const std::vector<NamedExpression>& definitions,
                                                 const std::vector<NamedExpression>& expressions) {
   FormulaGraph graph;
-  std::map<std::string, FormulaGraph::Node> known;
-  const mu::Parser parser;
-  for (const auto& [name, value] : parser.GetConst()) known[name] = graph.constant(value);
-  known["pi"] = graph.constant(3.14159265358979323846);
-  for (const auto& [name, value] : names.constants) known[name] = graph.constant(value);
-  std::size_t variables = 0;
-  for (const std::string& name : names.x) known[name] = graph.variable(variables++);
-  for (const std::string& name : names.u) known[name] = graph.variable(variables++);
+  std::map<std::string, FormulaGraph::Node> known = nodes_of_names(names, graph);
   for (const NamedExpression& definition : definitions) {
     known[definition.name] = parse_formula(definition.text, known, graph);
   }
