@@ -1,0 +1,29 @@
+#!/usr/bin/env python3
+"""Rows of a table have as many cells as its head, and those of doc/configuration are short."""
+import re
+import unittest
+
+from pages import all_pages
+
+LONGEST = 160  # characters: two lines of a wide column
+
+
+class Tables(unittest.TestCase):
+    def test_have_full_rows(self):
+        faults = [f'{page.path}:{start}: {row}' for page in all_pages() for start, rows in page.tables()
+                  for row in rows if len(row) != len(rows[0])]
+        self.assertEqual(faults, [])
+
+    def test_of_keys_have_short_cells(self):
+        faults = []
+        for page in all_pages():
+            if page.path.startswith('doc/configuration'):
+                for start, rows in page.tables():
+                    for row in rows:
+                        long = [cell for cell in row if len(re.sub(r'\]\([^)]*\)', ']', cell)) > LONGEST]
+                        faults += [f'{page.path}:{start}: longer than {LONGEST} characters: {cell}' for cell in long]
+        self.assertEqual(faults, [])
+
+
+if __name__ == '__main__':
+    unittest.main()
