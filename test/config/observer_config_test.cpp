@@ -279,7 +279,8 @@ TEST(ConfigFilesTest, UnreadableFilesAreFaults) {
 
 TEST(ShippedConfigTest, TheShippedConfigurationsAreValid) {
   const std::string folder = std::string(SDO_SOURCE_DIR) + "/config/";
-  for (const char* name : {"crazyflie_position", "crazyflie_inertial", "husky_gps"}) {
+  for (const char* name : {"crazyflie_position", "crazyflie_inertial", "husky_gps", "husky_pose",
+                           "planar_robot", "spatial_robot"}) {
     EXPECT_NO_THROW(
         read_observer_config(std::vector<std::string>{folder + name + ".yaml"}, no_plant_plugins))
         << name;

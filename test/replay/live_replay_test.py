@@ -19,6 +19,7 @@ MASS_SPRING = [os.path.join(EXAMPLE, name)
                for name in ("scenario.yaml", "observer.yaml", "gains.yaml")]
 HUSKY = os.path.join(ROOT, "config", "husky_unicycle.yaml")
 HUSKY_GPS = os.path.join(ROOT, "config", "husky_gps.yaml")
+HUSKY_POSE = os.path.join(ROOT, "config", "husky_pose.yaml")
 INERTIAL = os.path.join(ROOT, "config", "crazyflie_inertial.yaml")
 CRAZYFLIE = os.path.join(ROOT, "config", "crazyflie_position.yaml")
 TWO_SENSORS = os.path.join(ROOT, "config", "crazyflie_two_sensors.yaml")
@@ -331,6 +332,7 @@ class HuskyTest(ReplayTestCase):
 
     # Where robot_localization's EKF ends on the same recording, and the tolerance of its own test.
     PUBLISHED_END = (-40.0454, -76.9988)
+    PUBLISHED_HEIGHT = -2.6974
     TOLERANCE = 1.0452
 
     def setUp(self):
@@ -350,6 +352,16 @@ class HuskyTest(ReplayTestCase):
         self.assertEqual({}, summary["rejected"])
         self.assertGreaterEqual(summary["intervals"]["min"], 1.0)
         self.assertLess(summary["intervals"]["max"], 1.05)
+
+    def test_in_space_too_it_ends_where_the_published_estimate_does(self):
+        summary = self.replay(self.bag, [HUSKY_POSE], "pose.bag")
+        state = summary["final_state"]
+        end = [state[axis] for axis in "xyz"]
+        distance = math.dist(end, (*self.PUBLISHED_END, self.PUBLISHED_HEIGHT))
+        print("end: %.2f, %.2f, %.2f m, %.2f m from the published one" % (*end, distance))
+        self.assertLess(distance, 0.5 * self.TOLERANCE)
+        self.assertLess(abs(end[2] - self.PUBLISHED_HEIGHT), 0.5)
+        self.assertEqual({}, summary["rejected"])
 
     def test_seldom_fixes_of_a_gps_tell_position_and_heading(self):
         import rosbag
