@@ -48,38 +48,41 @@ std::optional<Eigen::VectorXd> copied_state(const Plant& plant, const VectorMap&
   return row;
 }
 
-/// The row of C, where a sensor has one that holds in every mode.
-std::optional<Eigen::VectorXd> output_row(const Plant& plant, std::size_t sensor,
-                                          Eigen::Index output) {
-  std::optional<Eigen::VectorXd> row;
+/// What a sensor measures in every mode, row · x + constant, without a name.
+std::optional<Quantity> measured(const Plant& plant, std::size_t sensor, Eigen::Index output) {
+  std::optional<Quantity> quantity;
   for (const PlantMode& mode : plant.modes()) {
     const AffineMap* map = mode.outputs[sensor]->affine();
-    std::optional<Eigen::VectorXd> of_mode;
+    std::optional<Eigen::VectorXd> row;
+    double constant = 0.0;
     if (map == nullptr) {
-      of_mode =
-          copied_state(plant, *mode.outputs[sensor], plant.sensors()[sensor].outputs(), output);
-    } else if (map->c()(output) == 0.0 && map->N().isZero(0.0)) {
-      of_mode = map->M().row(output).transpose();
+      row = copied_state(plant, *mode.outputs[sensor], plant.sensors()[sensor].outputs(), output);
+    } else if (map->N().isZero(0.0)) {
+      row = map->M().row(output).transpose();
+      constant = map->c()(output);
     }
-    if (!of_mode || (row && *row != *of_mode)) return std::nullopt;
-    row = of_mode;
+    if (!row || (quantity && (quantity->row != *row || quantity->constant != constant))) {
+      return std::nullopt;
+    }
+    const bool angular = plant.sensors()[sensor].angular[static_cast<std::size_t>(output)];
+    quantity = Quantity{"", *row, angular, constant};
   }
-  return row;
+  return quantity;
 }
 
 }  // namespace
 
 bool measures(const Plant& plant, std::size_t sensor, Eigen::Index output,
               const Quantity& quantity) {
-  const std::optional<Eigen::VectorXd> row = output_row(plant, sensor, output);
-  return row && *row == quantity.row;
+  const std::optional<Quantity> found = measured(plant, sensor, output);
+  return found && found->row == quantity.row && found->constant == quantity.constant;
 }
 
 std::optional<Quantity> state_quantity(const Plant& plant, const std::string& name) {
   const std::vector<std::string>& names = plant.state_names();
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end()) return std::nullopt;
-  Quantity quantity{name, Eigen::VectorXd::Zero(plant.states()), false};
+  Quantity quantity{name, Eigen::VectorXd::Zero(plant.states())};
   quantity.row(found - names.begin()) = 1.0;
   for (std::size_t i = 0; i < plant.sensors().size(); ++i) {
     const Sensor& sensor = plant.sensors()[i];
@@ -94,20 +97,22 @@ std::optional<Quantity> state_quantity(const Plant& plant, const std::string& na
 
 std::optional<Quantity> output_quantity(const Plant& plant, std::size_t sensor,
                                         Eigen::Index output) {
-  const std::optional<Eigen::VectorXd> row = output_row(plant, sensor, output);
-  if (!row) return std::nullopt;
+  std::optional<Quantity> found = measured(plant, sensor, output);
+  if (!found) return std::nullopt;
   for (const std::string& state : plant.state_names()) {
     std::optional<Quantity> quantity = state_quantity(plant, state);
     if (measures(plant, sensor, output, *quantity)) return quantity;
   }
-  const Sensor& description = plant.sensors()[sensor];
-  return Quantity{description.name + "[" + std::to_string(output) + "]", *row,
-                  description.angular[static_cast<std::size_t>(output)]};
+  found->name = plant.sensors()[sensor].name + "[" + std::to_string(output) + "]";
+  return found;
+}
+
+double Quantity::value(const double* x) const {
+  return row.dot(Eigen::Map<const Eigen::VectorXd>(x, row.size())) + constant;
 }
 
 double error_of(const Quantity& quantity, const double* x, double truth) {
-  const Eigen::Map<const Eigen::VectorXd> estimate(x, quantity.row.size());
-  return difference(quantity, quantity.row.dot(estimate), truth);
+  return difference(quantity, quantity.value(x), truth);
 }
 
 double bound_on(const Quantity& quantity, const Eigen::VectorXd& state_bounds) {

@@ -13,18 +13,22 @@
 
 namespace sampled_data_observers {
 
-/// A number of the plant that is compared with the truth: row · x.
+/// A number of the plant that is compared with the truth: row · x + constant.
 struct Quantity {
   std::string name;
   Eigen::VectorXd row;  ///< n
   bool angular = false;
+  double constant = 0.0;
+
+  /// @param x  n entries, as of an estimate
+  double value(const double* x) const;
 };
 
 /// The state called `name` as a quantity; nothing where there is none.
 std::optional<Quantity> state_quantity(const Plant& plant, const std::string& name);
 
 /// An output of a sensor as a quantity, named after the state that it measures, or
-/// "sensor[output]"; nothing where its output map is not linear.
+/// "sensor[output]"; nothing where its output map is not affine, or depends on inputs.
 std::optional<Quantity> output_quantity(const Plant& plant, std::size_t sensor,
                                         Eigen::Index output);
 

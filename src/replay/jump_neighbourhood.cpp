@@ -13,8 +13,9 @@ std::vector<std::size_t> places_of_states(const Plant& plant,
   std::vector<std::size_t> places;
   for (Eigen::Index state = 0; state < plant.states(); ++state) {
     const Eigen::VectorXd unit = Eigen::VectorXd::Unit(plant.states(), state);
-    const auto found = std::find_if(quantities.begin(), quantities.end(),
-                                    [&](const Quantity& one) { return one.row == unit; });
+    const auto found = std::find_if(quantities.begin(), quantities.end(), [&](const Quantity& one) {
+      return one.row == unit && one.constant == 0.0;
+    });
     if (found == quantities.end()) return {};
     places.push_back(static_cast<std::size_t>(found - quantities.begin()));
   }

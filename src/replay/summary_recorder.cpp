@@ -139,11 +139,10 @@ void SummaryRecorder::add_estimate(const Estimate& estimate, BoundLoss loss,
   }
   note_bound(estimate.stamp, loss);
   for (std::size_t i = 0; i < summary_.plots.size(); ++i) {
-    const Eigen::VectorXd& row = plotted_[i].row;
-    plot(summary_.plots[i].estimate, estimate.stamp, row.dot(estimate.state.head(row.size())));
+    plot(summary_.plots[i].estimate, estimate.stamp, plotted_[i].value(estimate.state.data()));
     if (state_bounds.empty()) continue;
-    const double bound =
-        bound_on(plotted_[i], Eigen::Map<const Eigen::VectorXd>(state_bounds.data(), row.size()));
+    const Eigen::Map<const Eigen::VectorXd> bounds(state_bounds.data(), plotted_[i].row.size());
+    const double bound = bound_on(plotted_[i], bounds);
     if (std::isfinite(bound)) plot(summary_.plots[i].bound, estimate.stamp, bound);
   }
 }

@@ -119,8 +119,8 @@ Truth truth_from_samples(const ObserverConfig& config, const std::vector<BagChan
     std::optional<Quantity> found = output_quantity(*config.plant, 0, output);
     if (!found) {
       throw ReplayError(
-          "samples of an output map other than C x, such as one with a constant, can't be the "
-          "truth: name a topic with --truth");
+          "samples of an output map that is not affine, or depends on inputs, can't be the truth: "
+          "name a topic with --truth");
     }
     Quantity quantity = std::move(*found);
     for (const Quantity& other : truth.quantities) {

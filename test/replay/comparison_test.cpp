@@ -31,6 +31,39 @@ TEST(ComparisonTest, QuantitiesAreNamedAfterTheStatesTheyMeasure) {
   EXPECT_FALSE(state_quantity(*plant(), "nothing"));
 }
 
+/// A pressure, 101325 - 12 z, is measured.
+std::shared_ptr<const Plant> plant_with_offset() {
+  LinearPlantDescription description;
+  description.state_names = {"z"};
+  description.A = Eigen::MatrixXd::Zero(1, 1);
+  description.B = Eigen::MatrixXd::Zero(1, 0);
+  description.sensors = {{"pressure", Eigen::MatrixXd::Ones(1, 1), {false}}};
+  const std::shared_ptr<const Plant> plain = make_linear_plant(description);
+  PlantDescription with_offset;
+  with_offset.state_names = plain->state_names();
+  with_offset.sensors = plain->sensors();
+  with_offset.modes = plain->modes();
+  with_offset.modes.front().outputs.front() = std::make_shared<const AffineMap>(
+      Eigen::MatrixXd::Constant(1, 1, -12.0), Eigen::MatrixXd::Zero(1, 0),
+      Eigen::VectorXd::Constant(1, 101325.0));
+  return std::make_shared<const Plant>(with_offset);
+}
+
+TEST(ComparisonTest, AnOutputWithAnOffsetIsComparedAsItIsMeasured) {
+  const std::shared_ptr<const Plant> plant = plant_with_offset();
+  const Quantity quantity = *output_quantity(*plant, 0, 0);
+  EXPECT_EQ("pressure[0]", quantity.name);
+  EXPECT_FALSE(measures(*plant, 0, 0, *state_quantity(*plant, "z")));
+  const double x[] = {10.0};
+  EXPECT_EQ(101205.0, quantity.value(x));
+  Comparison comparison({quantity}, plant);
+  const double y[] = {101201.0};
+  comparison.add_sample(0, 100, y);
+  comparison.add_truth({101202.0}, x, kNone);
+  EXPECT_EQ(3.0, comparison.rmse()[0]);
+  EXPECT_EQ(1.0, comparison.hold_rmse()[0]);
+}
+
 TEST(ComparisonTest, TakesRootMeanSquaresOfEstimateAndHeldSample) {
   Comparison comparison({*state_quantity(*plant(), "p"), *state_quantity(*plant(), "yaw")},
                         plant());

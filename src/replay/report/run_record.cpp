@@ -32,7 +32,8 @@ RunRecorder::RunRecorder(const ObserverConfig& config, const std::vector<Quantit
   }
   for (std::size_t i = 0; i < compared.size(); ++i) {
     const auto is_it = [&](const RunRecord::Column& column) {
-      return column.quantity.row == compared[i].row && !column.compared;
+      return column.quantity.row == compared[i].row &&
+             column.quantity.constant == compared[i].constant && !column.compared;
     };
     const auto found = std::find_if(record_.columns.begin(), record_.columns.end(), is_it);
     if (found == record_.columns.end()) {
@@ -72,15 +73,16 @@ void RunRecorder::add_estimate(const Estimate& estimate, const StateEstimate& me
   kept.bounds.resize(is_bounded ? record_.columns.size() : 0);
   kept.deviations.resize(message.covariance.empty() ? 0 : record_.columns.size());
   for (std::size_t i = 0; i < record_.columns.size(); ++i) {
-    const Eigen::VectorXd& row = record_.columns[i].quantity.row;
-    kept.values[i].push_back(row.dot(state));
+    const Quantity& quantity = record_.columns[i].quantity;
+    kept.values[i].push_back(quantity.value(state.data()));
     if (is_bounded) {
       const Eigen::Map<const Eigen::VectorXd> bounds(message.error_bounds.data(), size);
-      kept.bounds[i].push_back(bound_on(record_.columns[i].quantity, bounds));
+      kept.bounds[i].push_back(bound_on(quantity, bounds));
     }
     if (!message.covariance.empty()) {
       const Eigen::Map<const Eigen::MatrixXd> covariance(message.covariance.data(), size, size);
-      kept.deviations[i].push_back(std::sqrt(std::max(0.0, row.dot(covariance * row))));
+      const double variance = quantity.row.dot(covariance * quantity.row);
+      kept.deviations[i].push_back(std::sqrt(std::max(0.0, variance)));
     }
   }
 }
