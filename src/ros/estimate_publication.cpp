@@ -1,6 +1,8 @@
 #include "sampled_data_observers/ros/estimate_publication.h"
 
+#include <algorithm>
 #include <boost/make_shared.hpp>
+#include <chrono>
 #include <utility>
 
 #include "messages/queue_length.h"
@@ -18,8 +20,14 @@ constexpr double kShortestWait = 1e-3;  // s
 constexpr bool kFromNow = true;
 /// So many estimates are published at most before the events that wait have their turn.
 constexpr int kEstimatesPerTurn = 10;
+/// How long the thread of all observers waits for one whose runtime is taken, say by an event that
+/// rewinds far, and how long it then leaves it alone: the others wait no longer for it.
+constexpr std::chrono::microseconds kPatienceForRuntime{200};
+constexpr std::chrono::milliseconds kRestForRuntime{1};
 
-void apply(const RealTimeOptions& options, DeadlineThread& thread, const NodeLog& log) {
+/// The thread for estimates of observers with these options.
+std::shared_ptr<DeadlineThread> thread_for(const RealTimeOptions& options, const NodeLog& log) {
+  std::shared_ptr<DeadlineThread> thread = DeadlineThread::shared("estimates", options.priority);
   if (options.lock_memory) {
     const std::string objection = lock_memory();
     if (!objection.empty()) {
@@ -27,7 +35,7 @@ void apply(const RealTimeOptions& options, DeadlineThread& thread, const NodeLog
     }
   }
   if (options.priority) {
-    const std::string objection = thread.set_real_time_priority(*options.priority);
+    const std::string objection = thread->set_real_time_priority(*options.priority);
     if (!objection.empty()) {
       log.warn(
           "real_time/priority: not possible, going on without: %s (is there a line "
@@ -35,9 +43,33 @@ void apply(const RealTimeOptions& options, DeadlineThread& thread, const NodeLog
           objection.c_str());
     }
   }
+  return thread;
 }
 
 }  // namespace
+
+/// The processor time of every so many ticks, since reading it takes a call of the system.
+class EstimatePublication::MeasuredTick {
+ public:
+  explicit MeasuredTick(EstimatePublication& publication)
+      : publication_(publication), ticks_(publication.ticks_) {
+    if (ticks_ % publication.ticks_per_second_ == 0) began_ = thread_cpu_time();
+  }
+  ~MeasuredTick() {
+    if (!began_) return;
+    publication_.spent_ += thread_cpu_time() - *began_;
+    if (publication_.ticks_ == ticks_) return;
+    publication_.runtime_.statistics().record_tick(publication_.spent_);
+    publication_.spent_ = 0;
+  }
+  MeasuredTick(const MeasuredTick&) = delete;
+  MeasuredTick& operator=(const MeasuredTick&) = delete;
+
+ private:
+  EstimatePublication& publication_;
+  const std::uint64_t ticks_;
+  std::optional<Duration> began_;
+};
 
 EstimatePublication::EstimatePublication(const ros::NodeHandle& handle, SharedRuntime& runtime,
                                          std::unique_ptr<EstimateOutputs> outputs)
@@ -62,36 +94,52 @@ EstimatePublication::EstimatePublication(const ros::NodeHandle& handle, SharedRu
 
 void EstimatePublication::start(const ObserverConfig& config, const NodeLog& log) {
   publish_on_event_ = config.publish_on_event;
+  ticks_per_second_ =
+      static_cast<std::uint64_t>(std::max<Duration>(1, kNanosecondsPerSecond / config.period));
   if (ros::Time::isSimTime()) {
     timer_.start();
   } else {
-    thread_ = std::make_unique<DeadlineThread>([this] { return publish_by_thread(); }, "estimates");
-    apply(config.real_time, *thread_, log);
+    task_ = std::make_unique<DeadlineTask>(thread_for(config.real_time, log),
+                                           [this] { return publish_by_thread(); });
   }
 }
 
 void EstimatePublication::notice_event() {
-  if (!thread_) {
+  if (!task_) {
     if (!waits_for_turn_) publish_by_queue();
   } else if (publish_on_event_) {
-    thread_->wake();
+    task_->wake();
   }
 }
 
 DeadlineThread::Clock::time_point EstimatePublication::publish_by_thread() {
-  while (true) {
-    const DeadlineThread::Clock::time_point steady_now = DeadlineThread::Clock::now();
-    const std::optional<Duration> wait = publish_next();
-    if (wait) return steady_deadline(*wait, steady_now);
+  const DeadlineThread::Clock::time_point steady_now = DeadlineThread::Clock::now();
+  const MeasuredTick measured(*this);
+  const boost::shared_ptr<StateEstimate> message = messages_->take();
+  Step step;
+  {
+    const SharedRuntime::Access access = runtime_.access_within(kPatienceForRuntime);
+    if (!access.is_there()) return DeadlineThread::Clock::now() + kRestForRuntime;
+    step = advance(access, *message);
   }
+  if (step.is_written) publish(message);
+  return steady_deadline(step.wait, steady_now);
 }
 
 void EstimatePublication::publish_by_queue() {
   for (int published = 0; published < kEstimatesPerTurn; ++published) {
     const ros::Time now = ros::Time::now();
-    const std::optional<Duration> wait = publish_next();
-    if (!wait) continue;
-    timer_.setPeriod(ros::Duration().fromNSec(*wait), kFromNow);
+    const MeasuredTick measured(*this);
+    const boost::shared_ptr<StateEstimate> message = messages_->take();
+    Step step;
+    do {
+      step = advance(runtime_.access(), *message);
+    } while (!step.is_written && step.wait == 0);
+    if (step.is_written) {
+      publish(message);
+      continue;
+    }
+    timer_.setPeriod(ros::Duration().fromNSec(step.wait), kFromNow);
     // Where the clock went on before the timer was set, it would fire too late, or never if the
     // clock now stops.
     if (ros::Time::now() == now) return;
@@ -109,26 +157,30 @@ void EstimatePublication::wait_for_turn() {
   }));
 }
 
-/// Publishes the next estimate that is due; where there is none, returns how long until then.
-std::optional<Duration> EstimatePublication::publish_next() {
-  const Duration cpu_time = thread_cpu_time();
-  const boost::shared_ptr<StateEstimate> message = messages_->take();
-  SharedRuntime::Parts parts;
-  while (true) {
-    const SharedRuntime::Access access = runtime_.access();
-    if (!parts.are_enough(access->approach_next_due(access.now(), SharedRuntime::kSteps))) continue;
-    const Estimate* estimate = access->next_due(access.now());
-    if (estimate == nullptr) return access->next_due_time(access.now()) - access.now();
-    write(*access, *estimate, *message);
+/// Goes on to the next estimate that is due, and writes it where it is there now.
+EstimatePublication::Step EstimatePublication::advance(const SharedRuntime::Access& access,
+                                                       StateEstimate& message) {
+  const Stamp now = access.now();
+  if (!parts_.are_enough(access->approach_next_due(now, SharedRuntime::kSteps))) return {};
+  parts_ = {};
+  Step step;
+  const Estimate* estimate = access->next_due(now);
+  if (estimate != nullptr) {
+    write(*access, *estimate, message);
     if (outputs_) outputs_->take(*access, *estimate);
     runtime_.statistics().record_estimate(*estimate->law, *estimate, access->bound(*estimate),
-                                          access->lateness(estimate->stamp, access.now()));
-    break;
+                                          access->lateness(estimate->stamp, now));
+    step.is_written = true;
+    if (access->is_due(now)) return step;
   }
+  step.wait = access->next_due_time(now) - now;
+  return step;
+}
+
+void EstimatePublication::publish(const boost::shared_ptr<StateEstimate>& message) {
   publisher_.publish(message);
   if (outputs_) outputs_->publish();
-  runtime_.statistics().record_tick(thread_cpu_time() - cpu_time);
-  return std::nullopt;
+  ++ticks_;
 }
 
 }  // namespace sampled_data_observers

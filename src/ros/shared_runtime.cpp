@@ -36,11 +36,20 @@ void SharedRuntime::replace(std::unique_ptr<ObserverRuntime> next) {
   next.reset();  // outside of the lock: it frees much memory
 }
 
+SharedRuntime::Access::Access(SharedRuntime& shared) : shared_(shared), lock_(shared.mutex_) {
+  begin();
+}
+
+SharedRuntime::Access::Access(SharedRuntime& shared, std::chrono::nanoseconds patience)
+    : shared_(shared), lock_(shared.mutex_, std::defer_lock) {
+  if (lock_.try_lock_for(patience)) begin();
+}
+
 // The time is read under the lock: otherwise it might seem to go back from one use to the next.
-SharedRuntime::Access::Access(SharedRuntime& shared)
-    : shared_(shared), lock_(shared.mutex_), now_(to_stamp(ros::Time::now())) {
-  went_back_ = shared.clock_.note(now_);
-  if (went_back_ > 0 && shared.reset_on_jump_back_) shared.runtime_->start_anew(now_);
+void SharedRuntime::Access::begin() {
+  now_ = to_stamp(ros::Time::now());
+  went_back_ = shared_.clock_.note(now_);
+  if (went_back_ > 0 && shared_.reset_on_jump_back_) shared_.runtime_->start_anew(now_);
 }
 
 SharedRuntime::Access::~Access() {

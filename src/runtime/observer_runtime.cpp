@@ -123,6 +123,11 @@ const Estimate* ObserverRuntime::next_due(Stamp now) {
   }
 }
 
+bool ObserverRuntime::is_due(Stamp now) const {
+  const std::optional<Stamp> earliest = estimator_.earliest();
+  return enabled_ && earliest && (event_waits_ || grid_.peek(now, *earliest));
+}
+
 std::int64_t ObserverRuntime::approach_next_due(Stamp now, std::int64_t steps) const {
   const std::optional<Stamp> earliest = estimator_.earliest();
   if (!enabled_ || !earliest) return 0;

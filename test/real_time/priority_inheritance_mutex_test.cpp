@@ -39,6 +39,26 @@ TEST(PriorityInheritanceMutexTest, IsHeldByOneOnly) {
   }).join();
 }
 
+TEST(PriorityInheritanceMutexTest, IsWaitedForAsLongAsAskedForAtMost) {
+  using std::chrono::steady_clock;
+  PriorityInheritanceMutex mutex;
+  ASSERT_TRUE(mutex.try_lock_for(std::chrono::seconds(0)));
+  std::thread([&] {
+    const steady_clock::time_point start = steady_clock::now();
+    EXPECT_FALSE(mutex.try_lock_for(std::chrono::milliseconds(2)));
+    EXPECT_GE(steady_clock::now() - start, std::chrono::milliseconds(1));
+  }).join();
+  std::atomic<bool> waits{false};
+  std::thread patient([&] {
+    waits = true;
+    EXPECT_TRUE(mutex.try_lock_for(std::chrono::seconds(60)));
+    mutex.unlock();
+  });
+  while (!waits) std::this_thread::yield();
+  mutex.unlock();
+  patient.join();
+}
+
 /// The priority at which the kernel runs this thread, as /proc has it: below 0 for real time.
 int effective_priority() {
   std::ifstream file("/proc/thread-self/stat");

@@ -2,6 +2,8 @@
 
 #include <pthread.h>
 
+#include <chrono>
+
 namespace sampled_data_observers {
 
 /// A mutex whose holder runs at the priority of the most urgent thread that waits for it, so that a
@@ -18,6 +20,10 @@ class PriorityInheritanceMutex {
   void lock() { pthread_mutex_lock(&mutex_); }
   /// Returns at once whether this thread holds it now.
   bool try_lock() { return pthread_mutex_trylock(&mutex_) == 0; }
+  /// Waits so long at most, and returns whether this thread holds it now. Meanwhile its holder runs
+  /// at this thread's priority. Where the system clock is set back meanwhile, by which such waits
+  /// are measured, it may last until the holder lets go.
+  bool try_lock_for(std::chrono::nanoseconds wait);
   /// @pre this thread holds it
   void unlock() { pthread_mutex_unlock(&mutex_); }
 

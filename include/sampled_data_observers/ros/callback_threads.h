@@ -2,9 +2,11 @@
 
 #include <ros/callback_queue.h>
 #include <ros/node_handle.h>
-#include <ros/spinner.h>
 
+#include <atomic>
 #include <cstdint>
+#include <thread>
+#include <vector>
 
 namespace sampled_data_observers {
 
@@ -35,7 +37,8 @@ class CallbackThreads {
 
  private:
   ros::CallbackQueue queue_;
-  ros::AsyncSpinner spinner_;
+  std::atomic<bool> stopping_{false};
+  std::vector<std::thread> threads_;
 };
 
 }  // namespace sampled_data_observers

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -48,11 +49,15 @@ class SharedRuntime {
     /// Waits for the thread that has it, then reads the clock. Where time went back, the runtime is
     /// told, if it is to start anew.
     explicit Access(SharedRuntime& shared);
+    /// The same, but waits so long at most: is_there() says whether it is there.
+    Access(SharedRuntime& shared, std::chrono::nanoseconds patience);
     /// Lets others have it, and says so where time went back.
     ~Access();
     Access(const Access&) = delete;
     Access& operator=(const Access&) = delete;
 
+    /// Whether the runtime may be used: always, unless the wait for it was limited.
+    bool is_there() const { return lock_.owns_lock(); }
     /// The instant of ROS time; 0 while a simulated clock has not begun.
     Stamp now() const { return now_; }
     /// The runtime; not to be kept beyond this access.
@@ -61,9 +66,11 @@ class SharedRuntime {
     ObserverRuntime& operator*() const { return *shared_.runtime_; }
 
    private:
+    void begin();
+
     SharedRuntime& shared_;
     std::unique_lock<PriorityInheritanceMutex> lock_;
-    Stamp now_;
+    Stamp now_ = 0;
     /// How far time went back since the use before, where that is more than the tolerance.
     Duration went_back_ = 0;
   };
@@ -75,6 +82,8 @@ class SharedRuntime {
 
   /// Waits for the thread that uses the runtime now.
   Access access() { return Access(*this); }
+  /// The same, so long at most.
+  Access access_within(std::chrono::nanoseconds patience) { return Access(*this, patience); }
 
   /// Computes in parts what would take the next use long where it asks for the state at present.
   void approach_present();

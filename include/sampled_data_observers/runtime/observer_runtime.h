@@ -29,6 +29,9 @@ class ObserverRuntime {
   /// `publish_on_event` the last one is that of `now`, where an event was used since the last call.
   const Estimate* next_due(Stamp now);
 
+  /// Whether next_due() may give another one at `now`.
+  bool is_due(Stamp now) const;
+
   /// The time at which the estimate after those due at `now` becomes due.
   Stamp next_due_time(Stamp now) const { return grid_.next_due_time(now); }
 

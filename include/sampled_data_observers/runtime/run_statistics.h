@@ -107,7 +107,7 @@ struct RunStatistics {
   std::uint64_t skipped_jumps = 0;
   /// Likewise: how often the times between jumps left those configured.
   std::uint64_t dwell_violations = 0;
-  /// CPU time that each tick of the publishing thread took [ns].
+  /// CPU time that ticks of the publishing thread took, of those that were measured [ns].
   Range tick_cpu_time;
   /// Of the newest estimate.
   std::optional<Stamp> newest_estimate;
