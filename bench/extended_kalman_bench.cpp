@@ -6,13 +6,11 @@
 
 #include <Eigen/Core>
 #include <memory>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "allocations.h"
+#include "body_plant.h"
 #include "observer/hybrid_kalman_filter.h"
-#include "sampled_data_observers/plant/expression_map.h"
 
 namespace sampled_data_observers {
 namespace {
@@ -22,38 +20,6 @@ constexpr Duration kStep = kNanosecondsPerSecond / 100;
 /// About as long, with more digits in base 64.
 constexpr Duration kUneven = 10'345'678;
 
-const ExpressionNames kNames{
-    {"x", "y", "z", "roll", "pitch", "yaw", "vx", "vy", "vz", "wx", "wy", "wz", "ax", "ay", "az"},
-    {},
-    {}};
-
-std::shared_ptr<const VectorMap> body_flow() {
-  const std::vector<NamedExpression> definitions = {
-      {"sr", "sin(roll)"}, {"cr", "cos(roll)"}, {"sp", "sin(pitch)"},          {"cp", "cos(pitch)"},
-      {"sy", "sin(yaw)"},  {"cy", "cos(yaw)"},  {"turn", "(wy*sr + wz*cr)/cp"}};
-  const std::vector<std::string> formulas = {
-      "cy*cp*vx + (cy*sp*sr - sy*cr)*vy + (cy*sp*cr + sy*sr)*vz",
-      "sy*cp*vx + (sy*sp*sr + cy*cr)*vy + (sy*sp*cr - cy*sr)*vz",
-      "-sp*vx + cp*sr*vy + cp*cr*vz",
-      "wx + turn*sp",
-      "wy*cr - wz*sr",
-      "turn",
-      "ax",
-      "ay",
-      "az",
-      "0",
-      "0",
-      "0",
-      "0",
-      "0",
-      "0"};
-  std::vector<NamedExpression> expressions;
-  for (std::size_t i = 0; i < formulas.size(); ++i) {
-    expressions.push_back({kNames.x[i], formulas[i]});
-  }
-  return std::make_shared<const ExpressionMap>(kNames, definitions, expressions);
-}
-
 std::shared_ptr<const VectorMap> linear_flow() {
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(kStates, kStates);
   A.topRightCorner(12, 12).diagonal().setOnes();
@@ -62,7 +28,7 @@ std::shared_ptr<const VectorMap> linear_flow() {
 
 std::shared_ptr<const HybridKalmanFilter> filter(std::shared_ptr<const VectorMap> flow) {
   PlantDescription plant;
-  plant.state_names = kNames.x;
+  plant.state_names = body_names().x;
   plant.sensors = {{"position", SensorTiming::kSampled, {false, false, false}}};
   plant.integration.step = 2 * kStep;
   PlantMode mode;

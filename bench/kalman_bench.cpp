@@ -9,6 +9,7 @@
 #include <string>
 
 #include "allocations.h"
+#include "body_plant.h"
 #include "observer/constant_gain_observer.h"
 #include "observer/gated_measurements.h"
 #include "observer/hybrid_kalman_filter.h"
@@ -59,6 +60,28 @@ void KalmanCycle(benchmark::State& state) {
   const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(15, 15);
   cycle(state,
         HybridKalmanFilter(pose(), {one, {0.01 * Eigen::Matrix3d::Identity()}, 0.01 * one, one}));
+}
+
+/// The plant of robot_localization's filter, by formulas, integrated in one step as there.
+ObserverContext body() {
+  PlantDescription plant;
+  plant.state_names = body_names().x;
+  plant.sensors = {{"position", SensorTiming::kSampled, {false, false, false}}};
+  plant.integration.step = kStep;
+  PlantMode mode;
+  mode.flow = body_flow();
+  mode.outputs = {std::make_shared<const AffineMap>(Eigen::MatrixXd::Identity(3, 15))};
+  plant.modes = {mode};
+  return {std::make_shared<const Plant>(plant), Eigen::VectorXd::Zero(15),
+          Eigen::VectorXd::Zero(0)};
+}
+
+void KalmanCycleByFormulas(benchmark::State& state) {
+  const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(15, 15);
+  cycle(state, HybridKalmanFilter(body(), {one,
+                                           {0.01 * Eigen::Matrix3d::Identity()},
+                                           0.01 * one,
+                                           Eigen::MatrixXd::Zero(15, 15)}));
 }
 
 void FixedGainCycle(benchmark::State& state) {
@@ -139,6 +162,7 @@ void KalmanStart(benchmark::State& state) {
 }
 
 BENCHMARK(KalmanCycle);
+BENCHMARK(KalmanCycleByFormulas);
 BENCHMARK(FixedGainCycle);
 BENCHMARK(GatedEvent)->Arg(100)->Arg(2000)->Arg(20000)->Arg(200000);
 BENCHMARK(KalmanStart)->Arg(4)->Arg(15)->Arg(50)->Unit(benchmark::kMillisecond);

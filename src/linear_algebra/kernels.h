@@ -58,6 +58,10 @@ struct Kernels {
   void (*covariance_flow)(const double* const* blocks, int digits, const SparseRows& entries,
                           std::ptrdiff_t n, double* P, double* scratch);
 
+  /// As plant/covariance_step.h has it. `scratch`: covariance_step_scratch(n) numbers.
+  void (*covariance_step)(const double* F, const double* Q, std::ptrdiff_t n, double h, double* P,
+                          double* scratch);
+
   /// As joseph_update().
   void (*joseph_update)(const JosephUpdate& update, double* P, double* correction, double* scratch);
 
@@ -71,6 +75,11 @@ constexpr std::ptrdiff_t kLine = 8;
 /// For Kernels::covariance_flow.
 constexpr std::ptrdiff_t covariance_scratch(std::ptrdiff_t n) {
   return 2 * padded(n) * padded(n) + kLine;
+}
+
+/// For Kernels::covariance_step: three padded matrices, and what is not zero in one.
+constexpr std::ptrdiff_t covariance_step_scratch(std::ptrdiff_t n) {
+  return 3 * padded(n) * padded(n) + 2 * (n * n + 1) + n + kLine;
 }
 
 /// For Kernels::joseph_update.

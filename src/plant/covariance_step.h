@@ -5,7 +5,7 @@
 namespace sampled_data_observers {
 
 /// Number of entries that covariance_step() needs as workspace.
-constexpr Eigen::Index covariance_step_workspace(Eigen::Index n) { return 2 * n * n; }
+Eigen::Index covariance_step_workspace(Eigen::Index n);
 
 /// One step of the covariance of a flow that is integrated, Ṗ = F P + P Fᵀ + Q:
 ///

@@ -194,6 +194,44 @@ TEST(KernelsTest, TheFlowOfACovarianceIsThatOfPlainProducts) {
   }
 }
 
+/// As plant/covariance_step.h has it, by plain products.
+void step_covariance(const Numbers& F, const Numbers& Q, Index n, double h, Numbers& P) {
+  Numbers Phi(at(n * n));
+  Numbers scaled(at(n * n));
+  Numbers product(at(n * n));
+  for (Index i = 0; i < n; ++i) Phi[at(i * n + i)] = 1.0;
+  for (int divisor = 4; divisor > 0; --divisor) {
+    for (std::size_t i = 0; i < Phi.size(); ++i) scaled[i] = h / divisor * Phi[i];
+    multiply(F.data(), n, n, scaled.data(), n, Phi.data());
+    for (Index i = 0; i < n; ++i) Phi[at(i * n + i)] += 1.0;
+  }
+  for (std::size_t i = 0; i < P.size(); ++i) P[i] += 0.5 * h * Q[i];
+  multiply(Phi.data(), n, n, P.data(), n, product.data());
+  P.assign(P.size(), 0.0);
+  add_symmetric_product(product.data(), Phi.data(), n, n, P.data());
+  for (std::size_t i = 0; i < P.size(); ++i) P[i] += 0.5 * h * Q[i];
+}
+
+TEST(KernelsTest, TheStepOfACovarianceIsThatOfPlainProducts) {
+  for (const Index n : kSizes) {
+    for (const Pattern pattern : kPatterns) {
+      const Flow flow(n, 0, false, pattern);
+      Numbers F = flow.plain[0];
+      F[0] = 0.0;
+      const Numbers& Q = flow.noises[0];
+      Numbers expected = Flow::covariance(n);
+      const Numbers P = expected;
+      step_covariance(F, Q, n, 0.125, expected);
+      for (const Kernels* kernels : compilations()) {
+        Numbers found = P;
+        Numbers scratch(at(covariance_step_scratch(n)), kNan);
+        kernels->covariance_step(F.data(), Q.data(), n, 0.125, found.data(), scratch.data());
+        expect_same_bits(expected, found, n);
+      }
+    }
+  }
+}
+
 TEST(KernelsTest, WhatIsNotFiniteStaysThoughZerosAreLeftOut) {
   for (const Pattern pattern : kPatterns) {
     for (const double value : {kNan, std::numeric_limits<double>::infinity()}) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "linear_algebra/kernels/covariance.h"
+#include "linear_algebra/kernels/covariance_step.h"
 #include "linear_algebra/kernels/joseph.h"
 #include "linear_algebra/kernels/linear_flow.h"
 
@@ -33,6 +34,7 @@ struct KernelTable {
        flow_one_panel<kWidth, 12>, flow_one_panel<kWidth, 16>, flow_one_panel<kWidth, 16>,
        flow_one_panel<kWidth, 16>, flow_one_panel<kWidth, 16>},
       covariance_flow<kWidth>,
+      covariance_step<kWidth>,
       update_by_joseph<kWidth>,
       are_all_within<kWidth>};
 };
