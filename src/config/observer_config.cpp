@@ -139,6 +139,7 @@ ObserverConfig read_observer_config(const ConfigNode& tree, const PlantPluginLoa
     config.jumps = read_jumps(root, plant_config, layers, config.options.jump_stamp_error);
   });
   faults.attempt([&] { config.static_transforms = read_static_transforms(root); });
+  faults.attempt([&] { config.navsat = read_navsat(root); });
   faults.attempt([&] { config.options.sampling = read_sensor_sampling(root, plant); });
   faults.attempt([&] { config.options.history = read_history(root); });
   faults.attempt([&] { config.options.start = read_start(root); });

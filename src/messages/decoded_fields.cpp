@@ -1,11 +1,14 @@
 #include "messages/decoded_fields.h"
 
+#include <utility>
+
 #include "messages/rotation_angles.h"
 
 namespace sampled_data_observers {
 
 DecodedFields::DecodedFields(const TopicSource& source, const MessageDefinition& definition,
-                             PlanCompiler& compiler) {
+                             PlanCompiler& compiler, std::shared_ptr<LocalPlane> plane)
+    : plane_(std::move(plane)) {
   if (source.has_mode) add(source, "mode", source.mode, definition, compiler);
   for (const std::string& text : source.fields) add(source, "fields", text, definition, compiler);
   const bool lacks_fields = !source.of_jumps && source.fields.empty();
@@ -22,18 +25,30 @@ void DecodedFields::add(const TopicSource& source, const std::string& key, const
         text.empty() ? "none" : "'" + text + "'");
   }
   Value value;
-  value.angle = field->angle;
-  if (field->angle == Angle::kNone) {
-    value.slots[0] = compiler.want_number(field->path);
-  } else {
-    const char* const components[] = {"x", "y", "z", "w"};
-    for (std::size_t i = 0; i < 4; ++i) {
-      value.slots[i] = compiler.want_number(path_to(definition, field->path, {components[i]}));
+  value.derived = field->derived;
+  const auto want = [&](const std::vector<std::string>& parts) {
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      value.slots[i] = compiler.want_number(path_to(definition, field->path, {parts[i]}));
     }
+  };
+  MessagePath path = field->path;
+  if (field->is_in_plane()) {
+    if (plane_ == nullptr) {
+      throw ConfigError(source.origin, source.path + "/" + key,
+                        "navsat/datum beside it: from where east, north and up are measured",
+                        "'" + text + "' without");
+    }
+    is_in_plane_ = true;
+    want({"latitude", "longitude", "altitude"});
+    path = path_to(definition, path, {"latitude"});
+  } else if (field->derived == Derived::kNone) {
+    value.slots[0] = compiler.want_number(path);
+  } else {
+    want({"x", "y", "z", "w"});
   }
   values_.push_back(value);
-  paths_.push_back(field->path);
-  add_conditions(field->path, definition, compiler);
+  paths_.push_back(path);
+  add_conditions(path, definition, compiler);
 }
 
 void DecodedFields::add_conditions(const MessagePath& path, const MessageDefinition& definition,
@@ -78,31 +93,42 @@ bool DecodedFields::holds(const Condition& condition, const DecodedMessage& mess
   return !is_limited || (least <= value && value <= most);
 }
 
-bool DecodedFields::read(const DecodedMessage& message, double* values) const {
+/// Values in the local plane; returns false for those of before its datum.
+bool DecodedFields::read_in_plane(const DecodedMessage& message, Stamp stamp,
+                                  double* values) const {
+  for (std::size_t i = 0; i < values_.size(); ++i) {
+    const Value& value = values_[i];
+    if (value.derived < Derived::kEast) continue;
+    const auto number = [&](std::size_t slot) { return message.number(value.slots[slot]); };
+    const std::optional<Eigen::Vector3d> point =
+        plane_->project({number(0), number(1), number(2)}, stamp);
+    if (!point) return false;
+    const int axis = static_cast<int>(value.derived) - static_cast<int>(Derived::kEast);
+    values[i] = (*point)(axis);
+  }
+  return true;
+}
+
+double DecodedFields::angle(const Value& value, const DecodedMessage& message) const {
+  const auto number = [&](std::size_t slot) { return message.number(value.slots[slot]); };
+  const RotationQuaternion q{number(0), number(1), number(2), number(3)};
+  if (value.derived == Derived::kRoll) return roll_of(q);
+  return value.derived == Derived::kPitch ? pitch_of(q) : yaw_of(q);
+}
+
+Reading DecodedFields::read(const DecodedMessage& message, Stamp stamp, double* values) const {
   for (const Condition& condition : conditions_) {
-    if (!holds(condition, message)) return false;
+    if (!holds(condition, message)) return Reading::kNoField;
   }
   for (std::size_t i = 0; i < values_.size(); ++i) {
     const Value& value = values_[i];
-    const auto number = [&](std::size_t slot) { return message.number(value.slots[slot]); };
-    if (!message.holds(value.slots[0])) return false;
-    const RotationQuaternion q{number(0), number(1), number(2), number(3)};
-    switch (value.angle) {
-      case Angle::kNone:
-        values[i] = number(0);
-        break;
-      case Angle::kRoll:
-        values[i] = roll_of(q);
-        break;
-      case Angle::kPitch:
-        values[i] = pitch_of(q);
-        break;
-      case Angle::kYaw:
-        values[i] = yaw_of(q);
-        break;
-    }
+    if (!message.holds(value.slots[0])) return Reading::kNoField;
+    if (value.derived >= Derived::kEast) continue;
+    values[i] =
+        value.derived == Derived::kNone ? message.number(value.slots[0]) : angle(value, message);
   }
-  return true;
+  const bool counts = !is_in_plane_ || read_in_plane(message, stamp, values);
+  return counts ? Reading::kEvent : Reading::kBeforeDatum;
 }
 
 }  // namespace sampled_data_observers

@@ -45,6 +45,10 @@ DecodingPlan compile_stamp(const TopicSource& source,
   return compiler.compile(!is_whole);
 }
 
+std::shared_ptr<LocalPlane> plane_of(const std::shared_ptr<const TransformBuffer>& transforms) {
+  return transforms == nullptr ? nullptr : transforms->plane();
+}
+
 Stamp stamp_from(double seconds, double nanoseconds) {
   ros::Time time;
   time.sec = static_cast<std::uint32_t>(seconds);
@@ -66,15 +70,16 @@ DecodedSource::DecodedSource(const TopicSource& source,
       transforms_(std::move(transforms)),
       thinned_(source.min_interval),
       stamp_plan_(compile_stamp(source, definition_)),
-      parts_(compile(source, definition_)),
+      parts_(compile(source, definition_, plane_of(transforms_))),
       decoded_(parts_.plan.counts()),
       values_(parts_.fields.size()) {}
 
 DecodedSource::Parts DecodedSource::compile(
-    const TopicSource& source, const std::shared_ptr<const MessageDefinition>& definition) {
+    const TopicSource& source, const std::shared_ptr<const MessageDefinition>& definition,
+    std::shared_ptr<LocalPlane> plane) {
   PlanCompiler compiler(definition);
   const auto stamp = want_stamp(source, *definition, compiler);
-  DecodedFields fields(source, *definition, compiler);
+  DecodedFields fields(source, *definition, compiler, std::move(plane));
   FrameBlocks frames(source, *definition, fields.paths(), compiler);
   return {stamp, std::move(fields), std::move(frames), compiler.compile()};
 }
@@ -132,7 +137,8 @@ Reading DecodedSource::read(const MessagePointer& message, Stamp receipt, Event&
   if (has_stamp && !parts_.frames.transform(decoded_, event.stamp, transforms_.get())) {
     return Reading::kNoTransform;
   }
-  if (!parts_.fields.read(decoded_, values_.data())) return Reading::kNoField;
+  const Reading fields = parts_.fields.read(decoded_, event.stamp, values_.data());
+  if (fields != Reading::kEvent) return fields;
   event.values = values_.data() + (has_mode_ ? 1 : 0);
   event.size = static_cast<Eigen::Index>(values_.size()) - (has_mode_ ? 1 : 0);
   if (has_mode_) event.mode = values_.front();

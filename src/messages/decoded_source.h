@@ -30,6 +30,7 @@ class DecodedSource : public MessageSource {
                              const Connection& connection) const override;
   Stamp stamp_of(const MessagePointer& message, Stamp receipt) const override;
   Reading read(const MessagePointer& message, Stamp receipt, Event& event) override;
+  void confirm() override { parts_.fields.confirm(); }
   void name_missing_transform(const MessagePointer& message, Stamp stamp,
                               std::string& text) const override;
 
@@ -42,7 +43,8 @@ class DecodedSource : public MessageSource {
     DecodingPlan plan;
   };
   static Parts compile(const TopicSource& source,
-                       const std::shared_ptr<const MessageDefinition>& definition);
+                       const std::shared_ptr<const MessageDefinition>& definition,
+                       std::shared_ptr<LocalPlane> plane);
   /// The stamp that a message carries; 0 where it is malformed.
   Stamp own_stamp(const RawMessage& message) const;
 

@@ -23,7 +23,11 @@ void EventIntake::take(const MessagePointer& message, Stamp receipt, Stamp now) 
     if (!waiting_.push({message, receipt, event.stamp}, now)) drop(message, event.stamp);
     return;
   }
-  handle_(channel_, event, reading, {});
+  hand_over(event, reading);
+}
+
+void EventIntake::hand_over(const Event& event, Reading reading) {
+  if (handle_(channel_, event, reading, {})) source_->confirm();
 }
 
 void EventIntake::lose(Stamp stamp, const std::string& note) {
@@ -37,7 +41,7 @@ void EventIntake::retry(Stamp now) {
     Event event = make_event();
     const Reading reading = source_->read(waiting.message, waiting.receipt, event);
     if (reading == Reading::kNoTransform) return false;
-    if (reading != Reading::kPassedOver) handle_(channel_, event, reading, {});
+    if (reading != Reading::kPassedOver) hand_over(event, reading);
     return true;
   };
   waiting_.go_through(now, use, [this](const Waiting& waiting) { drop(waiting); });

@@ -58,6 +58,8 @@ EventOutcome outcome_of(Reading reading) {
       return EventOutcome::kOtherDefinition;
     case Reading::kMalformed:
       return EventOutcome::kMalformed;
+    case Reading::kBeforeDatum:
+      return EventOutcome::kTooOld;
     case Reading::kEvent:
     case Reading::kPassedOver:
       break;

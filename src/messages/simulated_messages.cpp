@@ -1,5 +1,6 @@
 #include "messages/simulated_messages.h"
 
+#include <algorithm>
 #include <boost/make_shared.hpp>
 #include <limits>
 #include <memory>
@@ -8,15 +9,20 @@
 #include "sampled_data_observers/messages/message_source.h"
 
 namespace sampled_data_observers {
-MessageEncoder::MessageEncoder(const TopicSource& source) : has_mode_(source.has_mode) {
-  make_message_source(source, std::make_shared<TransformBuffer>(std::vector<StaticTransform>()));
+
+MessageEncoder::MessageEncoder(const TopicSource& source, const std::optional<NavSatDatum>& navsat)
+    : has_mode_(source.has_mode) {
+  const auto transforms = std::make_shared<TransformBuffer>(std::vector<StaticTransform>(), navsat);
+  make_message_source(source, transforms);
+  plane_ = transforms->plane();
   definition_ = installed_definition(source.type);
-  const auto add_field = [&](const std::string& text) {
-    items_.push_back({*find_field(*definition_, text)});
-  };
   if (source.has_mode) add_field(source.mode);
   for (const std::string& field : source.fields) add_field(field);
-  values_ = items_.size();
+  if (!fixes_.empty() && !plane_->datum()) {
+    throw ConfigError(source.origin, source.path + "/fields",
+                      "a navsat/datum of numbers, since nobody knows where the simulated plant is",
+                      "datum: first_fix");
+  }
   const std::optional<MessagePath> header = find_header(*definition_);
   const auto add_at = [&](const MessagePath& from, const std::string& name,
                           MessageItem::Kind kind) {
@@ -28,18 +34,56 @@ MessageEncoder::MessageEncoder(const TopicSource& source) : has_mode_(source.has
   }
   if (header) add_at(*header, "stamp", MessageItem::Kind::kTime);
   if (source.type == "std_msgs/Time") add_at({}, "data", MessageItem::Kind::kTime);
+  has_stamp_ = !items_.empty() && items_.back().kind == MessageItem::Kind::kTime;
   connection_ = boost::make_shared<ros::M_string>();
   (*connection_)["type"] = definition_->type();
   (*connection_)["md5sum"] = definition_->md5sum();
   (*connection_)["message_definition"] = definition_->text();
 }
 
+void MessageEncoder::add_field(const std::string& text) {
+  const MessageField field = *find_field(*definition_, text);
+  const std::size_t value = item_of_.size();
+  item_of_.emplace_back();
+  if (!field.is_in_plane()) {
+    item_of_.back() = items_.size();
+    items_.push_back({field});
+    return;
+  }
+  const auto is_there = [&](const Fix& fix) { return fix.path == field.path; };
+  const auto found = std::find_if(fixes_.begin(), fixes_.end(), is_there);
+  Fix& fix = found == fixes_.end() ? fixes_.emplace_back(Fix{field.path, {}}) : *found;
+  const auto east = static_cast<std::size_t>(MessageField::Derived::kEast);
+  fix.values.at(static_cast<std::size_t>(field.derived) - east) = value;
+}
+
+/// What is not said of its place in the plane is 0.
+void MessageEncoder::add_fix(const Fix& fix, const std::vector<double>& values,
+                             std::vector<MessageItem>& items) const {
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::optional<std::size_t> value = fix.values.at(axis);
+    if (value) point(static_cast<Eigen::Index>(axis)) = values[*value - (has_mode_ ? 1 : 0)];
+  }
+  const GeodeticPosition place = plane_->unproject(point);
+  const auto add = [&](const char* name, double number) {
+    items.push_back({{path_to(*definition_, fix.path, {name})}});
+    items.back().number = number;
+  };
+  add("latitude", place.latitude);
+  add("longitude", place.longitude);
+  add("altitude", place.altitude);
+}
+
 RawMessage MessageEncoder::encode(const SimulatedMessage& from) const {
   std::vector<MessageItem> items = items_;
-  if (has_mode_) items.front().number = from.mode;
-  const std::size_t first = has_mode_ ? 1 : 0;
-  for (std::size_t i = first; i < values_; ++i) items[i].number = from.values[i - first];
-  if (items.size() > values_) items.back().time = from.stamp;
+  if (has_stamp_) items.back().time = from.stamp;
+  for (std::size_t i = 0; i < item_of_.size(); ++i) {
+    if (!item_of_[i]) continue;
+    const bool is_mode = has_mode_ && i == 0;
+    items[*item_of_[i]].number = is_mode ? from.mode : from.values[i - (has_mode_ ? 1 : 0)];
+  }
+  for (const Fix& fix : fixes_) add_fix(fix, from.values, items);
   return {MessageWriter(*definition_).write(items), connection_};
 }
 
@@ -48,12 +92,13 @@ ros::AdvertiseOptions MessageEncoder::advertise_options(const std::string& topic
   return {topic, queue, definition_->md5sum(), definition_->type(), definition_->text()};
 }
 
-SimulatedMessages::SimulatedMessages(const std::vector<SimulatedChannel>& channels)
+SimulatedMessages::SimulatedMessages(const std::vector<SimulatedChannel>& channels,
+                                     const std::optional<NavSatDatum>& navsat)
     : channels_(channels) {
   for (const SimulatedChannel& channel : channels_) {
     encoders_.emplace_back();
     const bool is_own = !channel.source || channel.source->is_of_own_type();
-    if (!is_own) encoders_.back().emplace(*channel.source);
+    if (!is_own) encoders_.back().emplace(*channel.source, navsat);
   }
 }
 

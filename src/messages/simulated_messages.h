@@ -6,11 +6,14 @@
 #include <sampled_data_observers/Measurement.h>
 #include <sampled_data_observers/StateEstimate.h>
 
+#include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "messages/definition/message_writer.h"
+#include "messages/local_plane.h"
 #include "messages/raw_message.h"
 #include "messages/time_conversion.h"
 #include "simulation/simulator.h"
@@ -20,9 +23,11 @@ namespace sampled_data_observers {
 /// Messages of a type that a source reads, with the values that it is to find in them.
 class MessageEncoder {
  public:
-  /// @throws ConfigError for a type or field that does not exist, or frames that its messages have
-  /// no use for.
-  explicit MessageEncoder(const TopicSource& source);
+  /// @param navsat  the local plane, for values in it
+  /// @throws ConfigError for a type or field that does not exist, frames that its messages have
+  /// no use for, or a local plane whose datum is not given.
+  explicit MessageEncoder(const TopicSource& source,
+                          const std::optional<NavSatDatum>& navsat = std::nullopt);
 
   RawMessage encode(const SimulatedMessage& from) const;
 
@@ -30,11 +35,25 @@ class MessageEncoder {
   ros::AdvertiseOptions advertise_options(const std::string& topic, std::uint32_t queue) const;
 
  private:
+  /// A sensor_msgs/NavSatFix in the messages: which of the values are in the plane.
+  struct Fix {
+    MessagePath path;
+    std::array<std::optional<std::size_t>, 3> values;  ///< east, north, up
+  };
+
+  void add_field(const std::string& text);
+  void add_fix(const Fix& fix, const std::vector<double>& values,
+               std::vector<MessageItem>& items) const;
+
   std::shared_ptr<const MessageDefinition> definition_;
+  std::shared_ptr<const LocalPlane> plane_;
   bool has_mode_;
-  /// With the stamp as the last one, where messages have one.
+  /// Without those of fixes; with the stamp as the last one, where messages have one.
   std::vector<MessageItem> items_;
-  std::size_t values_ = 0;  ///< of the items: the mode's, and those of the event's
+  /// Of each value, the mode first, which item has it; nothing for those in fixes_.
+  std::vector<std::optional<std::size_t>> item_of_;
+  std::vector<Fix> fixes_;
+  bool has_stamp_ = false;
   boost::shared_ptr<ros::M_string> connection_;
 };
 
@@ -42,7 +61,8 @@ class MessageEncoder {
 class SimulatedMessages {
  public:
   /// @throws ConfigError as MessageEncoder
-  explicit SimulatedMessages(const std::vector<SimulatedChannel>& channels);
+  explicit SimulatedMessages(const std::vector<SimulatedChannel>& channels,
+                             const std::optional<NavSatDatum>& navsat = std::nullopt);
 
   ros::Publisher advertise(std::size_t channel, ros::NodeHandle& handle, std::uint32_t queue) const;
 

@@ -1,5 +1,9 @@
 #include "sampled_data_observers/messages/transform_buffer.h"
 
+#include <array>
+#include <cstdio>
+
+#include "messages/local_plane.h"
 #include "messages/time_conversion.h"
 
 namespace sampled_data_observers {
@@ -49,7 +53,9 @@ void write_pair(const std::string& from, const std::string& to, std::string& tex
   append_name(to, text);
 }
 
-TransformBuffer::TransformBuffer(const std::vector<StaticTransform>& transforms) {
+TransformBuffer::TransformBuffer(const std::vector<StaticTransform>& transforms,
+                                 const std::optional<NavSatDatum>& datum)
+    : plane_(datum ? std::make_shared<LocalPlane>(*datum) : nullptr) {
   const bool is_static = true;
   for (const StaticTransform& transform : transforms) {
     buffer_.setTransform(to_message(transform), "configuration", is_static);
@@ -65,6 +71,20 @@ void TransformBuffer::take(const tf2_msgs::TFMessage& message, bool is_static, S
     if (!is_static && is_far_ahead) continue;
     buffer_.setTransform(transform, "tf", is_static);
   }
+}
+
+void TransformBuffer::clear() {
+  buffer_.clear();
+  if (plane_ != nullptr) plane_->forget_stamp();
+}
+
+std::string TransformBuffer::datum_text() const {
+  const std::optional<GeodeticPosition> datum = plane_ == nullptr ? std::nullopt : plane_->datum();
+  if (!datum) return "";
+  std::array<char, 96> text{};
+  std::snprintf(text.data(), text.size(), "[%.9f, %.9f, %.4f]", datum->latitude, datum->longitude,
+                datum->altitude);
+  return text.data();
 }
 
 std::optional<Eigen::Isometry3d> TransformBuffer::find(const std::string& target,

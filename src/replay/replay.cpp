@@ -45,17 +45,18 @@ class Replay {
         options_(options),
         runtime_(config),
         bags_(options.bags),
-        transforms_(std::make_shared<TransformBuffer>(config.static_transforms)) {
+        transforms_(std::make_shared<TransformBuffer>(config.static_transforms, config.navsat)) {
     channels_ = bind_channels(config, bags_, transforms_, options.may_lack_input);
     if (has_frames(config)) transform_topics_ = {bags_.name_of("/tf"), bags_.name_of("/tf_static")};
     for (const BagChannel& bound : channels_) {
       intakes_.emplace_back(
           bound.channel, bound.source,
           [this](const EventChannel& channel, const Event& event, Reading reading,
-                 const std::string& missing) { handle(channel, event, reading, missing); });
+                 const std::string& missing) { return handle(channel, event, reading, missing); });
     }
     if (!options.truth_topic.empty()) {
-      truth_ = truth_from_topic(config, bags_, options.truth_topic, options.truth_fields);
+      truth_ =
+          truth_from_topic(config, bags_, options.truth_topic, options.truth_fields, transforms_);
     } else if (options.thinning) {
       truth_ = truth_from_samples(config, channels_, transforms_);
     }
@@ -105,6 +106,7 @@ class Replay {
     ReplaySummary summary = recorder_->summary();
     summary.bag = name_of(options_.bags);
     summary.observer = config_.type;
+    summary.datum = transforms_->datum_text();
     summary.bag_seconds = view.size() > 0 ? (view.getEndTime() - view.getBeginTime()).toSec() : 0.0;
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
     summary.wall_seconds = wall.count();
@@ -211,7 +213,7 @@ class Replay {
     return std::count(transform_topics_.begin(), transform_topics_.end(), topic) > 0;
   }
 
-  void handle(const EventChannel& channel, const Event& event, Reading reading,
+  bool handle(const EventChannel& channel, const Event& event, Reading reading,
               const std::string& missing) {
     const EventReport report = reading == Reading::kEvent
                                    ? runtime_.receive(event, *clock_)
@@ -234,6 +236,7 @@ class Replay {
       const auto sensor = static_cast<std::size_t>(event.sensor);
       comparison_->add_sample(sensor, event.stamp, event.values);
     }
+    return report.used();
   }
 
   /// Lets time pass as a live observer would see it: from one due estimate to the next, however

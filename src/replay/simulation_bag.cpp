@@ -18,7 +18,7 @@ SimulationSummary record_simulation(const Scenario& scenario, const std::string&
     topics.push_back(ros::names::resolve(channel.topic));
     summary.messages[topics.back()] = 0;
   }
-  const SimulatedMessages messages(simulator.channels());
+  const SimulatedMessages messages(simulator.channels(), scenario.navsat);
   BagWriter bag(path);
   ProgressBar progress("simulate", static_cast<std::size_t>(scenario.duration));
   while (const std::optional<SimulatedMessage> simulated = simulator.next()) {

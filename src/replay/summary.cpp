@@ -271,6 +271,7 @@ void print_table(const ReplaySummary& summary, std::ostream& out) {
   print_intervals(summary, out);
   print_innovations(summary, out);
   print_inputs(summary, out);
+  if (!summary.datum.empty()) out << "datum       " << summary.datum << "\n";
   out << "estimates   " << summary.estimates << ", the last";
   for (const auto& [name, value] : summary.final_state) out << " " << name << "=" << shown(value);
   out << "\n";
@@ -313,6 +314,7 @@ void write_json(const ReplaySummary& summary, const std::string& path) {
                                   {"silent_since", input.silent_since}};
   }
   json["latency"] = summary.latencies;
+  json["datum"] = summary.datum;
   json["estimates"] = summary.estimates;
   json["estimates_of_stale_inputs"] = summary.input_stale;
   json["diverged"] = !summary.diverged.empty();

@@ -110,6 +110,9 @@ struct ReplaySummary {
   std::map<std::string, double> latencies;
   std::vector<std::string> stamped_ahead;
 
+  /// The datum of the local plane, as a configuration has it; empty without.
+  std::string datum;
+
   std::size_t estimates = 0;
   /// How many of them rest on an input older than its timeout, and the stamp of the first [s].
   std::size_t input_stale = 0;

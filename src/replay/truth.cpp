@@ -59,20 +59,22 @@ std::function<bool(const rosbag::MessageInstance&, Stamp&, std::vector<double>&)
   config.min_interval = 0;
   const std::shared_ptr<MessageSource> source =
       make_message_source(config, transforms, std::move(definition));
-  return
-      [source](const rosbag::MessageInstance& instance, Stamp& stamp, std::vector<double>& values) {
-        const MessagePointer message = instantiate(*source, instance);
-        Event event;
-        if (source->read(message, to_stamp(instance.getTime()), event) != Reading::kEvent)
-          return false;
-        stamp = event.stamp;
-        values.assign(event.values, event.values + event.size);
-        return true;
-      };
+  return [source, transforms](const rosbag::MessageInstance& instance, Stamp& stamp,
+                              std::vector<double>& values) {
+    // A truth sets no datum.
+    if (transforms->plane() != nullptr && transforms->datum_text().empty()) return false;
+    const MessagePointer message = instantiate(*source, instance);
+    Event event;
+    if (source->read(message, to_stamp(instance.getTime()), event) != Reading::kEvent) return false;
+    stamp = event.stamp;
+    values.assign(event.values, event.values + event.size);
+    return true;
+  };
 }
 
 Truth truth_from_fields(const Plant& plant, const std::string& type,
                         const std::map<std::string, std::string>& fields,
+                        const std::shared_ptr<const TransformBuffer>& transforms,
                         std::shared_ptr<const MessageDefinition> definition) {
   Truth truth;
   TopicSource source;
@@ -88,21 +90,23 @@ Truth truth_from_fields(const Plant& plant, const std::string& type,
     throw ReplayError("--compare: expected STATE=FIELD for a truth of type " + type +
                       ", found nothing");
   }
-  truth.read = reader_of(source, nullptr, std::move(definition));
+  truth.read = reader_of(source, transforms, std::move(definition));
   return truth;
 }
 
 }  // namespace
 
 Truth truth_from_topic(const ObserverConfig& config, const BagSet& bags, const std::string& topic,
-                       const std::map<std::string, std::string>& fields) {
+                       const std::map<std::string, std::string>& fields,
+                       const std::shared_ptr<const TransformBuffer>& transforms) {
   const std::string name = bags.name_of(topic);
   const auto found = bags.topics().find(name);
   if (found == bags.topics().end()) throw ReplayError("--truth: the bag has no topic " + name);
   const std::string& type = found->second;
-  Truth truth = type == "sampled_data_observers/StateEstimate"
-                    ? truth_from_states(*config.plant, fields)
-                    : truth_from_fields(*config.plant, type, fields, bags.definition_of(name));
+  Truth truth =
+      type == "sampled_data_observers/StateEstimate"
+          ? truth_from_states(*config.plant, fields)
+          : truth_from_fields(*config.plant, type, fields, transforms, bags.definition_of(name));
   truth.topic = name;
   return truth;
 }

@@ -27,7 +27,8 @@ struct Truth {
 /// @param fields  state name to field path; empty, for a StateEstimate: every state by its name
 /// @throws ReplayError for a topic, state or field that does not exist.
 Truth truth_from_topic(const ObserverConfig& config, const BagSet& bags, const std::string& topic,
-                       const std::map<std::string, std::string>& fields);
+                       const std::map<std::string, std::string>& fields,
+                       const std::shared_ptr<const TransformBuffer>& transforms);
 
 /// The samples themselves as truth of what they measure, for a thinned replay of one sensor.
 /// @throws ReplayError when there are several sensors: their samples have different stamps.

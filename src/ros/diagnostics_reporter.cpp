@@ -65,7 +65,10 @@ DiagnosticsReporter::DiagnosticsReporter(const ros::NodeHandle& handle,
       window_(diagnosis_.subject().channels.size()),
       updater_(handle, private_handle, log_.name()) {
   updater_.setHardwareID("none");
-  updater_.add("estimates", [this](auto& status) { copy(diagnosis_.estimates(), status); });
+  updater_.add("estimates", [this](auto& status) {
+    copy(diagnosis_.estimates(), status);
+    if (!datum_.empty()) status.add("datum of the local plane", datum_);
+  });
   updater_.add("certificate", [this](auto& status) { copy(diagnosis_.certificate(), status); });
   for (std::size_t i = 0; i < window_.channels.size(); ++i) {
     updater_.add("events from " + diagnosis_.subject().channels[i].name,
@@ -110,6 +113,11 @@ void DiagnosticsReporter::note_other_gains(const ObserverConfig& config) {
 void DiagnosticsReporter::note_published_type(std::size_t channel, const std::string& type) {
   const std::lock_guard<std::mutex> lock(mutex_);
   diagnosis_.set_published_type(channel, type);
+}
+
+void DiagnosticsReporter::note_datum(const std::string& datum) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  datum_ = datum;
 }
 
 void DiagnosticsReporter::report(const ros::SteadyTimerEvent&) {

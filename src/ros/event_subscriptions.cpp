@@ -36,7 +36,7 @@ EventSubscriptions::EventSubscriptions(const ros::NodeHandle& handle, const Obse
       log_(std::move(log)),
       history_(config.options.history.history),
       statuses_(status_prototype(config.plant->max_outputs()), kStatusesHeld),
-      transforms_(std::make_shared<TransformBuffer>(config.static_transforms)),
+      transforms_(std::make_shared<TransformBuffer>(config.static_transforms, config.navsat)),
       messages_(event_channels(config).size(), kQueueLength),
       turn_(boost::make_shared<ActionCallback>([this] { use_next(); })),
       clock_(config.jump_back_tolerance) {
@@ -46,7 +46,9 @@ EventSubscriptions::EventSubscriptions(const ros::NodeHandle& handle, const Obse
   status_publisher_ = handle_.advertise<EventStatus>("events", kQueueLength);
 }
 
-void EventSubscriptions::start() {
+void EventSubscriptions::start(DatumReceiver take_datum) {
+  if (transforms_->plane() != nullptr) take_datum_ = std::move(take_datum);
+  tell_of_datum();
   for (const std::function<void()>& subscribe : subscribe_) subscribe();
   if (!ros::Time::isSimTime()) return;
   const bool once = true;
@@ -59,7 +61,7 @@ void EventSubscriptions::add(const EventChannel& channel) {
   const auto intake = std::make_shared<EventIntake>(
       channel, source,
       [this](const EventChannel& from, const Event& event, Reading reading,
-             const std::string& missing) { handle(from, event, reading, missing); });
+             const std::string& missing) { return handle(from, event, reading, missing); });
   const auto deliver = [this, source, index = channel.index](const MessagePointer& message,
                                                              Stamp receipt) {
     if (messages_.push({index, message, receipt, source->stamp_of(message, receipt)})) {
@@ -119,6 +121,14 @@ void EventSubscriptions::retry_waiting() {
   for (const auto& intake : intakes_) intake->retry(now);
 }
 
+void EventSubscriptions::tell_of_datum() {
+  if (!take_datum_) return;
+  const std::string datum = transforms_->datum_text();
+  if (datum.empty()) return;
+  log_.info("datum of the local plane: %s", datum.c_str());
+  std::exchange(take_datum_, nullptr)(datum);
+}
+
 /// Behind all that is in the callback queue now, so that timers and transforms have their turns.
 void EventSubscriptions::ask_for_turn() { handle_.getCallbackQueue()->addCallback(turn_); }
 
@@ -140,6 +150,7 @@ void EventSubscriptions::use_next() {
     const MessageQueue::Message& message = *next.message;
     const Stamp receipt = message.receipt > 0 ? message.receipt : now;
     intakes_[message.channel]->take(message.message, receipt, now);
+    tell_of_datum();
   }
   if (next.more) ask_for_turn();
 }
@@ -166,7 +177,7 @@ LogThrottle& EventSubscriptions::throttle_of(const EventChannel& channel,
   return throttles_[channel.index * kEventOutcomes + static_cast<std::size_t>(report.outcome)];
 }
 
-void EventSubscriptions::handle(const EventChannel& channel, const Event& event, Reading reading,
+bool EventSubscriptions::handle(const EventChannel& channel, const Event& event, Reading reading,
                                 const std::string& missing) {
   EventReport report;
   Stamp now = 0;
@@ -200,6 +211,7 @@ void EventSubscriptions::handle(const EventChannel& channel, const Event& event,
   }
   status_publisher_.publish(status);
   publication_.notice_event();
+  return report.used();
 }
 
 }  // namespace sampled_data_observers

@@ -92,7 +92,7 @@ void ObserverNodelet::start(const ConfigNode& tree, const ObserverConfig& config
       },
       log);
   publication_->start(config, log);
-  subscriptions_->start();
+  subscriptions_->start([this](const std::string& datum) { diagnostics_->note_datum(datum); });
   event_threads_.start();
   control_threads_.start();
   query_threads_.start();

@@ -50,7 +50,7 @@ void PlantSimulatorNodelet::onInit() {
       NodeLog(getName()).warn("%s", warning.c_str());
     }
     simulator_ = std::make_unique<Simulator>(scenario);
-    messages_ = std::make_unique<const SimulatedMessages>(simulator_->channels());
+    messages_ = std::make_unique<const SimulatedMessages>(simulator_->channels(), scenario.navsat);
     start();
   } catch (const std::exception& error) {
     NodeLog(getName()).fatal("not started: %s", error.what());

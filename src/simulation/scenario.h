@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "sampled_data_observers/config/navsat_config.h"
 #include "sampled_data_observers/config/topic_config.h"
 #include "sampled_data_observers/hybrid/time.h"
 #include "sampled_data_observers/plant/plant.h"
@@ -109,6 +110,8 @@ struct Scenario {
   std::vector<SensorScenario> sensors;
   std::vector<SignalScenario> signals;
   TopicSource jumps_source;
+  /// Where the local plane of satellite navigation is.
+  std::optional<NavSatDatum> navsat;
   /// Empty: the plant does not jump.
   std::optional<JumpScenario> jumps;
   /// What a person should know before it runs.

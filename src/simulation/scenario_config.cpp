@@ -368,6 +368,7 @@ Scenario read_scenario(const ConfigNode& tree, const PlantPluginLoader& load_plu
   ConfigSection root(tree, "");
   for (const char* key : kObserverKeys) root.has(key);
   Scenario scenario = ScenarioReader(root, load_plugin).read();
+  scenario.navsat = read_navsat(root);
   scenario.warnings = schedules_outside(scenario, read_sampling(root, *scenario.plant));
   root.finish();
   return scenario;

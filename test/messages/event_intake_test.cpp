@@ -48,6 +48,7 @@ class EventIntakeTest : public testing::Test {
               EXPECT_EQ("camera", from.name);
               const double value = reading == Reading::kEvent ? event.values[0] : 0.0;
               handled_.push_back({event.stamp, reading, value, missing});
+              return reading == Reading::kEvent;
             }};
   }
 

@@ -7,6 +7,7 @@
 
 #include "sampled_data_observers/config/config_node.h"
 #include "sampled_data_observers/config/frame_config.h"
+#include "sampled_data_observers/config/navsat_config.h"
 #include "sampled_data_observers/config/outputs_config.h"
 #include "sampled_data_observers/config/plant_config.h"
 #include "sampled_data_observers/config/topic_config.h"
@@ -38,6 +39,8 @@ struct ObserverConfig : RuntimeSetup {
   std::optional<OutputsConfig> outputs;
   /// Known without tf, and not overruled by it.
   std::vector<StaticTransform> static_transforms;
+  /// The origin of the local plane of satellite navigation, where there is one.
+  std::optional<NavSatDatum> navsat;
   /// Name of the theorem that guarantees something for these gains, and what; empty without a
   /// certificate that holds.
   std::string guarantee;

@@ -14,11 +14,12 @@ namespace sampled_data_observers {
 /// transforms are not known yet wait for them, aside, for a bounded time.
 class EventIntake {
  public:
-  /// Takes what became of a message. The event has a stamp and, where it is one, values that live
-  /// until the handler returns. The text says which transform is missing, for kNoTransform, is the
-  /// note of lose(), for kDropped, and is empty otherwise.
+  /// Takes what became of a message, and returns whether the estimate rests on it. The event has a
+  /// stamp and, where it is one, values that live until the handler returns. The text says which
+  /// transform is missing, for kNoTransform, is the note of lose(), for kDropped, and is empty
+  /// otherwise.
   using Handler =
-      std::function<void(const EventChannel&, const Event&, Reading, const std::string&)>;
+      std::function<bool(const EventChannel&, const Event&, Reading, const std::string&)>;
 
   /// @param channel  what the events are, and for how long their messages may wait
   /// @param source   that of the channel
@@ -48,6 +49,7 @@ class EventIntake {
   };
 
   Event make_event() const;
+  void hand_over(const Event& event, Reading reading);
   void drop(const MessagePointer& message, Stamp stamp);
   void drop(const Waiting& waiting) { drop(waiting.message, waiting.stamp); }
 

@@ -30,6 +30,7 @@ enum class Reading : std::uint8_t {
   kDropped,          ///< nothing: it was not read, since too many came
   kOtherDefinition,  ///< nothing: its publisher has another type, or another definition of it
   kMalformed,        ///< nothing: its bytes are no message of its type
+  kBeforeDatum,      ///< nothing: a fix from before the one that is the datum of the local plane
   kNoTransform  ///< nothing yet: the transform into a configured frame is not known; stamp is set
 };
 
@@ -78,6 +79,9 @@ class MessageSource {
   /// @param receipt  the event's stamp where the source is configured so
   /// @param event    of the kind that its channel has; a jump becomes a withdrawal where it is one
   virtual Reading read(const MessagePointer& message, Stamp receipt, Event& event) = 0;
+
+  /// Told that the event read last is used.
+  virtual void confirm() {}
 
   /// Writes which transform a message lacks (see write_pair()).
   /// @pre read() gave kNoTransform for it, and this stamp

@@ -4,12 +4,14 @@
 #include <tf2_msgs/TFMessage.h>
 
 #include <Eigen/Geometry>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "sampled_data_observers/config/frame_config.h"
+#include "sampled_data_observers/config/navsat_config.h"
 #include "sampled_data_observers/hybrid/time.h"
 
 namespace sampled_data_observers {
@@ -21,13 +23,17 @@ constexpr std::size_t kLongestPair = 144;
 /// allocates nothing.
 void write_pair(const std::string& from, const std::string& to, std::string& text);
 
+class LocalPlane;
+
 /// The transforms that are known: those of the configuration, and what came on /tf and /tf_static,
 /// of which it keeps the last 10 s. It is filled by whoever reads these topics, live or from a bag,
-/// so that both know the same.
+/// so that both know the same. And that from the earth into the local plane.
 class TransformBuffer {
  public:
   /// @param transforms  those of the configuration, which hold at every stamp
-  explicit TransformBuffer(const std::vector<StaticTransform>& transforms);
+  /// @param datum       of the local plane; nothing: there is none
+  explicit TransformBuffer(const std::vector<StaticTransform>& transforms,
+                           const std::optional<NavSatDatum>& datum = std::nullopt);
 
   /// Takes in transforms that arrive at `now`. Those of children that the configuration has
   /// transforms for are left out: it overrules the topics. So are moving ones from so far ahead
@@ -42,12 +48,20 @@ class TransformBuffer {
   std::optional<Eigen::Isometry3d> find(const std::string& target, const std::string& source,
                                         Stamp stamp) const;
 
-  /// Forgets all moving transforms.
-  void clear() { buffer_.clear(); }
+  /// Forgets all moving transforms, since time begins anew.
+  void clear();
+
+  /// The local plane; null where there is none. Sources whose fields are in it set its datum.
+  const std::shared_ptr<LocalPlane>& plane() const { return plane_; }
+
+  /// Its datum as a configuration has it, "[latitude, longitude, altitude]"; empty as long as there
+  /// is none.
+  std::string datum_text() const;
 
  private:
   tf2::BufferCore buffer_;
   std::set<std::string> configured_children_;
+  std::shared_ptr<LocalPlane> plane_;
 };
 
 }  // namespace sampled_data_observers

@@ -36,6 +36,9 @@ class DiagnosticsReporter {
   /// See Diagnosis::set_published_type(). For any thread that is not in a hurry.
   void note_published_type(std::size_t channel, const std::string& type);
 
+  /// Takes the datum of the local plane.
+  void note_datum(const std::string& datum);
+
  private:
   void report(const ros::SteadyTimerEvent&);
   void tell_of_guarantee();
@@ -45,6 +48,7 @@ class DiagnosticsReporter {
   StatisticsRecorder& recorder_;
   std::mutex mutex_;  ///< of the diagnosis
   Diagnosis diagnosis_;
+  std::string datum_;  ///< of the local plane; empty without
   RunStatistics window_;
   Stamp last_now_ = 0;
   bool was_suspended_ = false;

@@ -42,8 +42,12 @@ class EventSubscriptions {
   EventSubscriptions(const ros::NodeHandle& handle, const ObserverConfig& config,
                      SharedRuntime& runtime, EstimatePublication& publication, NodeLog log);
 
+  /// Takes the datum of the local plane, as a configuration has it.
+  using DatumReceiver = std::function<void(const std::string&)>;
+
   /// Subscribes. Events of before the first time of a simulated clock wait for it.
-  void start();
+  /// @param take_datum  called once, where there is a local plane, when its datum is known
+  void start(DatumReceiver take_datum);
 
  private:
   void add(const EventChannel& channel);
@@ -53,7 +57,8 @@ class EventSubscriptions {
   void answer(const MessageQueue::Drop& drop);
   void watch_clock(Stamp now);
   void retry_waiting();
-  void handle(const EventChannel& channel, const Event& event, Reading reading,
+  void tell_of_datum();
+  bool handle(const EventChannel& channel, const Event& event, Reading reading,
               const std::string& missing);
   LogThrottle& throttle_of(const EventChannel& channel, const EventReport& report);
 
@@ -69,6 +74,7 @@ class EventSubscriptions {
   MessagePool<EventStatus> statuses_;
   ros::Publisher status_publisher_;
   std::shared_ptr<TransformBuffer> transforms_;
+  DatumReceiver take_datum_;  ///< none where nothing is to be told any more
   /// One for each channel, in its order.
   std::vector<std::shared_ptr<EventIntake>> intakes_;
   std::vector<std::function<void()>> subscribe_;

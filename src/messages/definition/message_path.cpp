@@ -1,13 +1,30 @@
 #include "messages/definition/message_path.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <set>
+#include <utility>
 
 namespace sampled_data_observers {
 namespace {
 
-const char kQuaternion[] = "geometry_msgs/Quaternion";
+using Derived = MessageField::Derived;
+
+/// What follows from a message, by name.
+using DerivedFields = std::array<std::pair<const char*, Derived>, 3>;
+
+std::optional<DerivedFields> derived_from(const std::string& type) {
+  if (type == "geometry_msgs/Quaternion") {
+    return DerivedFields{
+        {{"roll", Derived::kRoll}, {"pitch", Derived::kPitch}, {"yaw", Derived::kYaw}}};
+  }
+  if (type == "sensor_msgs/NavSatFix") {
+    return DerivedFields{
+        {{"east", Derived::kEast}, {"north", Derived::kNorth}, {"up", Derived::kUp}}};
+  }
+  return std::nullopt;
+}
 
 constexpr std::size_t kMostDescribed = 150;
 constexpr int kMostLookedAt = 1000;  // a definition may hold many types within that hold nothing
@@ -34,11 +51,10 @@ class FieldSearch {
   explicit FieldSearch(const MessageDefinition& definition) : definition_(definition) {}
 
   std::optional<MessageField> find(const std::string& type, const std::string& text) {
-    if (type == kQuaternion) {
-      using Angle = MessageField::Angle;
-      if (text == "roll") return MessageField{path_, Angle::kRoll};
-      if (text == "pitch") return MessageField{path_, Angle::kPitch};
-      if (text == "yaw") return MessageField{path_, Angle::kYaw};
+    if (const std::optional<DerivedFields> derived = derived_from(type)) {
+      for (const auto& [name, field] : *derived) {
+        if (text == name) return MessageField{path_, field};
+      }
     }
     const std::vector<MessageMember>& members = definition_.members(type);
     for (std::size_t i = 0; i < members.size(); ++i) {
@@ -62,7 +78,7 @@ class FieldSearch {
     if (!is_plain(member.type)) {
       found = find(member.type, rest);
     } else if (rest.empty() && number_type(member.type)) {
-      found = MessageField{path_, MessageField::Angle::kNone};
+      found = MessageField{path_, Derived::kNone};
     }
     path_.pop_back();
     return found;
@@ -113,8 +129,9 @@ class FieldList {
       if (!is_plain(member.type)) add(member.type, name + ".");
       if (number_type(member.type)) add_name(name);
     }
-    if (type != kQuaternion) return;
-    for (const char* angle : {"roll", "pitch", "yaw"}) add_name(prefix + angle);
+    if (const std::optional<DerivedFields> derived = derived_from(type)) {
+      for (const auto& field : *derived) add_name(prefix + field.first);
+    }
   }
 
   void add_name(const std::string& name) {

@@ -31,13 +31,17 @@ struct PathStep {
 /// From a message to something within.
 using MessagePath = std::vector<PathStep>;
 
-/// A number that a message holds, or that follows from a quaternion in it.
+/// A number that a message holds, or that follows from a part of it: the angles from a
+/// geometry_msgs/Quaternion, the place in the local plane from a sensor_msgs/NavSatFix.
 struct MessageField {
-  enum class Angle : std::uint8_t { kNone, kRoll, kPitch, kYaw };
+  enum class Derived : std::uint8_t { kNone, kRoll, kPitch, kYaw, kEast, kNorth, kUp };
 
-  /// To the number, or to the quaternion.
+  /// To the number, or to that part.
   MessagePath path;
-  Angle angle = Angle::kNone;
+  Derived derived = Derived::kNone;
+
+  /// Whether it is a place in the local plane.
+  bool is_in_plane() const { return derived >= Derived::kEast; }
 };
 
 /// The field of a text such as "pose.orientation.yaw", "ranges.0" or "position.JOINT"; nothing

@@ -87,7 +87,7 @@ void MessageWriter::write_value(const std::string& type, const Views& views) {
 }
 
 void MessageWriter::write_quaternion(const Views& views) {
-  using Angle = MessageField::Angle;
+  using Derived = MessageField::Derived;
   double roll = 0.0;
   double pitch = 0.0;
   double yaw = 0.0;
@@ -95,9 +95,9 @@ void MessageWriter::write_quaternion(const Views& views) {
   std::array<double, 4> components{};
   for (const View& view : views) {
     const double value = view.item->number;
-    if (view.item->field.angle == Angle::kRoll) roll = value;
-    if (view.item->field.angle == Angle::kPitch) pitch = value;
-    if (view.item->field.angle == Angle::kYaw) yaw = value;
+    if (view.item->field.derived == Derived::kRoll) roll = value;
+    if (view.item->field.derived == Derived::kPitch) pitch = value;
+    if (view.item->field.derived == Derived::kYaw) yaw = value;
     if (view.ends()) continue;
     has_components = true;
     components.at(view.step().member) = value;
