@@ -121,6 +121,7 @@ ObserverConfig read_observer_config(const ConfigNode& tree, const PlantPluginLoa
   config.type = root.choice("observer", observer_types());
   const PlantConfig plant_config = read_plant(root, load_plugin);
   config.plant = plant_config.plant;
+  config.units = plant_config.units;
   const Plant& plant = *config.plant;
 
   // What does not depend on each other is read on, so that all faults are told at once.

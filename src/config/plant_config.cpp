@@ -102,12 +102,14 @@ class PlantReader {
     plant_.input_names = names_.u;
     plant_.integration = read_integration(section_);
     read_unit_norms();
+    ConfigSection units = section_.section_or_empty("units");
     complete_sets("jump_set", &PlantMode::jump_set);
     complete_sets("flow_set", &PlantMode::flow_set);
     section_.finish();
     if (sensors_.keys().empty()) throw root.error("sensors", "at least one sensor", "none");
     for (const std::string& name : sorted_keys(sensors_)) read_sensor(name);
     check_outputs_of_modes();
+    read_units(units);
     plant_.input_channels = read_input_channels(root, names_.u, sorted_keys(sensors_));
     require_bounded(variables_of(plant_) + biases_.size(), plant_.modes.size(), kMostVariables,
                     root, "plant");
@@ -116,7 +118,8 @@ class PlantReader {
   PlantConfig finish() {
     PlantDescription extended = with_bias_states(std::move(plant_), biases_);
     names_.x = extended.state_names;
-    return {std::make_shared<const Plant>(std::move(extended)), std::move(names_)};
+    return {std::make_shared<const Plant>(std::move(extended)), std::move(names_),
+            std::move(units_)};
   }
 
  private:
@@ -276,6 +279,21 @@ class PlantReader {
     }
   }
 
+  void read_units(ConfigSection& section) {
+    std::set<std::string> known(names_.x.begin(), names_.x.end());
+    known.insert(names_.u.begin(), names_.u.end());
+    for (const BiasState& bias : biases_) known.insert(bias.name);
+    for (const Sensor& sensor : plant_.sensors) known.insert(sensor.name);
+    for (const std::string& name : section.keys()) {
+      if (known.count(name) == 0) {
+        throw section.error(name, "the name of a state, an input or a sensor",
+                            "none that is called '" + name + "'");
+      }
+      units_[name] = section.text(name);
+    }
+    section.finish();
+  }
+
   void check_outputs_of_modes() const {
     for (const ConfigSection& outputs : outputs_of_modes_) outputs.finish();
   }
@@ -287,6 +305,7 @@ class PlantReader {
   CompiledPlant compiled_;
   std::vector<ConfigSection> outputs_of_modes_;
   std::vector<BiasState> biases_;
+  Units units_;
 };
 
 }  // namespace

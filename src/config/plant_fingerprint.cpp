@@ -15,7 +15,7 @@ namespace {
 
 using Skipped = std::set<std::string>;
 
-const Skipped kNotThePlant = {"integration", "jump_set", "flow_set"};
+const Skipped kNotThePlant = {"integration", "jump_set", "flow_set", "units"};
 const Skipped kNotTheMeasurement = {"gate", "sampling", "source"};
 
 /// In quotes; those within are doubled, so that no name can pass for several.

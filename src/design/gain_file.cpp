@@ -6,9 +6,9 @@
 #include <stdexcept>
 
 #include "certificate/proof_fingerprint.h"
-#include "design/csv.h"
 #include "design/written_values.h"
 #include "design/yaml_text.h"
+#include "files/csv.h"
 
 namespace sampled_data_observers {
 namespace {

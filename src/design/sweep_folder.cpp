@@ -18,7 +18,7 @@
 #include <thread>
 #include <utility>
 
-#include "design/csv.h"
+#include "files/csv.h"
 #include "files/output_file.h"
 
 namespace sampled_data_observers {

@@ -3,8 +3,8 @@
 #include <set>
 #include <utility>
 
-#include "design/csv.h"
 #include "design/yaml_text.h"
+#include "files/csv.h"
 
 namespace sampled_data_observers {
 namespace {

@@ -316,7 +316,7 @@ class Replay {
     const bool is_compared =
         truth.is_counted && comparison_->add_truth(truth.values, state, bounds);
     if (run_) {
-      run_->add_compared(truth.stamp, truth.values,
+      run_->add_compared(truth_estimate_, bounds.norm, truth.values,
                          comparison_->errors(truth.values, state, bounds), is_compared);
     }
     if (!is_compared || !neighbourhood_) return;

@@ -22,6 +22,7 @@
 #include "replay/report/beside_run.h"
 #include "replay/report/report_data.h"
 #include "replay/report/report_page.h"
+#include "replay/report/report_tables.h"
 
 namespace sdo = sampled_data_observers;
 
@@ -44,7 +45,10 @@ struct Arguments {
   std::string json;
   std::string plot;
   std::string report;
+  std::string tables;  // a folder
   std::vector<std::string> beside;
+
+  bool needs_record() const { return !report.empty() || !tables.empty(); }
 };
 
 std::map<std::string, std::string> parse_fields(const std::vector<std::string>& assignments) {
@@ -108,16 +112,22 @@ sdo::ReplayOptions options_of(const Arguments& arguments) {
   options.to = arguments.to.value_or(options.to);
   if (options.from > options.to) throw sdo::UsageError("--from", "must not be later than --to");
   if (!arguments.beside.empty() &&
-      (arguments.report.empty() || (options.truth_topic.empty() && !options.thinning))) {
-    throw sdo::UsageError("--beside", "needs --report and a truth, by --truth or --thin");
+      (!arguments.needs_record() || (options.truth_topic.empty() && !options.thinning))) {
+    throw sdo::UsageError("--beside", "needs --report or --csv, and a truth, by --truth or --thin");
   }
   std::vector<sdo::GivenFile> inputs = sdo::given_files("CONFIG", arguments.config);
   for (const std::string& path : arguments.beside) inputs.push_back({"--beside", path});
   for (const std::string& bag : options.bags) inputs.push_back({"BAG", bag});
-  sdo::refuse_overwriting(inputs, {{"--output", options.output},
-                                   {"--json", arguments.json},
-                                   {"--plot", arguments.plot},
-                                   {"--report", arguments.report}});
+  std::vector<sdo::GivenFile> outputs = {{"--output", options.output},
+                                         {"--json", arguments.json},
+                                         {"--plot", arguments.plot},
+                                         {"--report", arguments.report}};
+  if (!arguments.tables.empty()) {
+    for (const std::string& name : sdo::table_names()) {
+      outputs.push_back({"--csv", arguments.tables + "/" + name});
+    }
+  }
+  sdo::refuse_overwriting(inputs, outputs);
   return options;
 }
 
@@ -136,7 +146,7 @@ std::vector<Beside> configurations_beside(const Arguments& arguments) {
   return all;
 }
 
-void write_report(const Arguments& arguments, sdo::ReplayOptions options,
+void write_record(const Arguments& arguments, sdo::ReplayOptions options,
                   const sdo::ObserverConfig& config, const sdo::ReplaySummary& summary,
                   const sdo::RunRecord& record, const std::vector<Beside>& beside) {
   options.output.clear();
@@ -146,6 +156,8 @@ void write_report(const Arguments& arguments, sdo::ReplayOptions options,
     run.name = other.gains.substr(other.gains.rfind('/') + 1);
     run.summary = sdo::replay(other.config, options, &run.record);
   }
+  if (!arguments.tables.empty()) sdo::write_tables(arguments.tables, config, record, runs);
+  if (arguments.report.empty()) return;
   const nlohmann::json data = sdo::report_data(config, arguments.config, summary, record, runs);
   sdo::write_output(arguments.report, sdo::report_page(data));
 }
@@ -159,12 +171,12 @@ int replay(const Arguments& arguments) {
   const std::vector<Beside> beside = configurations_beside(arguments);
   sdo::RunRecord record;
   const sdo::ReplaySummary summary =
-      sdo::replay(config, options, arguments.report.empty() ? nullptr : &record);
+      sdo::replay(config, options, arguments.needs_record() ? &record : nullptr);
   sdo::print_table(summary, std::cout);
   if (!arguments.json.empty()) sdo::write_json(summary, arguments.json);
   if (!arguments.plot.empty()) sdo::draw_plot(summary, arguments.plot);
-  if (!arguments.report.empty()) {
-    write_report(arguments, options, config, summary, record, beside);
+  if (arguments.needs_record()) {
+    write_record(arguments, options, config, summary, record, beside);
   }
   if (summary.is_guarantee_broken()) return kGuaranteeBroken;
   return summary.diverged.empty() ? 0 : kDiverged;
@@ -209,6 +221,8 @@ void declare(Arguments& arguments, sdo::CommandLine& tool) {
   tool.option("--beside FILE...", arguments.beside,
               "Show in the report what this gain file would have done instead of that of CONFIG; "
               "may be given several times");
+  tool.option("--csv FOLDER", arguments.tables,
+              "Write what the report shows, as tables of comma-separated values, into this folder");
   tool.option("--json FILE", arguments.json, "Write the summary for machines into this file");
 }
 

@@ -120,6 +120,14 @@ TEST(PlantConfigTest, AnglesOfOrientationsAreAngularUnlessSaidOtherwise) {
                                    "[position.pitch, position.yaw]")));
 }
 
+TEST(PlantConfigTest, UnitsAreOfStatesInputsAndOutputs) {
+  const ObserverConfig plain = parse(kFormulas);
+  EXPECT_TRUE(plain.units.empty());
+  const std::string units = "  units: {x1: mV, u: A, s: V}\n  integration:";
+  const ObserverConfig config = parse(replaced(kFormulas, "  integration:", units));
+  EXPECT_EQ((Units{{"s", "V"}, {"u", "A"}, {"x1", "mV"}}), config.units);
+}
+
 TEST(PlantConfigTest, AffineOutputsAreSuchHoweverTheyAreWritten) {
   const auto output = [](const std::string& keys) {
     return parse(replaced(kAngles, "C: [[1, 0], [0, 1]]", keys)).plant->modes()[0].outputs[0];
@@ -219,6 +227,13 @@ TEST_P(BadPlantTest, IsRefusedWithAMessageThatHelps) {
 INSTANTIATE_TEST_SUITE_P(
     Faults, BadPlantTest,
     ::testing::Values(
+        BadPlant{kFormulas,
+                 {"  integration:",
+                  "  units: {x3: m}\n  integration:",
+                  {"test.yaml:10", "plant/units/x3", "a state, an input or a sensor", "'x3'"}}},
+        BadPlant{
+            kFormulas,
+            {"  integration:", "  units: {x1: [m]}\n  integration:", {"plant/units/x1", "a text"}}},
         BadPlant{kFormulas,
                  {"  integration:",
                   "  unit_norm: [x1, x2]\n  integration:",

@@ -26,6 +26,7 @@ TEST(PlantFingerprintTest, WhereThePlantJumpsIsNoPartOfWhatIsProved) {
     return plant_fingerprint(read_yaml_text("plant: " + plant + "\nsensors: {}\n", "test.yaml"));
   };
   EXPECT_EQ(of_plant("{A: [[-1]]}"), of_plant("{A: [[-1]], jump_set: [x], flow_set: [-x]}"));
+  EXPECT_EQ(of_plant("{A: [[-1]]}"), of_plant("{A: [[-1]], units: {x: m}}"));
   EXPECT_EQ(of_plant("{modes: {1: {A: [[-1]]}}}"),
             of_plant("{modes: {1: {A: [[-1]], jump_set: [x], flow_set: [-x]}}}"));
 }

@@ -5,7 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "design/csv.h"
+#include "files/csv.h"
 
 namespace sampled_data_observers {
 namespace {

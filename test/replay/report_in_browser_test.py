@@ -50,6 +50,8 @@ async function act() {
   say("linked", [...document.querySelectorAll("#states .value")].filter((value) => value.textContent !== "").length);
   plots[0].dispatchEvent(new MouseEvent("dblclick"));
   say("reset", range() === whole);
+  HTMLAnchorElement.prototype.click = function () { say("saved_" + this.download.split(".")[1], this.href.length); };
+  for (const button of document.querySelectorAll(".grid figure:first-child .export")) button.click();
   const select = document.querySelectorAll("#events select")[1];
   const count = () => document.querySelector("#events .filters .note").textContent.split(" of ")[0];
   say("all", count());
@@ -99,6 +101,7 @@ def main():
     assert int(results["charts"]) == int(results["painted"]) >= 14
     assert results["whole"] != results["zoomed"] and results["reset"] == "true"
     assert int(results["linked"]) >= 10
+    assert int(results["saved_png"]) > 5000 and int(results["saved_svg"]) > 2000
     assert int(results["all"]) > int(results["late"]) > 0
     assert results["switched"] == "true"
     return 0

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """The page of `replay --report`: report_test.py SIMULATE REPLAY"""
+import csv
 import math
 import os
 import re
@@ -18,7 +19,7 @@ TOOLS = {}
 
 # A cart far from the origin, whose position comes late and with a few outliers.
 CART = """
-plant: {states: [p, v], inputs: [u], A: [[0, 1], [0, 0]], B: [[0], [1]]}
+plant: {states: [p, v], inputs: [u], A: [[0, 1], [0, 0]], B: [[0], [1]], units: {p: m}}
 sensors: {position: {C: [[1, 0]], gate: {innovation: [1], recovery: {after: 2, action: accept}}, source: {topic: position}}}
 input: {topic: input}
 scenario:
@@ -139,6 +140,10 @@ class ReportTest(FolderTest):
         bounds = values_of(column["error_bound"]["low"])
         self.assertTrue(all(abs(error) <= bound for error, bound in zip(errors, bounds)))
         self.assertAlmostEqual(row["largest"], max(map(abs, errors)), delta=1e-6)
+        # Of one state, W is the square of its bound, and V that of the error.
+        for size, bound in ((data["lyapunov_bound"], column["bound"]), (data["lyapunov"], column["error"])):
+            for one, other in zip(values_of(size["low"]), values_of(bound["low"])):
+                self.assertAlmostEqual(one, other ** 2, delta=1e-5)
         # exp(-t) is twice what it is in the middle of three seconds ln 2 before.
         self.assertAlmostEqual(row["settled_within"], 2 * math.exp(-1.5), delta=0.02)
         self.assertAlmostEqual(row["settling_time"], 1.5 - math.log(2), delta=0.02)
@@ -174,7 +179,30 @@ class ReportTest(FolderTest):
         self.assertIn(", 1 times that", data["verdict"][-1]["text"])
         _, text = self.run_tool("replay", self.path("run.bag"), self.path("scenario.yaml"), self.path("observer.yaml"),
                                 "--beside", slow)
-        self.assertIn("--beside: needs --report and a truth", text)
+        self.assertIn("--beside: needs --report or --csv, and a truth", text)
+
+    def test_tables_hold_what_the_page_shows(self):
+        self.simulate(CART)
+        self.replay(OBSERVER, "--truth", "truth", "--csv", self.path("tables"))
+        data = self.report()
+        tables = {}
+        for name in os.listdir(self.path("tables")):
+            with open(os.path.join(self.path("tables"), name), encoding="utf-8", newline="") as file:
+                tables[name[:-len(".csv")]] = list(csv.DictReader(file))
+        self.near([float(row["stamp"]) for row in tables["estimates"]],
+                  stamps_of(data, data["estimate_times"]), 2e-6)
+        self.near([float(row["v"]) for row in tables["estimates"]], values_of(data["columns"][1]["estimate"]["low"]), 1e-6)
+        self.near([float(row["p_error"]) for row in tables["errors"]], values_of(data["columns"][0]["error"]["low"]), 1e-6)
+        self.near([float(row["norm"]) for row in tables["errors"]], values_of(data["norm"]["low"]), 1e-6)
+        self.assertEqual([row["reason"] for row in tables["events"]],
+                         [data["events"]["reasons"][i] for i in values_of(data["events"]["reason"])])
+        self.assertEqual(len(tables["samples"]), len(values_of(data["samples"][0]["times"])))
+        self.assertEqual([row["unit"] for row in tables["quantities"]], ["m", ""])
+        self.assertEqual([column["unit"] for column in data["columns"]], ["m", ""])
+        status, text = self.run_tool("replay", self.path("run.bag"), self.path("scenario.yaml"), self.path("observer.yaml"),
+                                     "--csv", self.write("file", ""))
+        self.assertEqual(status, 1)
+        self.assertIn("file", text)
 
     def test_jumps_and_angles(self):
         self.simulate(BOUNCING)
@@ -203,7 +231,8 @@ class ReportTest(FolderTest):
         self.assertEqual(len(re.findall("</script", page)), 2)
         self.assertNotIn("alert('no')</", page)
         self.assertIn("default-src 'none'", page)
-        self.assertIsNone(re.search(r"https?://|<link|<img|@import|url\(|innerHTML", page))
+        # A picture saved as SVG names its language, and parts of itself.
+        self.assertIsNone(re.search(r"https?://(?!www\.w3\.org/2000/svg)|<link|<img|@import|url\((?!#)|innerHTML", page))
 
     def test_a_report_is_no_input(self):
         self.simulate(CART)

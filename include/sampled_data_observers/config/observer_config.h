@@ -37,6 +37,8 @@ struct ObserverConfig : RuntimeSetup {
   std::optional<TopicSource> jumps;
   /// Set where the estimate is also given in standard messages.
   std::optional<OutputsConfig> outputs;
+  /// Of states, inputs and outputs, where they are named.
+  Units units;
   /// Known without tf, and not overruled by it.
   std::vector<StaticTransform> static_transforms;
   /// The origin of the local plane of satellite navigation, where there is one.

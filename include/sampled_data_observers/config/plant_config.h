@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 
@@ -15,12 +16,18 @@ namespace sampled_data_observers {
 /// Throws std::runtime_error with a message for the user where there is none.
 using PlantPluginLoader = std::function<std::shared_ptr<const PlantPlugin>(const std::string&)>;
 
+/// Units, as people read them ("m/s"), of states, inputs and the outputs of sensors, by name. A
+/// state and a sensor that share a name share the unit. Nothing is computed from them.
+using Units = std::map<std::string, std::string>;
+
 /// A plant and the names that formulas of the same configuration may use.
 struct PlantConfig {
   /// Never null.
   std::shared_ptr<const Plant> plant;
   /// Of the states, the inputs and the parameters with their values.
   ExpressionNames names;
+  /// As `plant/units` has them.
+  Units units = {};
 };
 
 /// Reads the sections `plant` and `sensors` of `root` (the latter but for each sensor's source).

@@ -113,10 +113,8 @@ nlohmann::json ThinnedSeries::times(const std::vector<Stamp>& stamps,
   return packed(first, time);
 }
 
-nlohmann::json ThinnedSeries::values(const std::vector<double>& values) const {
-  if (stride_ == 1) return {{"low", packed(values)}};
-  std::vector<double> low;
-  std::vector<double> high;
+ThinnedSeries::Bins ThinnedSeries::bins_of(const std::vector<double>& values) const {
+  Bins bins;
   for (std::size_t i = 0; i < values.size(); i += stride_) {
     const auto begin = values.begin() + static_cast<std::ptrdiff_t>(i);
     const auto end =
@@ -125,10 +123,27 @@ nlohmann::json ThinnedSeries::values(const std::vector<double>& values) const {
         std::all_of(begin, end, [](double value) { return std::isfinite(value); });
     const auto [least, largest] = std::minmax_element(begin, end);
     constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-    low.push_back(is_finite ? *least : kNone);
-    high.push_back(is_finite ? *largest : kNone);
+    bins.low.push_back(is_finite ? *least : kNone);
+    bins.high.push_back(is_finite ? *largest : kNone);
   }
-  return {{"low", packed(low)}, {"high", packed(high)}};
+  return bins;
+}
+
+nlohmann::json ThinnedSeries::values(const std::vector<double>& values) const {
+  if (stride_ == 1) return {{"low", packed(values)}};
+  const Bins bins = bins_of(values);
+  return {{"low", packed(bins.low)}, {"high", packed(bins.high)}};
+}
+
+nlohmann::json ThinnedSeries::sizes(const std::vector<double>& values) const {
+  const auto as_they_are = [](const std::vector<double>& all) {
+    std::vector<float> narrow(all.size());
+    std::transform(all.begin(), all.end(), narrow.begin(), narrowed);
+    return packed(narrow);
+  };
+  if (stride_ == 1) return {{"low", as_they_are(values)}};
+  const Bins bins = bins_of(values);
+  return {{"low", as_they_are(bins.low)}, {"high", as_they_are(bins.high)}};
 }
 
 }  // namespace sampled_data_observers

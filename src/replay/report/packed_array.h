@@ -52,7 +52,17 @@ class ThinnedSeries {
   /// {"low": packed, "high": packed}; with a stride of 1 no "high", which would be the same.
   nlohmann::json values(const std::vector<double>& values) const;
 
+  /// The same of sizes that a logarithmic axis shows: with single precision of each.
+  nlohmann::json sizes(const std::vector<double>& values) const;
+
  private:
+  /// The least and the largest value of each bin.
+  struct Bins {
+    std::vector<double> low;
+    std::vector<double> high;
+  };
+  Bins bins_of(const std::vector<double>& values) const;
+
   std::size_t stride_;
 };
 

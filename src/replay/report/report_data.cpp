@@ -9,6 +9,7 @@
 #include "replay/report/report_errors.h"
 #include "replay/report/report_events.h"
 #include "replay/report/report_samples.h"
+#include "replay/report/report_units.h"
 #include "replay/report/report_verdict.h"
 
 namespace sampled_data_observers {
@@ -52,8 +53,8 @@ PackedTime time_of(const RunRecord& record) {
 std::size_t stride_of(const RunRecord& record) {
   const std::size_t columns = record.columns.size();
   const std::size_t of_estimate =
-      2 + columns + record.estimates.bounds.size() + record.estimates.deviations.size();
-  const std::size_t of_compared = 3 + 4 * record.compared.truth.size();
+      3 + columns + record.estimates.bounds.size() + record.estimates.deviations.size();
+  const std::size_t of_compared = 4 + 4 * record.compared.truth.size();
   const std::size_t all =
       of_estimate * record.estimates.stamps.size() + of_compared * record.compared.stamps.size();
   // Of each bin, two values stay.
@@ -75,7 +76,8 @@ Json exceeded_of(const RunRecord::Compared& compared, std::size_t quantity,
   return {{"times", packed(stamps, time)}, {"values", packed(errors)}};
 }
 
-Json columns_of(const RunRecord& record, const PackedTime& time, std::size_t stride) {
+Json columns_of(const RunRecord& record, const Units& units, const PackedTime& time,
+                std::size_t stride) {
   const ThinnedSeries thinned(stride);
   Json columns = Json::array();
   for (std::size_t i = 0; i < record.columns.size(); ++i) {
@@ -83,6 +85,7 @@ Json columns_of(const RunRecord& record, const PackedTime& time, std::size_t str
     const Quantity& quantity = column.quantity;
     Json json = {{"name", quantity.name},
                  {"angular", quantity.angular},
+                 {"unit", unit_of(quantity, units)},
                  {"estimate", thinned.values(wrapped(quantity, record.estimates.values[i]))}};
     if (!record.estimates.bounds.empty()) {
       json["bound"] = thinned.values(record.estimates.bounds[i]);
@@ -130,7 +133,7 @@ Json runs_beside(const std::vector<BesideRun>& runs, const PackedTime& time) {
     all.push_back({{"name", run.name},
                    {"errors", error_table(run.summary, run.record)},
                    {"times", thinned.times(compared.stamps, time)},
-                   {"norm", thinned.values(compared.norms)}});
+                   {"norm", thinned.sizes(compared.norms)}});
   }
   return all;
 }
@@ -188,7 +191,7 @@ nlohmann::json report_data(const ObserverConfig& config, const std::vector<std::
       {"errors", error_table(summary, record)},
       {"beside", runs_beside(beside, time)},
       {"estimate_times", thinned.times(record.estimates.stamps, time)},
-      {"columns", columns_of(record, time, stride)},
+      {"columns", columns_of(record, config.units, time, stride)},
       {"changes", changes_of(record.estimates, time)},
       {"jumps", packed(jumps, time)},
       {"samples", samples_of(config, record, time)},
@@ -199,9 +202,15 @@ nlohmann::json report_data(const ObserverConfig& config, const std::vector<std::
   };
   if (!record.compared.stamps.empty()) {
     data["compared_times"] = thinned.times(record.compared.stamps, time);
-    data["norm"] = thinned.values(record.compared.norms);
-    data["norm_bound"] = thinned.values(record.compared.norm_bounds);
+    data["norm"] = thinned.sizes(record.compared.norms);
+    data["norm_bound"] = thinned.sizes(record.compared.norm_bounds);
+    if (!record.compared.lyapunov.empty()) {
+      data["lyapunov"] = thinned.sizes(record.compared.lyapunov);
+    }
     data["counted"] = counted_span(record.compared, time);
+  }
+  if (!record.estimates.lyapunov_bounds.empty()) {
+    data["lyapunov_bound"] = thinned.sizes(record.estimates.lyapunov_bounds);
   }
   return data;
 }

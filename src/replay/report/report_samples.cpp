@@ -81,6 +81,8 @@ nlohmann::json sensors_of(const ObserverConfig& config, const RunRecord& record,
                            {"T2", std::isinf(T2) ? nlohmann::json() : nlohmann::json(T2)}};
     std::vector<Stamp> stamps = record.sample_stamps[i];
     std::sort(stamps.begin(), stamps.end());
+    const auto unit = config.units.find(sensor.name);
+    json["unit"] = unit == config.units.end() ? "" : unit->second;
     json["sample_times"] = thinned.times(stamps, time);
     std::vector<double> intervals;
     for (std::size_t k = 1; k < stamps.size(); ++k) {

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "sampled_data_observers/observer/plant_observer.h"
 #include "sampled_data_observers/runtime/event_report.h"
 
 namespace sampled_data_observers {
 namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 bool has_stamp_to_show(EventOutcome outcome) {
   switch (outcome) {
@@ -69,7 +72,11 @@ void RunRecorder::add_estimate(const Estimate& estimate, const StateEstimate& me
   const auto size = static_cast<Eigen::Index>(message.state.size());
   const Eigen::Map<const Eigen::VectorXd> state(message.state.data(), size);
   const bool is_bounded = !message.error_bounds.empty();
-  if (is_bounded) kept.norm_bounds.push_back(message.error_bound);
+  if (is_bounded) {
+    kept.norm_bounds.push_back(message.error_bound);
+    kept.lyapunov_bounds.push_back(
+        ellipsoid_.read(estimate, message.error_bound) ? ellipsoid_.size() : kNone);
+  }
   kept.bounds.resize(is_bounded ? record_.columns.size() : 0);
   kept.deviations.resize(message.covariance.empty() ? 0 : record_.columns.size());
   for (std::size_t i = 0; i < record_.columns.size(); ++i) {
@@ -107,6 +114,7 @@ void RunRecorder::add_event(const Event& event, const EventReport& report,
   row.rewound = status.rewound;
   row.interval = static_cast<float>(status.interval);
   row.innovation = static_cast<float>(report.innovation);
+  row.nis = static_cast<float>(status.nis);
   record_.events.push_back(row);
 
   const bool is_measured = event.kind == EventKind::kSample || event.kind == EventKind::kOutput ||
@@ -136,10 +144,11 @@ void RunRecorder::add_values(const Event& event, EventOutcome outcome) {
   }
 }
 
-void RunRecorder::add_compared(Stamp stamp, const std::vector<double>& truth,
-                               const Comparison::Errors& errors, bool is_counted) {
+void RunRecorder::add_compared(const Estimate& estimate, double bound,
+                               const std::vector<double>& truth, const Comparison::Errors& errors,
+                               bool is_counted) {
   RunRecord::Compared& kept = record_.compared;
-  kept.stamps.push_back(stamp);
+  kept.stamps.push_back(estimate.stamp);
   kept.counted.push_back(is_counted);
   for (std::size_t i = 0; i < truth.size(); ++i) {
     kept.truth[i].push_back(truth[i]);
@@ -149,6 +158,25 @@ void RunRecorder::add_compared(Stamp stamp, const std::vector<double>& truth,
   }
   kept.norms.push_back(errors.norm);
   kept.norm_bounds.push_back(errors.norm_bound);
+  add_lyapunov(estimate, bound, errors);
+}
+
+void RunRecorder::add_lyapunov(const Estimate& estimate, double bound,
+                               const Comparison::Errors& errors) {
+  const Eigen::Index n = estimate.law->estimate_size();
+  // The first columns are the estimated states.
+  const auto begin = record_.columns.begin();
+  const bool knows_all = std::all_of(begin, begin + n, [](const RunRecord::Column& column) {
+    return column.compared.has_value();
+  });
+  if (!estimate.law->has_bound() || !knows_all) return;
+  Eigen::VectorXd error(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    error(i) = errors.values[*record_.columns[static_cast<std::size_t>(i)].compared];
+  }
+  const bool is_known = ellipsoid_.read(estimate, bound);
+  record_.compared.lyapunov.push_back(is_known ? ellipsoid_.share(error) * ellipsoid_.size()
+                                               : kNone);
 }
 
 }  // namespace sampled_data_observers

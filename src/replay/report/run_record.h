@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "replay/comparison.h"
+#include "replay/report/error_ellipsoid.h"
 #include "sampled_data_observers/config/observer_config.h"
 #include "sampled_data_observers/hybrid/event.h"
 #include "sampled_data_observers/runtime/estimator.h"
@@ -37,6 +38,8 @@ struct RunRecord {
     std::vector<std::vector<double>>
         deviations;                   ///< standard deviations; none without a covariance
     std::vector<double> norm_bounds;  ///< empty without a bound
+    /// W of the Lyapunov function (ErrorEllipsoid); empty without a bound, NaN where there is none.
+    std::vector<double> lyapunov_bounds;
     /// Jumps up to the stamp, those that nobody told of among them.
     std::vector<std::uint64_t> jumps;
     std::vector<int> modes;  ///< labels, of a switched plant; else empty
@@ -54,6 +57,8 @@ struct RunRecord {
     std::vector<std::vector<double>> hold_errors;  ///< of the last sample; NaN where there is none
     std::vector<double> norms;
     std::vector<double> norm_bounds;
+    /// V of the error, where all states are compared and there is a bound; NaN where there is none.
+    std::vector<double> lyapunov;
   } compared;
 
   /// What became of one event.
@@ -68,6 +73,7 @@ struct RunRecord {
     std::uint32_t rewound = 0;
     float interval = 0.0F;    ///< s
     float innovation = 0.0F;  ///< norm
+    float nis = 0.0F;         ///< normalized innovation squared; NaN without a covariance
   };
   std::vector<EventRow> events;
   std::vector<std::string> sources;
@@ -101,8 +107,9 @@ class RunRecorder {
   void add_estimate(const Estimate& estimate, const StateEstimate& message);
   void add_event(const Event& event, const EventReport& report, const EventStatus& status,
                  Stamp arrival);
-  void add_compared(Stamp stamp, const std::vector<double>& truth, const Comparison::Errors& errors,
-                    bool is_counted);
+  /// @param bound  on the norm of the estimate's error
+  void add_compared(const Estimate& estimate, double bound, const std::vector<double>& truth,
+                    const Comparison::Errors& errors, bool is_counted);
 
  private:
   /// Texts that were met before, and their positions in the record.
@@ -110,11 +117,13 @@ class RunRecorder {
   static std::size_t position(const std::string& name, Positions& known,
                               std::vector<std::string>& names);
   void add_values(const Event& event, EventOutcome outcome);
+  void add_lyapunov(const Estimate& estimate, double bound, const Comparison::Errors& errors);
 
   const ObserverConfig& config_;
   RunRecord& record_;
   Positions sources_;
   Positions reasons_;
+  ErrorEllipsoid ellipsoid_;
 };
 
 }  // namespace sampled_data_observers

@@ -19,7 +19,7 @@ function linearTicks(low, high, count) {
   for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; ++k) ticks.push(k * step);
   const decimals = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
   const isPlain = Math.max(Math.abs(low), Math.abs(high)) < 1e6 && step >= 1e-5;
-  const label = (value) => (isPlain ? value.toFixed(decimals).replace(/^-0(\.0*)?$/, "0")
+  const label = (value) => (Math.abs(value) < 1e-9 * step ? "0" : isPlain ? value.toFixed(decimals).replace(/^-0(\.0*)?$/, "0")
                                     : Number(value.toPrecision(8)).toExponential().replace("e+", "e"))
     .replaceAll("-", "−");
   return ticks.map((value) => ({value, label: label(value)}));

@@ -48,7 +48,10 @@ class Figure {
     this.canvas = element("canvas");
     this.plot = element("div", {className: "plot"}, this.canvas);
     this.plot.style.height = height + "px";
-    this.tools = element("span", {className: "tools"});
+    this.tools = element("span", {className: "tools"}, ...exportButtons(this));
+    this.title = title;
+    this.keys = [];  // layers with a key
+    this.sheet = null;  // what is drawn on instead of the canvas, while it is exported
     this.caption = element("figcaption", {}, element("strong", {textContent: title}));
     this.figure = element("figure", {}, this.caption, this.plot);
     this.canvas.setAttribute("role", "img");
@@ -62,6 +65,7 @@ class Figure {
 
   /** The context of a canvas as large as its place, cleared, with its size in CSS pixels. */
   prepare(canvas = this.canvas) {
+    if (this.sheet) return this.sheet;
     const ratio = devicePixelRatio || 1;
     const width = this.plot.clientWidth;
     const height = this.plot.clientHeight;
@@ -103,6 +107,7 @@ class Figure {
       drawSoon(this);
     });
     this.caption.append(key);
+    this.keys.push(layer);
   }
 }
 
@@ -219,7 +224,7 @@ class Chart extends Figure {
 
   /** A line where the pointer is, on each linked chart, and the values there. */
   drawCursor() {
-    if (!this.isInSight || !this.view) return;
+    if (!this.isInSight || !this.view || this.sheet) return;
     const {context} = this.prepare(this.overlay);
     const time = this.range.cursor;
     const isShown = time !== null && time >= this.view.from && time <= this.view.to;
@@ -250,10 +255,10 @@ function sortedValues(series, begin, end) {
   return values.sort((a, b) => a - b);
 }
 
-/** The least positive value, but not far below all but 5 % of them: few that are next to nothing do not set a logarithmic scale. */
+/** The least positive value, but not far below three quarters of them: errors next to nothing at samples do not set a logarithmic scale. */
 function lowerPart(series, begin, end) {
   const values = sortedValues(series, begin, end).filter((value) => value > 0);
-  return values.length > 0 ? Math.max(values[0], 0.01 * values[Math.floor(0.05 * values.length)]) : Infinity;
+  return values.length > 0 ? Math.max(values[0], 1e-3 * values[Math.floor(0.25 * values.length)]) : Infinity;
 }
 
 /** What a layer other than a band asks of the scale of values. */

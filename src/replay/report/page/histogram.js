@@ -5,6 +5,7 @@ class Histogram extends Figure {
     super(title, height);
     Object.assign(this, {bins, marks, xLabel, fill});
     for (const mark of marks) this.addKey({kind: "level", ...mark});
+    this.caption.append(this.tools);
   }
 
   draw() {

@@ -41,6 +41,7 @@ verdictSection();
 errorsSection();
 statesSection();
 normSection();
+lyapunovSection();
 pathSection();
 hybridSection();
 innovationsSection();

@@ -14,7 +14,7 @@ function prepareRun() {
   run.range = new TimeRange(Math.min(...ends.map((times) => times[0])),
                             Math.max(...ends.map((times) => times[times.length - 1])));
   run.columns = data.columns.map((column) => {
-    const made = {name: column.name, angular: column.angular, exceeded: column.exceeded};
+    const made = {name: column.name, angular: column.angular, unit: column.unit, exceeded: column.exceeded};
     for (const key of ["estimate", "bound", "deviation"]) {
       if (column[key]) made[key] = new Series(run.estimateTimes, column[key]);
     }
@@ -28,7 +28,7 @@ function prepareRun() {
 /** An array of each property of events, as the page unpacks it once. */
 function unpackEvents(packed) {
   const events = {...packed, arrival: unpackTimes(packed.arrival)};
-  for (const key of ["latency", "source", "kind", "outcome", "reason", "interval", "check", "rewound", "innovation"]) {
+  for (const key of ["latency", "source", "kind", "outcome", "reason", "interval", "check", "rewound", "innovation", "nis"]) {
     events[key] = unpack(packed[key]);
   }
   return events;
@@ -36,6 +36,17 @@ function unpackEvents(packed) {
 
 const OUTCOME = {used: 0, usedLate: 1, gated: 11};
 const KIND = {input: 0, jump: 1, jumpOutput: 2, output: 4, sample: 5, withdrawal: 7};
+
+/** A name with its unit, where it has one. */
+function withUnit(name, unit) {
+  return unit ? `${name} [${unit}]` : name;
+}
+
+/** The unit of a norm over all that is compared; empty where they have none in common. */
+function unitOfNorm() {
+  const units = new Set(run.columns.filter((column) => column.error).map((column) => column.unit));
+  return units.size === 1 ? [...units][0] : "";
+}
 
 /** A section with a heading; the toolbar links to it. */
 function section(id, title, note = "", shortTitle = title) {
@@ -118,7 +129,7 @@ function stateChart(column, place) {
   layers.push(...samples.filter((layer) => layer.marker !== "cross"),
               {kind: "line", series: column.estimate, colour: "estimate", breaks, angular, label: "estimate"},
               ...samples.filter((layer) => layer.marker === "cross"));
-  return new Chart(column.name + (angular ? " [rad]" : ""), {range: run.range, layers});
+  return new Chart(withUnit(column.name, column.unit), {range: run.range, layers});
 }
 
 function errorChart(column) {
@@ -133,12 +144,12 @@ function errorChart(column) {
     layers.push({kind: "line", series: column.hold_error, colour: "hold", width: 1, isHidden: true,
                  label: "of the last sample held"});
   }
-  layers.push({kind: "line", series: column.error, colour: "error", label: "error x̂ − x"});
+  layers.push({kind: "line", series: column.error, colour: "error", breaks: run.jumps, label: "error x̂ − x"});
   const exceeded = {times: unpackTimes(column.exceeded.times), values: unpackValues(column.exceeded.values)};
   if (exceeded.times.length > 0) {
     layers.push({kind: "points", ...exceeded, marker: "cross", colour: "bad", label: "beyond its bound"});
   }
-  return new Chart("Error of " + column.name + (column.angular ? " [rad]" : ""), {range: run.range, layers});
+  return new Chart("Error of " + withUnit(column.name, column.unit), {range: run.range, layers});
 }
 
 function statesSection() {
@@ -174,17 +185,33 @@ function normSection() {
   if (largest > -Infinity) {
     layers.push({kind: "line", series: bound, colour: "hold", width: 1.8, label: "guaranteed bound"});
   }
-  layers.push({kind: "line", series: norm, colour: "error", label: "norm of the error"});
+  layers.push({kind: "line", series: norm, colour: "error", breaks: run.jumps, label: "norm of the error"});
   data.beside.forEach((other, i) => {
     layers.push({kind: "line", series: new Series(unpackTimes(other.times), other.norm), width: 1.1,
                  colour: "series-" + ((i + 1) % 5), label: "with " + other.name});
   });
   const made = section("norm", "Norm of the error", "", "Norm");
-  grid(made, [new Chart("Norm of the error", {range: run.range, layers, log: true, hasLog: true, height: 260})]);
+  grid(made, [new Chart(withUnit("Norm of the error", unitOfNorm()), {range: run.range, layers, log: true, hasLog: true, height: 260})]);
+}
+
+/** The Lyapunov function of the certificate along the error, and the bound on it. */
+function lyapunovSection() {
+  if (!data.lyapunov_bound) return;
+  const bound = new Series(run.estimateTimes, data.lyapunov_bound);
+  if (bound.limits(0, bound.times.length)[1] === -Infinity) return;
+  const layers = [...modesLayer(), ...jumpsLayer(),
+                  {kind: "line", series: bound, colour: "hold", width: 1.8, label: "W"}];
+  if (data.lyapunov) {
+    layers.push({kind: "line", series: new Series(run.comparedTimes, data.lyapunov), colour: "error",
+                 label: "V(x − x̂)"});
+  }
+  const made = section("lyapunov", "Lyapunov function", "The certificate proves V(x − x̂) ≤ W: the error lies in an "
+    + "ellipsoid. V and W are scaled so that W is the mean square of its semi-axes.", "Lyapunov");
+  grid(made, [new Chart("V along the error, and W", {range: run.range, layers, log: true, hasLog: true, height: 260})]);
 }
 
 function innovationsSection() {
-  const {innovation, source, outcome, arrival, latency} = run.events;
+  const {innovation, nis, source, outcome, arrival, latency} = run.events;
   const times = arrival.map((time, i) => time - latency[i]);
   const charts = data.events.sources.flatMap((name, place) => {
     const used = [];
@@ -198,12 +225,20 @@ function innovationsSection() {
       pointsLayer(times, innovation, notUsed, {label: "gated or without effect", colour: "gated", marker: "cross"}),
     ].filter((layer) => layer.times.length > 0);
     if (points.length === 0) return [];
-    const layers = [...modesLayer(), ...jumpsLayer(), ...points];
-    return [new Chart(`${name}: |y − h(x̂)|`, {range: run.range, layers, hasLog: true})];
+    const unit = data.sensors.find((sensor) => sensor.name === name)?.unit;
+    const made = [new Chart(withUnit(`${name}: |y − h(x̂)|`, unit),
+                            {range: run.range, layers: [...modesLayer(), ...jumpsLayer(), ...points], hasLog: true})];
+    const normalized = [...used, ...notUsed].filter((i) => Number.isFinite(nis[i]));
+    if (normalized.length > 0) {
+      const layer = pointsLayer(times, nis, normalized, {label: "normalized innovation squared", colour: "deviation", marker: "dot"});
+      made.push(new Chart(`${name}: NIS`, {range: run.range, layers: [...modesLayer(), ...jumpsLayer(), layer], log: true, hasLog: true}));
+    }
+    return made;
   });
   if (charts.length === 0) return;
   grid(section("innovations", "Innovations",
-               "The norm of what each sample differed by from what the estimate expected, before it took effect."), charts);
+               "The norm of what each sample differed by from what the estimate expected, before it took effect; "
+               + "of a Kalman filter also the normalized innovation squared (NIS), whose mean is the number of outputs where Q and R are right."), charts);
 }
 
 function intervalsSection() {

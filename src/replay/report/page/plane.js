@@ -24,6 +24,7 @@ class Plane extends Figure {
     Object.assign(this, {range, curves, names});
     for (const curve of curves) this.addKey(Object.assign(curve, {kind: "line"}));
     range.listeners.push({shown: () => drawSoon(this), pointed: () => this.drawCursor()});
+    this.caption.append(this.tools);
     this.overlay = element("canvas");
     this.plot.append(this.overlay);
     this.plot.style.cursor = "default";
@@ -61,7 +62,7 @@ class Plane extends Figure {
 
   /** Where each curve is at the time under the pointer. */
   drawCursor() {
-    if (!this.isInSight || !this.view) return;
+    if (!this.isInSight || !this.view || this.sheet) return;
     const {context} = this.prepare(this.overlay);
     if (this.range.cursor === null) return;
     for (const curve of this.curves) {

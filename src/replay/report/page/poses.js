@@ -12,7 +12,7 @@ function pathSection() {
     curves.push({label: "estimate", colour: "estimate", width: 1.5, axes: columns.map((column) => column.estimate)});
     return curves;
   };
-  const names = present.map((column) => column.name);
+  const names = present.map((column) => withUnit(column.name, column.unit));
   const made = section("path", "Path", "In the span of time that the charts above show.");
   const charts = [new Plane("From above", {range: run.range, curves: curvesOf(present.slice(0, 2)), names})];
   if (present.length === 3) {
@@ -63,12 +63,12 @@ function hybridSection() {
   }
   curves.push({label: "estimate", colour: "estimate", width: 1.5,
                points: (range) => hybridPoints(column.estimate, range)});
-  const space = new Space("(t, j, x), drag to turn", {range: run.range, curves, names: ["t [s]", "j", column.name]});
+  const space = new Space("(t, j, x), drag to turn", {range: run.range, curves, names: ["t [s]", "j", withUnit(column.name, column.unit)]});
   const choice = element("select", {ariaLabel: "state"},
                          ...run.columns.map((each, i) => element("option", {value: String(i), textContent: each.name})));
   choice.addEventListener("change", () => {
     column = run.columns[Number(choice.value)];
-    space.names[2] = column.name;
+    space.names[2] = withUnit(column.name, column.unit);
     drawSoon(space);
   });
   space.tools.append(choice);

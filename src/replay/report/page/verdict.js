@@ -46,7 +46,8 @@ function errorsSection() {
   const body = element("tbody");
   for (const row of data.errors) {
     const ratio = row.hold_rmse > 0 ? row.rmse / row.hold_rmse : null;
-    const cells = [cell(row.name, "text"), cell(shortNumber(row.rmse))];
+    const unit = row.name === "norm" ? unitOfNorm() : run.columns.find((column) => column.name === row.name)?.unit;
+    const cells = [cell(withUnit(row.name, unit), "text"), cell(shortNumber(row.rmse))];
     if (isHeld) cells.push(cell(shortNumber(row.hold_rmse)), cell(shortNumber(ratio, 3), ratio === null ? "" : ratio < 1 ? "good" : "warning"));
     cells.push(cell(shortNumber(row.largest)), cell(row.settling_time === 0 ? "at once" : shortNumber(row.settling_time)), cell(shortNumber(row.settled_within)));
     if (isBounded) {

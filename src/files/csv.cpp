@@ -1,4 +1,4 @@
-#include "design/csv.h"
+#include "files/csv.h"
 
 #include <cstdio>
 #include <cstdlib>
