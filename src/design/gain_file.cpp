@@ -4,6 +4,7 @@
 #include <ostream>
 #include <sstream>
 #include <stdexcept>
+#include <vector>
 
 #include "certificate/proof_fingerprint.h"
 #include "design/written_values.h"
@@ -145,6 +146,34 @@ std::string with_proof_record(const std::string& text, const std::string& sectio
                                 record);
   }
   return out.str();
+}
+
+std::string abridged_gain_file(const std::string& text) {
+  constexpr std::size_t kMostLines = 6;
+  constexpr std::size_t kKept = 2;
+  constexpr std::size_t kMostBytes = 240;
+  std::string out;
+  std::vector<std::string> below;
+  const auto end_block = [&] {
+    const std::size_t kept = below.size() > kMostLines ? kKept : below.size();
+    for (std::size_t i = 0; i < kept; ++i) out += below[i];
+    if (kept < below.size()) {
+      out += "    # and " + std::to_string(below.size() - kept) + " lines more\n";
+    }
+    below.clear();
+  };
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    const bool is_below = line.compare(0, 4, "    ") == 0;
+    // Cut where a value ends: never inside a character of several bytes.
+    const std::size_t end = line.size() > kMostBytes ? line.rfind(',', kMostBytes) : line.npos;
+    if (end != line.npos) line = line.substr(0, end) + ", ...";
+    line += '\n';
+    if (!is_below) end_block();
+    (is_below ? below.emplace_back() : out) += line;
+  }
+  end_block();
+  return out;
 }
 
 void write_gain_file(const Design& design, const GainFileOrigin& origin, std::ostream& out) {

@@ -226,4 +226,19 @@ NamedMatrices LmiProgram::unpack(const std::vector<double>& x) const {
   return values;
 }
 
+std::vector<std::string> LmiProgram::describe_variables() const {
+  std::vector<std::string> lines;
+  for (std::size_t i = 0; i < variables_of_.size(); ++i) {
+    const Variable& variable = variables_of_[i];
+    const int last = i + 1 < variables_of_.size() ? variables_of_[i + 1].first : variables_;
+    std::string line = "x" + std::to_string(variable.first + 1);
+    if (last > variable.first + 1) line += " to x" + std::to_string(last);
+    line += ": " + variable.name + (variable.is_square ? "^2" : "") + ", " +
+            std::to_string(variable.rows) + " x " + std::to_string(variable.cols);
+    if (variable.is_symmetric) line += ", symmetric: its lower triangle";
+    lines.push_back(line);
+  }
+  return lines;
+}
+
 }  // namespace sampled_data_observers

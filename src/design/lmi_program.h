@@ -69,6 +69,9 @@ class LmiProgram {
   std::optional<AffineMatrix> compile_objective() const;
   /// The values of the named variables from those of the scalar ones.
   NamedMatrices unpack(const std::vector<double>& x) const;
+  /// The scalar variables in words, one named variable after the other, each column by column: "x1
+  /// to x3: P, 2 x 2, symmetric".
+  std::vector<std::string> describe_variables() const;
 
  private:
   struct Variable {

@@ -11,6 +11,8 @@
 #include <fstream>
 #include <iterator>
 #include <locale>
+#include <ostream>
+#include <sstream>
 #include <system_error>
 #include <thread>
 
@@ -47,8 +49,7 @@ class TemporaryFolder {
 };
 
 /// The SDPA sparse format; its F_0 has the opposite sign.
-void write_problem(const StandardForm& form, const std::string& file) {
-  std::ofstream out(file);
+void write_problem(const StandardForm& form, std::ostream& out) {
   out.imbue(std::locale::classic());
   out.precision(17);
   out << form.objective.size() << '\n' << form.blocks.size() << '\n';
@@ -72,6 +73,11 @@ void write_problem(const StandardForm& form, const std::string& file) {
       for (const auto& [at, value] : triangles[k]) write(k + 1, at.first, at.second, value);
     }
   }
+}
+
+void write_problem(const StandardForm& form, const std::string& file) {
+  std::ofstream out(file);
+  write_problem(form, out);
   out.close();
   if (!out) throw std::system_error(errno, std::generic_category(), file);
 }
@@ -151,6 +157,24 @@ SolverStatus status_of(const std::string& phase) {
 }
 
 }  // namespace
+
+std::string sdpa_problem(const LmiProgram& program, const SolverOptions& options) {
+  const std::vector<LmiProgram::Block> blocks = program.compile();
+  const StandardForm form = standard_form(program, blocks, options);
+  std::ostringstream out;
+  out << "* variables, column by column of each matrix\n";
+  for (const std::string& line : program.describe_variables()) out << "* " << line << '\n';
+  if (!program.has_objective()) {
+    out << "* x" << form.objective.size() << ": how far the solution is inside the strict blocks\n";
+  }
+  std::size_t number = 0;
+  for (const LmiProgram::Block& block : blocks) {
+    if (block.matrix.is_constant()) continue;  // left out, as in the standard form
+    out << "* block " << ++number << ": " << block.name << '\n';
+  }
+  write_problem(form, out);
+  return out.str();
+}
 
 LmiSolution solve_with_sdpa(const LmiProgram& program, double time_limit,
                             const SolverOptions& options) {

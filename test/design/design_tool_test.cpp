@@ -529,7 +529,10 @@ TEST_F(DesignTool, SaysThatTheOutputCannotBeWritten) {
 
 TEST_F(DesignTool, ComparesWithASecondSolverOnRequest) {
   const std::string plant = write("plant.yaml", oscillator());
-  const ToolRun missing = synthesize(plant, "--cross-check sdpa", "PATH=/nonexistent");
+  const ToolRun missing =
+      synthesize(plant, "--cross-check sdpa --sdpa " + path("design.dat-s"), "PATH=/nonexistent");
+  EXPECT_NE(read("design.dat-s").find("* x1 to x3: P1, 2 x 2, symmetric"), std::string::npos)
+      << read("design.dat-s").substr(0, 400);
   EXPECT_EQ(missing.status, 1);
   EXPECT_TRUE(missing.says("Debian's package sdpa")) << missing.output;
   if (std::system("command -v sdpa >/dev/null") != 0) {

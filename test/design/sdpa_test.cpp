@@ -2,6 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <sstream>
+#include <string>
+#include <vector>
 
 #include "design/lmi_programs.h"
 #include "design/lmi_solver.h"
@@ -44,6 +47,20 @@ TEST_F(Sdpa, IsEndedAtItsTimeLimit) {
   const LmiSolution solution = solve_with_sdpa(low_pass(), 0.0);
   EXPECT_EQ(solution.status, SolverStatus::kTimedOut);
   EXPECT_TRUE(solution.values.empty());
+}
+
+TEST(SdpaProgram, IsWrittenWithTheNamesOfItsVariablesAndBlocks) {
+  std::istringstream lines(sdpa_problem(test::lyapunov(test::stable_plant())));
+  std::vector<std::string> comments;
+  std::string line;
+  while (std::getline(lines, line) && line.front() == '*') comments.push_back(line);
+  ASSERT_EQ(comments.size(), 6U);
+  EXPECT_EQ(comments[1], "* x1 to x3: P, 2 x 2, symmetric: its lower triangle");
+  EXPECT_EQ(comments[2], "* x4: how far the solution is inside the strict blocks");
+  EXPECT_EQ(comments[3], "* block 1: P > 0");
+  EXPECT_EQ(line, "4");  // variables; then blocks, of which the last bounds x4
+  std::getline(lines, line);
+  EXPECT_EQ(line, "4");
 }
 
 TEST(SdpaProgram, IsAskedForWhereItIsMissing) {

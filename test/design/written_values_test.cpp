@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "config/named_values.h"
+#include "design/gain_file.h"
 #include "sampled_data_observers/config/yaml_file.h"
 #include "support/config_faults.h"
 
@@ -54,6 +55,17 @@ TEST(WrittenValuesTest, StandBelowTheirKeys) {
                                "    gps:\n"
                                "      \"0\": [[0.3333333333333333], [-1e-300]]\n"))
       << written();
+}
+
+TEST(WrittenValuesTest, AreAbridgedForPeople) {
+  const std::string row = "    \"0\": [[1]]\n";
+  const std::string long_list(300, '1');
+  EXPECT_EQ(
+      "gains:\n  P:\n" + row + row + "    # and 5 lines more\n  nu: 1\n",
+      abridged_gain_file("gains:\n  P:\n" + row + row + row + row + row + row + row + "  nu: 1\n"));
+  EXPECT_EQ("  P:\n" + row + row + row, abridged_gain_file("  P:\n" + row + row + row));
+  EXPECT_EQ("  t: [0, ...\n", abridged_gain_file("  t: [0, " + long_list + "]\n"));
+  EXPECT_EQ("  t: " + long_list + "\n", abridged_gain_file("  t: " + long_list + "\n"));
 }
 
 TEST(WrittenValuesTest, AreReadAsTheSameNumbers) { EXPECT_EQ(some_values(), read(written())); }

@@ -6,18 +6,32 @@
 #include <iterator>
 
 #include "design/lmi_solver.h"
+#include "files/output_file.h"
 
 namespace sampled_data_observers {
 
-void cross_check(const DesignMethod& method, const Design& design, double time_limit) {
+namespace {
+
+/// @param option  that asks for it
+LmiProgram program_of(const DesignMethod& method, const Design& design, const char* option) {
   const auto* lmi = dynamic_cast<const LmiDesignMethod*>(&method);
   if (lmi == nullptr) {
-    throw DesignError("cross-check: " + method.name() + " is not one semidefinite program");
+    throw DesignError(option + (": " + method.name()) + " is not one semidefinite program");
   }
   // What was solved for the largest T2 or decay is whether a given one is feasible.
   const Objective objective =
       design.objective == Objective::kMinGamma ? Objective::kMinGamma : Objective::kFeasible;
-  const LmiProgram program = lmi->program(design.certificate.subject, design.parameters, objective);
+  return lmi->program(design.certificate.subject, design.parameters, objective);
+}
+
+}  // namespace
+
+void write_sdpa(const DesignMethod& method, const Design& design, const std::string& output) {
+  write_output(output, sdpa_problem(program_of(method, design, "sdpa")));
+}
+
+void cross_check(const DesignMethod& method, const Design& design, double time_limit) {
+  const LmiProgram program = program_of(method, design, "cross-check");
   const LmiSolution solutions[] = {solve_with_interior_point(program),
                                    solve_lmi(program, time_limit),
                                    solve_with_sdpa(program, time_limit)};

@@ -39,6 +39,7 @@ struct SynthesizeArguments {
   std::vector<std::string> searched;
   unsigned jobs = default_jobs();
   double time_limit = 20.0;
+  std::string sdpa;
   std::string cross_check;
 };
 
@@ -189,7 +190,8 @@ void print_how_to_run(const SynthesizeArguments& arguments, const DeclaredAssump
 }
 
 void synthesize_command(const SynthesizeArguments& arguments, const std::string& command_line) {
-  refuse_overwriting(given_files("PLANT", arguments.files), {{"--output", arguments.output}});
+  refuse_overwriting(given_files("PLANT", arguments.files),
+                     {{"--output", arguments.output}, {"--sdpa", arguments.sdpa}});
   const DesignConfig config = read_design_config(arguments.files, load_plant_plugin);
   const GainFileOrigin origin =
       origin_of(arguments.output, arguments.files.front(), config.plant_hash, command_line);
@@ -234,13 +236,17 @@ void synthesize_command(const SynthesizeArguments& arguments, const std::string&
     design.for_run_time = prove_for_run_time(design, assumed.assumptions, options);
   }
   const std::string text = save_gain_file(design, origin, arguments.output);
-  std::printf("%s\nwritten to %s after %zu attempt%s in %.1f s\n", text.c_str(),
+  std::printf("%s\nwritten to %s after %zu attempt%s in %.1f s\n", abridged_gain_file(text).c_str(),
               arguments.output.c_str(), design.attempts, design.attempts == 1 ? "" : "s",
               design.seconds);
   print_run_time_figures(design, assumed.assumptions);
   note_gains_near_their_bound(design);
   print_how_to_run(arguments, {config.noise, config.disturbance},
                    config.plant->outputs(SensorTiming::kContinuous) > 0);
+  if (!arguments.sdpa.empty()) {
+    write_sdpa(*find_design_method(design.method), design, arguments.sdpa);
+    std::printf("the semidefinite program is in %s\n", arguments.sdpa.c_str());
+  }
   if (!arguments.cross_check.empty()) {
     cross_check(*find_design_method(design.method), design, arguments.time_limit);
   }
@@ -275,6 +281,8 @@ void add_synthesize(CommandLine& tool, const std::string& command_line) {
       .check(whole_number_at_least(1));
   command.option("--time-limit SECONDS", arguments->time_limit, "For one attempt [s]")
       .check(number_at_least(0));
+  command.option("--sdpa FILE", arguments->sdpa,
+                 "Write the design's semidefinite program in the SDPA sparse format (.dat-s)");
   command
       .option("--cross-check sdpa", arguments->cross_check,
               "Solve the design's semidefinite program with a second solver, too, and compare the "
