@@ -22,8 +22,9 @@ class Page:
             elif not fenced:
                 yield number, line
 
-    def blocks(self, *languages):
-        """Pairs (line number, text) of fenced blocks in one of these languages, without their indentation."""
+    def blocks(self, *languages, with_language=False):
+        """Pairs (line number, text) of fenced blocks in one of these languages, without their indentation; or triples,
+        with the language in the middle."""
         start, language, indent, text = 0, None, 0, []
         for number, line in enumerate(self.lines, 1):
             fence = re.match(r'( *)```(\w*)', line)
@@ -31,7 +32,8 @@ class Page:
                 start, language, indent, text = number, fence.group(2), len(fence.group(1)), []
             elif fence:
                 if language in languages:
-                    yield start, '\n'.join(text) + '\n'
+                    content = '\n'.join(text) + '\n'
+                    yield (start, language, content) if with_language else (start, content)
                 language = None
             else:
                 text.append(line[indent:])
