@@ -30,8 +30,8 @@ std::string proof_record(const Certificate& certificate, std::size_t conditions)
 std::string with_proof_record(const std::string& text, const std::string& section,
                               const std::string& record);
 
-/// The text of a gain file for people to read: of more than six lines in a row below one key, such as the
-/// matrices at the nodes of a grid, the first two, and long lines cut.
+/// The text of a gain file for people to read: of more than six lines in a row below one key, such
+/// as the matrices at the nodes of a grid, the first two, and long lines cut.
 std::string abridged_gain_file(const std::string& text);
 
 }  // namespace sampled_data_observers

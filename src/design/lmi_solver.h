@@ -74,9 +74,9 @@ LmiSolution solve_with_csdp(const LmiProgram& program, const SolverOptions& opti
 LmiSolution solve_with_sdpa(const LmiProgram& program, double time_limit = 10.0,
                             const SolverOptions& options = {});
 
-/// The program in the SDPA sparse format, which most solvers of semidefinite programs read: minimize
-/// the first line of numbers times x such that Σ x_k F_k − F_0 is positive semidefinite, block by
-/// block. Comments at its head say which block is which condition.
+/// The program in the SDPA sparse format, which most solvers of semidefinite programs read:
+/// minimize the first line of numbers times x such that Σ x_k F_k − F_0 is positive semidefinite,
+/// block by block. Comments at its head say which block is which condition.
 std::string sdpa_problem(const LmiProgram& program, const SolverOptions& options = {});
 
 /// Solves with CSDP in a worker process of its own.
