@@ -7,7 +7,7 @@ import time
 
 from pages import ROOT
 
-LIVE = re.compile(r'\b(roslaunch|rostopic|rosservice|rosbag record|nodelet)\b')
+LIVE = re.compile(r'\b(roslaunch|rostopic|rosservice|rosbag record|nodelet|scripts/demo|scripts/test|apt)\b')
 NUMBER = re.compile(r'-?\d+(?:\.\d+)?(?:e[+-]?\d+)?')
 TOLERANCE = 0.03  # relative: solvers and compilers differ in last digits, and so do designs
 
