@@ -15,6 +15,10 @@ std::string read_frame(ConfigSection& section, const std::string& key) {
   return frame;
 }
 
+Duration read_timeout(ConfigSection& source) {
+  return from_seconds(source.number_in("tf_timeout", 0.0, kLongestWait, 0.5));
+}
+
 std::string read_optional_frame(ConfigSection& section, const std::string& key) {
   return section.has(key) ? read_frame(section, key) : "";
 }
@@ -47,7 +51,18 @@ SourceFrames read_source_frames(ConfigSection& source) {
   if (!frames.any() && source.has("tf_timeout")) {
     throw source.error("tf_timeout", "a frame or body_frame beside it", "none");
   }
-  frames.timeout = from_seconds(source.number_in("tf_timeout", 0.0, kLongestWait, 0.5));
+  frames.timeout = read_timeout(source);
+  return frames;
+}
+
+SourceFrames read_transform_frames(ConfigSection& source) {
+  SourceFrames frames;
+  frames.frame = read_frame(source, "frame");
+  frames.child_frame = read_frame(source, "child_frame");
+  if (frames.frame == frames.child_frame) {
+    throw source.error("child_frame", "another frame than " + frames.frame, "the same");
+  }
+  frames.timeout = read_timeout(source);
   return frames;
 }
 

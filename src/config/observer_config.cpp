@@ -91,6 +91,20 @@ RealTimeOptions read_real_time(ConfigSection& root) {
   return options;
 }
 
+/// An observer that measures what it publishes itself would believe in whatever it estimates.
+void require_no_loop(const ObserverConfig& config) {
+  if (!config.outputs || !config.outputs->transform) return;
+  const std::string& odom = config.outputs->transform->odom_frame;
+  const std::string& child = odom.empty() ? config.outputs->base_frame : odom;
+  for (const std::optional<TopicSource>& source : config.sensors) {
+    if (!source || source->frames.child_frame != child) continue;
+    if (source->frames.frame != config.outputs->world_frame) continue;
+    throw ConfigError(source->origin, source->path + "/child_frame",
+                      "a transform that others publish: outputs/tf publishes this one",
+                      "'" + child + "' in '" + source->frames.frame + "'");
+  }
+}
+
 /// What stands at the top and depends on nothing else.
 void read_settings(ConfigSection& root, ObserverConfig& config) {
   config.options.future_tolerance =
@@ -167,6 +181,7 @@ ObserverConfig read_observer_config(const ConfigNode& tree, const PlantPluginLoa
   config.law = assemble(config.law, config.plant, std::move(layers));
   config.outputs = read_outputs(root, {config.law->estimate_names(), config.plant->input_names()},
                                 config.frame_id, config.law->has_bound());
+  require_no_loop(config);
   if (config.jumps && config.jumps->detector) {
     config.jumps->detector->future_tolerance = config.options.future_tolerance;
     config.jumps->detector->jump_back_tolerance = config.jump_back_tolerance;

@@ -12,6 +12,8 @@ namespace {
 const char kMeasurementType[] = "sampled_data_observers/Measurement";
 const char kInputType[] = "sampled_data_observers/Input";
 const char kJumpType[] = "sampled_data_observers/JumpEvent";
+/// In place of a message type: the pose of a frame in another, as tf has it.
+const char kTransformType[] = "tf";
 
 const char kInputs[] = "inputs";
 /// Of sources of inputs: see read_input_channels().
@@ -24,8 +26,18 @@ constexpr double kLongestInterval = 1e6;  // s
 /// @param type  the package's own for this use, the default; empty: the key is required
 TopicSource read_source(ConfigSection& section, const std::string& topic, const std::string& type) {
   TopicSource source;
-  source.topic = topic.empty() ? section.text("topic") : section.text("topic", topic);
   source.type = type.empty() ? section.text("type") : section.text("type", type);
+  const bool is_transform = source.type == kTransformType;
+  if (is_transform) {
+    if (section.has("topic")) {
+      throw section.error("topic", "none: transforms come on /tf",
+                          "'" + section.text("topic") + "'");
+    }
+    source.topic = "/tf";
+    source.type = "tf2_msgs/TFMessage";
+  } else {
+    source.topic = topic.empty() ? section.text("topic") : section.text("topic", topic);
+  }
   for (const char* own : {kMeasurementType, kInputType, kJumpType}) {
     const bool is_signal = type.empty() && source.type != kJumpType;
     if (source.type == own && source.type != type && !is_signal) {
@@ -38,7 +50,7 @@ TopicSource read_source(ConfigSection& section, const std::string& topic, const 
     source.stamped_on_receipt = section.choice("stamp", {"header", "receipt"}) == "receipt";
   }
   source.stamp_offset = read_stamp_offset(section);
-  source.frames = read_source_frames(section);
+  source.frames = is_transform ? read_transform_frames(section) : read_source_frames(section);
   source.origin = section.origin();
   source.path = section.path();
   return source;

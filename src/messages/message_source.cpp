@@ -8,6 +8,7 @@
 #include "messages/definition/installed_definitions.h"
 #include "messages/detected_jumps.h"
 #include "messages/own_source.h"
+#include "messages/transform_source.h"
 
 namespace sampled_data_observers {
 namespace {
@@ -32,6 +33,9 @@ std::unique_ptr<MessageSource> make_plain_source(
   if (is_of<Measurement>(source)) return std::make_unique<OwnSource<Measurement>>(source);
   if (is_of<Input>(source)) return std::make_unique<OwnSource<Input>>(source);
   if (is_of<JumpEvent>(source)) return std::make_unique<OwnSource<JumpEvent>>(source);
+  if (source.frames.are_wanted_themselves()) {
+    return std::make_unique<TransformSource>(source, std::move(transforms));
+  }
   if (definition == nullptr) definition = definition_of(source);
   return std::make_unique<DecodedSource>(source, std::move(definition), std::move(transforms));
 }

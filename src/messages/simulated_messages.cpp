@@ -17,13 +17,22 @@ MessageEncoder::MessageEncoder(const TopicSource& source, const std::optional<Na
   plane_ = transforms->plane();
   definition_ = installed_definition(source.type);
   if (source.has_mode) add_field(source.mode);
-  for (const std::string& field : source.fields) add_field(field);
+  const bool is_transform = source.frames.are_wanted_themselves();
+  const std::string prefix = is_transform ? "transforms.0.transform." : "";
+  for (const std::string& field : source.fields) add_field(prefix + field);
   if (!fixes_.empty() && !plane_->datum()) {
     throw ConfigError(source.origin, source.path + "/fields",
                       "a navsat/datum of numbers, since nobody knows where the simulated plant is",
                       "datum: first_fix");
   }
-  const std::optional<MessagePath> header = find_header(*definition_);
+  std::optional<MessagePath> header = find_header(*definition_);
+  if (is_transform) {
+    const PathStep first{0, PathStep::Entry::kIndex, 0, ""};
+    header = path_to(*definition_, {first}, {"header"});
+    items_.push_back(
+        {{path_to(*definition_, {first}, {"child_frame_id"})}, MessageItem::Kind::kText});
+    items_.back().text = source.frames.child_frame;
+  }
   const auto add_at = [&](const MessagePath& from, const std::string& name,
                           MessageItem::Kind kind) {
     items_.push_back({{path_to(*definition_, from, {name})}, kind});

@@ -35,6 +35,19 @@ geometry_msgs::TransformStamped to_message(const StaticTransform& from) {
   return message;
 }
 
+std::optional<Eigen::Isometry3d> look_up(const tf2::BufferCore& buffer, const std::string& target,
+                                         const std::string& source, ros::Time time) {
+  if (source.empty() || target.empty() || !buffer.canTransform(target, source, time)) {
+    return std::nullopt;
+  }
+  const geometry_msgs::Transform transform = buffer.lookupTransform(target, source, time).transform;
+  const geometry_msgs::Quaternion& q = transform.rotation;
+  const geometry_msgs::Vector3& t = transform.translation;
+  Eigen::Isometry3d result(Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized());
+  result.translation() << t.x, t.y, t.z;
+  return result;
+}
+
 void append_name(const std::string& frame, std::string& text) {
   constexpr std::size_t kLongest = 70;
   if (frame.empty()) {
@@ -59,6 +72,7 @@ TransformBuffer::TransformBuffer(const std::vector<StaticTransform>& transforms,
   const bool is_static = true;
   for (const StaticTransform& transform : transforms) {
     buffer_.setTransform(to_message(transform), "configuration", is_static);
+    static_buffer_.setTransform(to_message(transform), "configuration", is_static);
     configured_children_.insert(transform.child_frame);
   }
 }
@@ -70,6 +84,7 @@ void TransformBuffer::take(const tf2_msgs::TFMessage& message, bool is_static, S
     const bool is_far_ahead = now > 0 && to_stamp(transform.header.stamp) > latest;
     if (!is_static && is_far_ahead) continue;
     buffer_.setTransform(transform, "tf", is_static);
+    if (is_static) static_buffer_.setTransform(transform, "tf", is_static);
   }
 }
 
@@ -92,14 +107,15 @@ std::optional<Eigen::Isometry3d> TransformBuffer::find(const std::string& target
                                                        Stamp stamp) const {
   const std::string from = without_slash(source);
   if (from == target) return Eigen::Isometry3d::Identity();
-  const ros::Time time = to_ros_time(stamp);
-  if (from.empty() || !buffer_.canTransform(target, from, time)) return std::nullopt;
-  const geometry_msgs::Transform transform = buffer_.lookupTransform(target, from, time).transform;
-  const geometry_msgs::Quaternion& q = transform.rotation;
-  const geometry_msgs::Vector3& t = transform.translation;
-  Eigen::Isometry3d result(Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized());
-  result.translation() << t.x, t.y, t.z;
-  return result;
+  return look_up(buffer_, target, from, to_ros_time(stamp));
+}
+
+std::optional<Eigen::Isometry3d> TransformBuffer::find_static(const std::string& target,
+                                                              const std::string& source) const {
+  const std::string from = without_slash(source);
+  const std::string to = without_slash(target);
+  if (from == to) return Eigen::Isometry3d::Identity();
+  return look_up(static_buffer_, to, from, ros::Time(0));
 }
 
 }  // namespace sampled_data_observers

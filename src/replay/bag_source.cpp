@@ -148,7 +148,9 @@ std::vector<BagChannel> bind_channels(const ObserverConfig& config, const BagSet
           (is_input ? " (where no input was ever sent, --no-input takes it as zero)" : "") +
           "; it has" + listed(topics));
     }
-    if (bound.is_recorded && found->second != channel.source.type) {
+    // That of the first tf has another name, and the same messages.
+    const bool is_transform = channel.source.frames.are_wanted_themselves();
+    if (bound.is_recorded && !is_transform && found->second != channel.source.type) {
       throw ReplayError(channel.source.origin + ": " + channel.source.path + ": expected " +
                         channel.source.type + " on " + bound.topic + ", found " + found->second +
                         " in the bag");

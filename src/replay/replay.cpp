@@ -142,24 +142,28 @@ class Replay {
     kept_.resize(channels_.size());
     next_.resize(channels_.size(), 0);
     if (!options_.thinning) return;
-    std::vector<std::vector<Stamp>> stamps(channels_.size());
+    std::vector<std::vector<std::optional<Stamp>>> stamps(channels_.size());
     // Sources remember what they read; those of the replay proper have read nothing yet.
+    const auto transforms =
+        std::make_shared<TransformBuffer>(config_.static_transforms, config_.navsat);
     std::vector<BagChannel> channels =
-        bind_channels(config_, bags_, transforms_, options_.may_lack_input);
+        bind_channels(config_, bags_, transforms, options_.may_lack_input);
     Event event;
     for (const rosbag::MessageInstance& instance : view) {
+      take_transforms_of(instance, *transforms);
       for (std::size_t i = 0; i < channels_.size(); ++i) {
         if (!is_thinned(i) || channels[i].topic != instance.getTopic()) continue;
-        channels[i].read(instance, event);
-        stamps[i].push_back(event.stamp);
+        const bool is_none = channels[i].read(instance, event) == Reading::kPassedOver &&
+                             channels[i].channel.source.frames.are_wanted_themselves();
+        stamps[i].push_back(is_none ? std::nullopt : std::optional<Stamp>(event.stamp));
       }
     }
     const ReplayOptions::Thinning& thinning = *options_.thinning;
     for (std::size_t i = 0; i < channels_.size(); ++i) {
       if (!is_thinned(i)) continue;
       const SamplingBounds times = thinning.times ? *thinning.times : times_to_thin_to(i);
-      kept_[i] = thin(stamps[i], times.T1, times.T2,
-                      thinning.seed + (thinning.times ? first_on_topic(i) : i));
+      kept_[i] = thin_among(stamps[i], times.T1, times.T2,
+                            thinning.seed + (thinning.times ? first_on_topic(i) : i));
     }
   }
 
@@ -186,10 +190,7 @@ class Replay {
   void take(const rosbag::MessageInstance& instance) {
     const Stamp now = to_stamp(instance.getTime());
     publish_due(now);
-    bool received = is_transform(instance.getTopic());
-    if (received) {
-      take_transforms(instance, instance.getTopic() == transform_topics_.back(), *transforms_);
-    }
+    bool received = take_transforms_of(instance, *transforms_);
     for (EventIntake& intake : intakes_) intake.retry(now);
     for (std::size_t i = 0; i < channels_.size(); ++i) {
       if (channels_[i].topic != instance.getTopic()) continue;
@@ -209,8 +210,12 @@ class Replay {
     if (instance.getTopic() == truth_.topic) compare(instance);
   }
 
-  bool is_transform(const std::string& topic) const {
-    return std::count(transform_topics_.begin(), transform_topics_.end(), topic) > 0;
+  /// Where the message holds some. Returns whether it does.
+  bool take_transforms_of(const rosbag::MessageInstance& instance, TransformBuffer& into) const {
+    const std::string& topic = instance.getTopic();
+    if (std::count(transform_topics_.begin(), transform_topics_.end(), topic) == 0) return false;
+    take_transforms(instance, topic == transform_topics_.back(), into);
+    return true;
   }
 
   bool handle(const EventChannel& channel, const Event& event, Reading reading,

@@ -33,4 +33,17 @@ std::vector<bool> thin(const std::vector<Stamp>& stamps, Duration T1, Duration T
   return kept;
 }
 
+std::vector<bool> thin_among(const std::vector<std::optional<Stamp>>& stamps, Duration T1,
+                             Duration T2, std::uint64_t seed) {
+  std::vector<Stamp> of_samples;
+  for (const std::optional<Stamp>& stamp : stamps) {
+    if (stamp) of_samples.push_back(*stamp);
+  }
+  const std::vector<bool> samples_kept = thin(of_samples, T1, T2, seed);
+  std::vector<bool> kept;
+  std::size_t next = 0;
+  for (const std::optional<Stamp>& stamp : stamps) kept.push_back(!stamp || samples_kept[next++]);
+  return kept;
+}
+
 }  // namespace sampled_data_observers

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "sampled_data_observers/hybrid/time.h"
@@ -16,5 +17,9 @@ namespace sampled_data_observers {
 /// @pre 0 < T1 <= T2
 std::vector<bool> thin(const std::vector<Stamp>& stamps, Duration T1, Duration T2,
                        std::uint64_t seed);
+
+/// The same of messages among which some are no samples: these stay.
+std::vector<bool> thin_among(const std::vector<std::optional<Stamp>>& stamps, Duration T1,
+                             Duration T2, std::uint64_t seed);
 
 }  // namespace sampled_data_observers

@@ -139,8 +139,10 @@ class ScenarioReader {
       throw ConfigError(source.origin, source.path + "/body_frame",
                         "none (no transforms are simulated)", "'" + source.frames.body_frame + "'");
     }
-    const auto [other, is_alone] = topics_.emplace(source.topic, source.is_of_own_type());
-    if (!is_alone && !(other->second && source.is_of_own_type())) {
+    // All that does not hold what a source is about is none of its own then.
+    const bool may_share = source.is_of_own_type() || source.frames.are_wanted_themselves();
+    const auto [other, is_alone] = topics_.emplace(source.topic, may_share);
+    if (!is_alone && !(other->second && may_share)) {
       throw ConfigError(source.origin, source.path + "/topic",
                         "a topic of its own: a message is simulated for each sensor and input, and "
                         "would hold nothing for the others",

@@ -56,5 +56,22 @@ TEST(ThinningTest, AGapIsFollowedByTheFirstSampleAfterIt) {
   EXPECT_TRUE(thin({}, 50, 100, 0).empty());
 }
 
+TEST(ThinningTest, WhatIsNoSampleStays) {
+  std::vector<std::optional<Stamp>> messages;
+  std::vector<Stamp> samples;
+  for (Stamp stamp = 1000; stamp < 2000; stamp += 10) {
+    messages.emplace_back(stamp);
+    messages.emplace_back(std::nullopt);
+    samples.push_back(stamp);
+  }
+  const std::vector<bool> kept = thin_among(messages, 50, 90, 3);
+  const std::vector<bool> expected = thin(samples, 50, 90, 3);
+  ASSERT_EQ(messages.size(), kept.size());
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    EXPECT_EQ(expected[i], kept[2 * i]);
+    EXPECT_TRUE(kept[2 * i + 1]);
+  }
+}
+
 }  // namespace
 }  // namespace sampled_data_observers

@@ -263,13 +263,28 @@ class ToolsTest(FolderTest):
                 ("{topic: pose, type: geometry_msgs/PoseStamped, fields: [pose.position.x]}",
                  "{topic: push, type: geometry_msgs/WrenchStamped, fields: [wrench.force.z]}"),
                 ("{topic: odometry, type: nav_msgs/Odometry, fields: [pose.pose.position.y], frame: map}",
-                 "{topic: joints, type: sensor_msgs/JointState, fields: [effort.motor]}")]):
+                 "{topic: joints, type: sensor_msgs/JointState, fields: [effort.motor]}"),
+                ("{type: tf, frame: map, child_frame: cart, fields: [translation.x]}",
+                 "{topic: push, type: geometry_msgs/WrenchStamped, fields: [wrench.force.z]}")]):
             scenario = self.write("standard.yaml", SCENARIO.replace("{topic: position}", source).replace(
                 "{topic: input}", topic))
             bag = self.path("standard%d.bag" % number)
             self.succeed("simulate", scenario, "-o", bag)
             self.assertEqual(own["final_state"],
                              self.replayed([bag], scenario, self.observer)["final_state"])
+
+    def test_simulated_fixes_are_read_back(self):
+        self.simulate()
+        own = self.replayed([self.path("run.bag")], self.scenario, self.observer)
+        scenario = self.write("fixes.yaml", SCENARIO.replace(
+            "{topic: position}", "{topic: fix, type: sensor_msgs/NavSatFix, fields: [east]}") +
+            "\nnavsat: {datum: [48.3, 16.4, 180]}\n")
+        self.succeed("simulate", scenario, "-o", self.path("fixes.bag"))
+        read = self.replayed([self.path("fixes.bag")], scenario, self.observer)
+        self.assertEqual("[48.300000000, 16.400000000, 180.0000]", read["datum"])
+        self.assertEqual(own["samples_used"], read["samples_used"])
+        for state, value in own["final_state"].items():
+            self.assertAlmostEqual(value, read["final_state"][state], 6)
 
     def wheel_type(self, definition):
         types = genpy.dynamic.generate_dynamic("my_msgs/Wheel", definition)

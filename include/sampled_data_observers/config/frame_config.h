@@ -19,13 +19,21 @@ struct SourceFrames {
   std::string sensor_frame;
   /// How long a message waits for transforms at its stamp.
   Duration timeout = 0;
+  /// Where the messages are transforms of tf: the frame whose pose in `frame` is wanted; else
+  /// empty.
+  std::string child_frame = {};
 
   /// Whether anything is to be transformed.
   bool any() const { return !frame.empty() || !body_frame.empty(); }
+  /// Whether the messages are transforms of tf.
+  bool are_wanted_themselves() const { return !child_frame.empty(); }
 };
 
 /// Reads `frame`, `body_frame`, `sensor_frame` and `tf_timeout` of a source.
 SourceFrames read_source_frames(ConfigSection& source);
+
+/// Reads `frame`, `child_frame` and `tf_timeout` of a source of transforms.
+SourceFrames read_transform_frames(ConfigSection& source);
 
 /// A transform that never changes.
 struct StaticTransform {

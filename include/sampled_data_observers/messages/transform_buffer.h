@@ -48,6 +48,11 @@ class TransformBuffer {
   std::optional<Eigen::Isometry3d> find(const std::string& target, const std::string& source,
                                         Stamp stamp) const;
 
+  /// The pose of frame `source` in frame `target` where both are rigidly attached to each other,
+  /// one and the same among them; nothing where that is not known (yet).
+  std::optional<Eigen::Isometry3d> find_static(const std::string& target,
+                                               const std::string& source) const;
+
   /// Forgets all moving transforms, since time begins anew.
   void clear();
 
@@ -60,6 +65,7 @@ class TransformBuffer {
 
  private:
   tf2::BufferCore buffer_;
+  tf2::BufferCore static_buffer_;  ///< of those that never move, alone
   std::set<std::string> configured_children_;
   std::shared_ptr<LocalPlane> plane_;
 };

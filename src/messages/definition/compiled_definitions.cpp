@@ -27,6 +27,7 @@
 #include <std_msgs/Header.h>
 #include <std_msgs/Int32.h>
 #include <std_msgs/Time.h>
+#include <tf2_msgs/TFMessage.h>
 
 #include <map>
 
@@ -59,7 +60,7 @@ const char* compiled_definition(const std::string& type) {
       sensor_msgs::Imu, sensor_msgs::JointState, sensor_msgs::LaserScan, sensor_msgs::MagneticField,
       sensor_msgs::NavSatFix, sensor_msgs::Range, std_msgs::Bool, std_msgs::Float32,
       std_msgs::Float64, std_msgs::Float64MultiArray, std_msgs::Header, std_msgs::Int32,
-      std_msgs::Time>();
+      std_msgs::Time, tf2_msgs::TFMessage>();
   const auto found = kDefinitions.find(type);
   return found == kDefinitions.end() ? nullptr : found->second;
 }
