@@ -57,8 +57,7 @@ class Page:
         for _, line in self.prose():
             heading = re.match(r'#+ +(.*)', line)
             if heading:
-                text = re.sub(r'\[([^]]*)\]\([^)]*\)', r'\1', heading.group(1)).lower()
-                anchor = re.sub(r'[^\w\- ]', '', text).strip().replace(' ', '-')
+                anchor = anchor_of(re.sub(r'\[([^]]*)\]\([^)]*\)', r'\1', heading.group(1)), '-')
                 count = found.get(anchor, 0)
                 found[anchor] = count + 1
                 yield anchor if count == 0 else f'{anchor}-{count}'
@@ -68,6 +67,11 @@ class Page:
         for number, line in self.prose():
             for target in re.findall(r'\]\(([^)\s]+)\)', re.sub(r'`[^`]*`', '``', line)):
                 yield number, target
+
+
+def anchor_of(heading, separator):
+    """The fragment of a heading, as GitHub makes it; scripts/site has MkDocs make the same."""
+    return re.sub(r'[^\w\- ]', '', heading.lower()).strip().replace(' ', separator)
 
 
 def all_pages():
