@@ -7,7 +7,10 @@ import time
 
 from pages import ROOT
 
-LIVE = re.compile(r'\b(roslaunch|rostopic|rosservice|rosbag record|nodelet|scripts/demo|scripts/test|apt)\b')
+LIVE = re.compile(r'\b(roslaunch|rostopic|rosservice)\b')
+NOT_FOLLOWED = re.compile(r'\b(scripts/demo|scripts/test)\b')  # the gate itself
+ASK_FOR = 12  # s, until a topic or a service must have answered
+KEEP_UP = 8  # s that a launch must last, or end by itself without a fault
 NUMBER = re.compile(r'-?\d+(?:\.\d+)?(?:e[+-]?\d+)?')
 TOLERANCE = 0.03  # relative: solvers and compilers differ in last digits, and so do designs
 
@@ -61,7 +64,7 @@ class Reader:
         self.folder = folder
         self.environment = dict(os.environ, ROS_MASTER_URI=f'http://localhost:{port}', ROS_HOSTNAME='localhost',
                                 ROS_HOME=os.path.join(folder, 'ros'))
-        self.launched = []
+        self.launched = None
         self.seconds = {}
         for name in ('scripts', 'config', 'doc', 'bench', 'test'):
             os.symlink(os.path.join(ROOT, name), os.path.join(folder, name))
@@ -78,14 +81,45 @@ class Reader:
                 os.makedirs(os.path.dirname(path), exist_ok=True)
                 with open(path, 'w', encoding='utf-8') as file:
                     file.write(text)
-            elif not LIVE.search(text):
+            elif LIVE.search(text):
+                faults += [f'{where}: {fault}' for fault in self.follow_live(text)]
+            elif not NOT_FOLLOWED.search(text):
                 began = time.monotonic()
                 status, output = self.run(setup + text)
                 self.seconds[where] = time.monotonic() - began
                 setup += ''.join(line + '\n' for line in text.split('\n') if re.match(r'source |\w+=', line))
                 if status:
                     faults.append(f'{where}: ended with status {status}:\n{text}{output[-2000:]}')
+        self.end_launch()
         return faults
+
+    def follow_live(self, text):
+        """The faults of a block of commands that take a ROS master: a launch goes on beside what follows, until the next one."""
+        for command in text.replace('\\\n', ' ').split('\n'):
+            if 'roslaunch' in command:
+                self.end_launch()
+                self.launched = subprocess.Popen(['bash', '-c', command], cwd=self.folder, env=self.environment, text=True,
+                                                 stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
+                                                 start_new_session=True)
+                try:
+                    if self.launched.wait(KEEP_UP):
+                        yield f'ended with status {self.launched.returncode}: {command}\n{self.launched.stdout.read()[-2000:]}'
+                except subprocess.TimeoutExpired:
+                    pass
+            elif command.strip():
+                _, output = self.run(f'timeout {ASK_FOR} {command.split("  #")[0]} | head -n 5')
+                if 'ERROR' in output or not output.strip():
+                    yield f'no answer to {command}\n{output}'
+
+    def end_launch(self):
+        """Ends what the last launch started."""
+        if self.launched and self.launched.poll() is None:
+            os.killpg(self.launched.pid, signal.SIGINT)
+            try:
+                self.launched.communicate(timeout=30)
+            except subprocess.TimeoutExpired:
+                os.killpg(self.launched.pid, signal.SIGKILL)
+        self.launched = None
 
     def run(self, script):
         """Exit status and output of a block of commands; any that fails ends it."""
