@@ -97,6 +97,10 @@ void require_subject(const Theorem& theorem, const CertificateSubject& subject) 
     throw std::invalid_argument(
         "it is about flows with one linear part A, not about plant/jacobian_vertices");
   }
+  if (subject.falls_at_events &&
+      (times_of_timers(subject).size() != 1 || !(times_of_timers(subject).front().T1 > 0.0))) {
+    throw std::invalid_argument("a function that falls at events (mu) is one of one timer, T1 > 0");
+  }
   theorem.require_applicable(subject);
 }
 

@@ -41,6 +41,9 @@ struct CertificateSubject {
   /// Of a theorem whose Lyapunov function depends on timers: values of each of them, from 0 to its
   /// longest time, its shortest among them, in increasing order [s].
   std::vector<std::vector<double>> timer_nodes = {};
+  /// Of such a theorem, of one timer: whether the function falls at events too, by the factor mu,
+  /// which is a parameter then.
+  bool falls_at_events = false;
   /// In a design, of each state's error in the final error: w of √Σ (w_i e_i)², one over the unit
   /// of the state. Empty: of the norm, and in its programs what the design finds fit.
   Eigen::VectorXd error_weights = {};
@@ -127,6 +130,9 @@ class Theorem {
 
   /// Whether it is about flows whose linear part is anywhere in a hull (flow_vertices).
   virtual bool takes_flow_vertices() const { return false; }
+
+  /// Whether it is about functions that fall at events too (falls_at_events).
+  virtual bool takes_fall_at_events() const { return false; }
 
   /// @throws std::invalid_argument saying why, for a plant or times [T1, T2] that it is not about.
   virtual void require_applicable(const CertificateSubject& subject) const = 0;

@@ -101,6 +101,7 @@ TimerDependentBound::TimerDependentBound(const TimerDependentFunction& function,
       longest_(std::move(longest)),
       weight_rounding_(weight_rounding_of(grid_)),
       rate_(2.0 * scalar_value(values, "lambda_t")),
+      fall_(function.falls_at_events() ? scalar_value(values, "mu") : 1.0),
       noise_(assumptions.noise),
       initial_error_(assumptions.initial_error),
       initial_injection_(assumptions.initial_injection),
@@ -285,6 +286,10 @@ double TimerDependentBound::largest_here(const std::vector<double>& of_nodes,
   return largest;
 }
 
+double TimerDependentBound::foreseen(std::size_t timer, double W) const {
+  return fall_ * W + nu_[timer] * square_of(noise_);
+}
+
 void TimerDependentBound::reset(std::size_t timer, double* state) const {
   const TensorGrid::Interpolation here = interpolation(state, 0.0);
   double mu = 0.0;
@@ -295,7 +300,7 @@ void TimerDependentBound::reset(std::size_t timer, double* state) const {
   }
   double after = square_of(std::sqrt(mu * state[kW]) + std::sqrt(rho) * noise_);
   if (time_of(timer, state) >= shortest_[timer]) {
-    after = std::min(after, state[kW] + nu_[timer] * square_of(noise_));
+    after = std::min(after, foreseen(timer, state[kW]));
   }
   const Node& lowest = nodes_[here.vertices.front()];
   if (!lowest.gain_rounding.empty()) {

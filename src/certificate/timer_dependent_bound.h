@@ -11,7 +11,8 @@
 namespace sampled_data_observers {
 
 /// The bound that a Lyapunov function V = eᵀ P(τ) e gives: W >= V with
-///   Ẇ = −2 λ W + γ² |w|² between events, W⁺ = W + ν_i |η_i|² at those of the timer i,
+///   Ẇ = −2 λ W + γ² |w|² between events, W⁺ = μ W + ν_i |η_i|² at those of the timer i (μ = 1
+/// unless the function falls at events),
 /// as the theorem has it, so that (x − x̂)(x − x̂)ᵀ <= W P(τ)⁻¹ in the entries of the state.
 ///
 /// Between nodes P(τ)⁻¹ is at most the mean of the inverses at the corners of the cell by the
@@ -59,6 +60,8 @@ class TimerDependentBound : public ErrorBound {
   double longest(std::size_t timer) const { return longest_[timer]; }
   /// 2 λ
   double rate() const { return rate_; }
+  /// W just after an event in time, as the theorem has it.
+  double foreseen(std::size_t timer, double W) const;
 
  private:
   /// What is known at a node.
@@ -93,6 +96,7 @@ class TimerDependentBound : public ErrorBound {
   double weight_rounding_ = 0.0;
   std::optional<LateFlow> late_flow_;
   double rate_ = 0.0;  // 2 λ
+  double fall_ = 1.0;  // the μ of the theorem
   double push_ = 0.0;  // γ² |w|²
   double noise_ = 0.0;
   double initial_error_ = 0.0;

@@ -17,11 +17,13 @@ MatrixExpression noise_level(const ErrorReset& reset) {
 
 TimerDependentFunction::TimerDependentFunction(ErrorSystem system, TensorGrid grid,
                                                std::vector<double> shortest,
-                                               std::optional<GainProducts> products)
+                                               std::optional<GainProducts> products,
+                                               bool falls_at_events)
     : system_(std::move(system)),
       grid_(std::move(grid)),
       shortest_(std::move(shortest)),
-      products_(std::move(products)) {}
+      products_(std::move(products)),
+      falls_at_events_(falls_at_events) {}
 
 bool TimerDependentFunction::is_foreseen(std::size_t timer, std::size_t node) const {
   return grid_.nodes(timer)[grid_.position(node, timer)] >= shortest_[timer];
@@ -108,11 +110,12 @@ MatrixExpression TimerDependentFunction::jump(std::size_t timer, std::size_t nod
   const ErrorReset& reset = system_.resets[timer];
   const Eigen::Index m = reset.C.rows();
   const MatrixExpression J = reset.J;
-  if (m == 0) return symmetric_blocks({{P(node), transpose(J) * after}, {after}});
+  const MatrixExpression before = falls_at_events_ ? symbol("mu") * P(node) : P(node);
+  if (m == 0) return symmetric_blocks({{before, transpose(J) * after}, {after}});
   const MatrixExpression P_K = products_ ? products_->P_K(timer, node) : after * reset.K(node);
   const MatrixExpression C = reset.C;
   return symmetric_blocks(
-      {{P(node), zeros(system_.size, m), transpose(J) * after - transpose(C) * transpose(P_K)},
+      {{before, zeros(system_.size, m), transpose(J) * after - transpose(C) * transpose(P_K)},
        {noise_level(reset), -transpose(P_K)},
        {after}});
 }

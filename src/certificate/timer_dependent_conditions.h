@@ -37,14 +37,18 @@ class TimerDependentFunction {
  public:
   /// @param shortest  of each timer [s]
   /// @param products  in place of the gains, where those are to be found; P_0 is P/0 then
-  /// @pre where several timers have T1 = 0, their gains are of that form
+  /// @param falls_at_events  whether V falls by the factor mu at events, the symbol of a number
+  /// @pre where several timers have T1 = 0, their gains are of that form; where V falls at events
+  ///   there is one timer with T1 > 0
   TimerDependentFunction(ErrorSystem system, TensorGrid grid, std::vector<double> shortest,
-                         std::optional<GainProducts> products = std::nullopt);
+                         std::optional<GainProducts> products = std::nullopt,
+                         bool falls_at_events = false);
 
   const ErrorSystem& system() const { return system_; }
   const TensorGrid& grid() const { return grid_; }
   /// Of each timer [s].
   const std::vector<double>& shortest() const { return shortest_; }
+  bool falls_at_events() const { return falls_at_events_; }
 
   /// Whether a reset may take place at a node.
   bool is_foreseen(std::size_t timer, std::size_t node) const;
@@ -61,7 +65,8 @@ class TimerDependentFunction {
   std::vector<NamedShape> shapes() const;
 
   /// P_k > 0, the flow at all corners of all cells, and the jumps at all nodes where they may be;
-  /// in the symbols of shapes(), of the gains, lambda_t, and gamma where there is a disturbance.
+  /// in the symbols of shapes(), of the gains, lambda_t, mu where V falls at events, and gamma
+  /// where there is a disturbance.
   std::vector<Condition> conditions() const;
 
   /// Those but for the jumps.
@@ -83,6 +88,7 @@ class TimerDependentFunction {
   TensorGrid grid_;
   std::vector<double> shortest_;
   std::optional<GainProducts> products_;
+  bool falls_at_events_;
 };
 
 }  // namespace sampled_data_observers

@@ -50,7 +50,6 @@ class JumpTimerMode {
     MatrixExpression map = reset.J;
     if (corrects) {
       map = map - MatrixExpression(K) * MatrixExpression(reset.C);
-      level_ = scalar_value(values, "nu/" + reset.name) * squared_norm(assumptions.noise);
     }
     for (const TimerDependentFunction& next : functions) {
       const Eigen::MatrixXd after = evaluate(next.P(0), values);
@@ -96,7 +95,7 @@ class JumpTimerMode {
   }
   /// As the theorem has it.
   double foreseen(const double* state) const {
-    return std::sqrt(raised(state[TimerDependentBound::kW] + level_));
+    return std::sqrt(raised(own_.foreseen(0, state[TimerDependentBound::kW])));
   }
   /// Where x stayed.
   double stayed(const double* state) const {
@@ -151,7 +150,6 @@ class JumpTimerMode {
   ModeMatrices plant_;
   TimerDependentBound own_;
   HeldOutput held_;
-  double level_ = 0.0;          // ν |η|²
   std::vector<Switch> into_;    // each mode
   std::vector<double> stayed_;  // ‖I‖ from the norm of P_k to that of P_0
   double moved_ = 0.0;          // |e|_P_0 of |e| = 1

@@ -1,5 +1,6 @@
 #include "certificate/timer_dependent_theorem.h"
 
+#include <cmath>
 #include <utility>
 
 #include "certificate/timer_dependent.h"
@@ -35,6 +36,7 @@ std::vector<std::string> TimerDependentTheorem::unlimited_multipliers(
 
 std::vector<NamedShape> TimerDependentTheorem::parameters(const CertificateSubject& subject) const {
   std::vector<NamedShape> all = {scalar_shape("lambda_t")};
+  if (subject.falls_at_events) all.push_back(scalar_shape("mu"));
   if (subject.plant.N.cols() > 0) all.push_back(scalar_shape("gamma"));
   return all;
 }
@@ -48,6 +50,10 @@ std::vector<Condition> TimerDependentTheorem::conditions(const CertificateSubjec
   }
   if (!has_grid) return all;
   for (const NamedShape& parameter : parameters(subject)) all.push_back(positive(parameter.name));
+  if (subject.falls_at_events) {
+    all.push_back(
+        {"mu < 1", MatrixExpression(1.0) - symbol("mu"), std::nullopt, Condition::Kind::kPositive});
+  }
   if (!subject.plant.is_linear() && subject.plant.vertices.empty()) {
     all.push_back({"lipschitz_constant >= 0", *subject.plant.lipschitz_constant, std::nullopt,
                    Condition::Kind::kNonNegative});
@@ -57,7 +63,17 @@ std::vector<Condition> TimerDependentTheorem::conditions(const CertificateSubjec
 }
 
 TimerDependentFunction TimerDependentTheorem::function(const CertificateSubject& subject) const {
-  return {error(subject), grid_of(subject), shortest_times(subject)};
+  return {error(subject), grid_of(subject), shortest_times(subject), std::nullopt,
+          subject.falls_at_events};
+}
+
+std::vector<GuaranteedFigure> TimerDependentTheorem::guaranteed_figures(
+    const CertificateSubject& subject, const NamedMatrices& values) const {
+  if (!subject.falls_at_events) return {};
+  // V falls by mu once in each T2, or more often.
+  const double at_events = -std::log(scalar_value(values, "mu")) / (2.0 * subject.T2);
+  return {{"rate of convergence by flow and events together [1/s]",
+           scalar_value(values, "lambda_t") + at_events}};
 }
 
 std::optional<TimerDependentFunction> timer_dependent_function(const Theorem& theorem,

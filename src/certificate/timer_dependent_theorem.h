@@ -17,10 +17,13 @@ class TimerDependentTheorem : public Theorem {
   std::vector<NamedShape> parameters(const CertificateSubject& subject) const override;
   std::string decay_parameter() const override { return "lambda_t"; }
   bool takes_flow_vertices() const override { return true; }
+  bool takes_fall_at_events() const override { return true; }
   bool is_homogeneous(const CertificateSubject& subject) const override {
     return subject.plant.N.cols() == 0;
   }
   std::vector<Condition> conditions(const CertificateSubject& subject) const override;
+  std::vector<GuaranteedFigure> guaranteed_figures(const CertificateSubject& subject,
+                                                   const NamedMatrices& values) const override;
 
   /// The function whose conditions these are.
   TimerDependentFunction function(const CertificateSubject& subject) const;

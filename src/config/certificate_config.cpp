@@ -32,7 +32,8 @@ void require_theorem_for_type(ConfigSection& root, const ConfigSection& section,
                       theorem.name() + ", which is about " + types.front());
 }
 
-CertificateSubject read_subject(ConfigSection& section, const Plant& plant) {
+CertificateSubject read_subject(ConfigSection& section, const Plant& plant,
+                                const Theorem& theorem) {
   CertificateSubject subject;
   const StatedErrorMaps stated = read_stated_error_maps(section, plant.states());
   try {
@@ -45,6 +46,7 @@ CertificateSubject read_subject(ConfigSection& section, const Plant& plant) {
   if (section.has("C_p")) subject.plant.C_p = section.matrix("C_p", -1, n);
   read_event_times(section, subject);
   read_timer_nodes(section, subject);
+  subject.falls_at_events = theorem.takes_fall_at_events() && section.has("mu");
   return subject;
 }
 
@@ -75,7 +77,7 @@ std::optional<CertificateConfig> read_certificate(ConfigSection& root, const Pla
   Certificate& certificate = config.certificate;
   certificate.theorem = &read_theorem(section);
   require_theorem_for_type(root, section, *certificate.theorem);
-  certificate.subject = read_subject(section, plant);
+  certificate.subject = read_subject(section, plant, *certificate.theorem);
   try {
     require_subject(*certificate.theorem, certificate.subject);
   } catch (const std::invalid_argument& fault) {

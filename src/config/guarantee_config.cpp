@@ -322,7 +322,10 @@ Guarantee read_guarantee(ConfigSection& root, const ConfigNode& tree, const Obse
   if (error) guarantee.warning = std::string("no guarantee and no error bound: ") + error->what();
   if (!root.has("error_assumptions")) return guarantee;
   require_bounded(root, config);
-  const CertificateConfig& basis = for_bound ? *for_bound : *claim;
+  // Proofs for the bound at run time take jumps at their stamps, and when they happen.
+  const bool takes_jumps_as_stamped = config.options.jump_stamp_error == 0 && !delays_jumps;
+  const bool is_by_other = for_bound && takes_jumps_as_stamped;
+  const CertificateConfig& basis = is_by_other ? *for_bound : *claim;
   ErrorAssumptions assumptions = read_assumptions(root, basis, config, guarantee);
   assumptions.jump_stamp_error = to_seconds(config.options.jump_stamp_error);
   if (error) return guarantee;
@@ -332,7 +335,7 @@ Guarantee read_guarantee(ConfigSection& root, const ConfigNode& tree, const Obse
   if (delays_jumps) {
     told += "; the error bound takes that in, and is of the size of a jump until its release";
   }
-  if (for_bound) told += std::string("; error bound by the proof in ") + kRunTimeCertificate;
+  if (is_by_other) told += std::string("; error bound by the proof in ") + kRunTimeCertificate;
   told += conditions_of_bound(*config.plant, law, config.options, guarantee.latency);
   return guarantee;
 }

@@ -106,9 +106,9 @@ class GivenGains : public DesignMethod {
         subject.error_weights.size() > 0 ? subject.error_weights : scaling.state, assumptions);
     if (!found.is_verified()) return found;
     const PlantScaling file = inverse_of(scaling);
-    ErrorAssumptions in_file = assumptions;
-    in_file.noise /= file.output(0);
-    in_file.disturbance /= file.disturbance;
+    const ErrorAssumptions in_file = final_error_assumptions(scaled(
+        theorem_, Parameters{{kNoise, assumptions.noise}, {kDisturbance, assumptions.disturbance}},
+        file));
     found.cost = final_error(theorem_, scaled(subject, file),
                              unscaled(theorem_, found.values, scaling), in_file);
     return found;
@@ -220,8 +220,9 @@ Design analyze(const AnalysisProblem& problem, const SynthesisOptions& options) 
   } catch (const std::invalid_argument& fault) {
     throw RequestError(theorem.name() + " is not for this plant: " + fault.what());
   }
+  const bool has_rate = problem.given.count(theorem.decay_parameter()) > 0;
   return solve_on_refined_cells(theorem, problem.subject, problem.objective, problem.assumptions,
-                                [&](const CertificateSubject& subject, const Design*) {
+                                has_rate, [&](const CertificateSubject& subject, const Design*) {
                                   AnalysisProblem on_grid = problem;
                                   on_grid.subject = subject;
                                   return analyze_on_grid(on_grid, options);
@@ -246,6 +247,9 @@ Design prove_final_error(const Design& design, const ErrorAssumptions& assumptio
       best.certificate = analysis.certificate;
       best.margin = analysis.margin;
       best.proved_conditions = analysis.proved_conditions;
+      for (const NamedShape& shape : theorem.parameters(analysis.certificate.subject)) {
+        best.parameters[shape.name] = scalar_value(analysis.certificate.values, shape.name);
+      }
     }
   } catch (const DesignError&) {
     // The proof at hand is the best.

@@ -140,7 +140,10 @@ class DesignSearch {
       const auto& default_value = parameter_named(as_given, parameter.name).default_value;
       if (own != given.end()) {
         choices.fixed[parameter.name] = own->second;
-      } else if (seeks_rate && parameter.name == method_.decay_parameter()) {
+      } else if (seeks_rate && parameter.name == "mu") {
+        choices.open.push_back({parameter.name, final_error_falls(problem_.accepts_slow)});
+      } else if (seeks_rate && !subject.falls_at_events &&
+                 parameter.name == method_.decay_parameter()) {
         choices.open.push_back({parameter.name, final_error_rates(subject, problem_.assumptions,
                                                                   problem_.accepts_slow)});
       } else if (parameter.search &&

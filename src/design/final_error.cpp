@@ -67,6 +67,10 @@ SearchRange final_error_rates(const CertificateSubject& subject,
   return {(may_be_slow ? 3e-4 : 0.05) / subject.T2, 3.0 / subject.T2, true};
 }
 
+SearchRange final_error_falls(bool accepts_slow) {
+  return {std::exp(-6.0), accepts_slow ? 0.995 : std::exp(-0.1), false};
+}
+
 bool has_bound_for(const Certificate& certificate, const ErrorAssumptions& assumptions) {
   try {
     const auto bound =
@@ -101,6 +105,7 @@ void minimize_final_error(LmiProgram& program, const Theorem& theorem,
   if (const auto function = timer_dependent_function(theorem, subject)) {
     Parameters all = parameters;
     all["lambda_t"] = scalar_value(fixed, "lambda_t");
+    if (subject.falls_at_events) all["mu"] = scalar_value(fixed, "mu");
     minimize_timer_dependent_level(program, *function, subject, weights, all,
                                    fixed.count("P/0") == 0);
   } else if (theorem.name() == "ferrante2016_theorem1") {
@@ -125,8 +130,8 @@ void minimize_timer_dependent_level(LmiProgram& program, const TimerDependentFun
       program.bound_above("least P", least, function.P(node));
     }
   }
-  // W of the bound ends at Σ ν_i |η_i|² / (1 − e^{−2 λ T1_i}) + γ² |w|² / (2 λ); here over |η|² or
-  // |w|².
+  // W of the bound ends at Σ ν_i |η_i|² / (1 − μ e^{−2 λ T1_i}), and of the disturbance, before the
+  // last event, at γ² |w|² / (2 λ) (1 − e^{−2 λ T2}) / (1 − μ e^{−2 λ T2}); here over |η|² or |w|².
   const double unit = assumptions.noise > 0.0 ? assumptions.noise : assumptions.disturbance;
   const auto squared = [](double x) { return x * x; };
   const double rate = 2.0 * parameters.at("lambda_t");
@@ -134,11 +139,19 @@ void minimize_timer_dependent_level(LmiProgram& program, const TimerDependentFun
   MatrixExpression level = 0.0;
   for (std::size_t timer = 0; timer < system.resets.size(); ++timer) {
     const double shortest = times[timer].T1 > 0.0 ? times[timer].T1 : times[timer].T2;
-    const double weight = squared(assumptions.noise / unit) / -std::expm1(-rate * shortest);
-    level = level + weight * symbol("nu/" + system.resets[timer].name);
+    const double fall = function.falls_at_events()
+                            ? 1.0 - parameters.at("mu") * std::exp(-rate * shortest)
+                            : -std::expm1(-rate * shortest);
+    level = level +
+            squared(assumptions.noise / unit) / fall * symbol("nu/" + system.resets[timer].name);
   }
   if (system.N.cols() > 0) {
-    level = level + (squared(assumptions.disturbance / unit) / rate) * square("gamma");
+    double push = squared(assumptions.disturbance / unit) / rate;
+    if (function.falls_at_events()) {
+      const double left = std::exp(-rate * subject.T2);
+      push *= (1.0 - left) / (1.0 - parameters.at("mu") * left);
+    }
+    level = level + push * square("gamma");
   }
   add_level(program, level, parameters);
 }

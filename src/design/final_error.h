@@ -29,6 +29,10 @@ ErrorAssumptions final_error_assumptions(const Parameters& parameters);
 SearchRange final_error_rates(const CertificateSubject& subject,
                               const ErrorAssumptions& assumptions, bool accepts_slow);
 
+/// Factors by which V falls at events among which the one of the least final error is searched for,
+/// where the function falls at them: likewise.
+SearchRange final_error_falls(bool accepts_slow);
+
 /// Whether the certificate gives a bound at run time under such assumptions.
 bool has_bound_for(const Certificate& certificate, const ErrorAssumptions& assumptions);
 
@@ -46,7 +50,7 @@ void minimize_final_error(LmiProgram& program, const Theorem& theorem,
                           const Eigen::VectorXd& weights, const Parameters& parameters);
 
 /// The same for any program that has the symbols of such a function as variables, or P fixed.
-/// @param parameters  with lambda_t
+/// @param parameters  with lambda_t, and mu where the function falls at events
 void minimize_timer_dependent_level(LmiProgram& program, const TimerDependentFunction& function,
                                     const CertificateSubject& subject,
                                     const Eigen::VectorXd& weights, const Parameters& parameters,

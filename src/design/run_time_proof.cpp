@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kWorthIt = 0.99;
 /// Enough for most gains, and few enough for a search over rates.
-constexpr int kCellsOfProof = 16;
+constexpr int kCellsOfProof = 32;
 
 double figure(const Certificate& certificate, const ErrorAssumptions& assumptions) {
   return has_bound_for(certificate, assumptions)
@@ -29,7 +29,7 @@ const Theorem* counterpart(const Design& design) {
   const Certificate& certificate = design.certificate;
   if (timer_dependent_function(*certificate.theorem, certificate.subject)) return nullptr;
   for (const char* name : {"timer_dependent_constant_gain", "timer_dependent_intersample_injection",
-                           "timer_dependent_sample_and_hold"}) {
+                           "timer_dependent_sample_and_hold", "timer_dependent_synchronized"}) {
     const Theorem* theorem = find_theorem(name);
     if (theorem->observer_types().front() == design.observer_type) return theorem;
   }

@@ -100,11 +100,16 @@ double cost_of(const Design& design, Objective objective, const ErrorAssumptions
   return 0.0;
 }
 
-}  // namespace
+/// Whether a function that falls at events, too, may prove a smaller final error: one whose fall in
+/// flow can count on T1 alone, where more of it is seen at events later than that.
+bool may_fall_at_events(const Theorem& theorem, const CertificateSubject& subject,
+                        Objective objective) {
+  return objective == Objective::kMinFinalError && theorem.takes_fall_at_events() &&
+         times_of_timers(subject).size() == 1 && 0.0 < subject.T1 && subject.T1 < subject.T2;
+}
 
-Design solve_on_refined_cells(const Theorem& theorem, const CertificateSubject& subject,
-                              Objective objective, const ErrorAssumptions& assumptions,
-                              const SolveOnGrid& solve) {
+Design solve_refined(const Theorem& theorem, const CertificateSubject& subject, Objective objective,
+                     const ErrorAssumptions& assumptions, const SolveOnGrid& solve) {
   const bool has_grid = a_function(theorem, subject).has_value();
   if (!has_grid || !subject.timer_nodes.empty()) return solve(subject, nullptr);
   std::optional<Design> best;
@@ -146,6 +151,42 @@ Design solve_on_refined_cells(const Theorem& theorem, const CertificateSubject& 
     if (failure) throw DesignError(*failure);
     return *best;
   }
+}
+
+}  // namespace
+
+Design solve_on_refined_cells(const Theorem& theorem, const CertificateSubject& subject,
+                              Objective objective, const ErrorAssumptions& assumptions,
+                              bool has_rate, const SolveOnGrid& solve) {
+  const auto refined = [&](const CertificateSubject& own) {
+    return solve_refined(theorem, own, objective, assumptions, solve);
+  };
+  if (has_rate || subject.falls_at_events || !may_fall_at_events(theorem, subject, objective)) {
+    return refined(subject);
+  }
+  CertificateSubject falling = subject;
+  falling.falls_at_events = true;
+  std::optional<Design> best;
+  std::optional<DesignError> failure;
+  std::size_t attempts = 0;
+  double seconds = 0.0;
+  for (const CertificateSubject& own : {subject, falling}) {
+    try {
+      Design found = refined(own);
+      attempts += found.attempts;
+      seconds += found.seconds;
+      if (!best ||
+          cost_of(found, objective, assumptions) < cost_of(*best, objective, assumptions)) {
+        best = std::move(found);
+      }
+    } catch (const DesignError& error) {
+      if (!failure) failure = error;
+    }
+  }
+  if (!best) throw DesignError(*failure);
+  best->attempts = attempts;
+  best->seconds = seconds;
+  return *best;
 }
 
 }  // namespace sampled_data_observers

@@ -13,10 +13,11 @@ using SolveOnGrid = std::function<Design(const CertificateSubject&, const Design
 /// Solves a problem of a theorem whose Lyapunov function depends on timers on a growing grid of
 /// them: from few cells on, those at which a condition is active are halved, until that gains less
 /// than 1 %, or the grid is so large that a program would take too long. Where the subject has
-/// timer_nodes, and for other theorems, it is solved once.
+/// timer_nodes, and for other theorems, it is solved once. For the least final error a function
+/// that falls at events is tried as well, unless the rate in flow is given (has_rate).
 /// @throws DesignError  of the finest grid, where none has a solution
 Design solve_on_refined_cells(const Theorem& theorem, const CertificateSubject& subject,
                               Objective objective, const ErrorAssumptions& assumptions,
-                              const SolveOnGrid& solve);
+                              bool has_rate, const SolveOnGrid& solve);
 
 }  // namespace sampled_data_observers

@@ -84,6 +84,8 @@ TIMER_BREAKS = [
     (("certificate", "sensors", "wheel", "T1"), times(0.5)),
     (("certificate", "sensors", "gps", "T2"), times(2)),
 ]
+# Of one for jumps of a plant, whose V falls at them.
+FALL_BREAKS = [("mu", times(0.5)), ("mu", times(-1)), ("mu", lambda _: 1)]
 
 
 class MatrixTest(unittest.TestCase):
@@ -167,6 +169,19 @@ class ClaimTest(unittest.TestCase):
                 with open(path, "w", encoding="utf-8") as stream:
                     yaml.safe_dump(document, stream)
                 self.assertIn("violated", answers(path, plant), keys)
+
+    def test_a_function_that_falls_less_at_events_than_it_says_is_refused(self):
+        folder = os.path.join(ROOT, "config/examples/bernard2022_bouncing_ball")
+        with open(os.path.join(folder, "gains_timer_dependent.yaml"), encoding="utf-8") as stream:
+            whole = yaml.safe_load(stream)
+        with tempfile.TemporaryDirectory() as temporary:
+            path = os.path.join(temporary, "gains.yaml")
+            for key, change in FALL_BREAKS:
+                document = copy.deepcopy(whole)
+                document["certificate"][key] = change(document["certificate"][key])
+                with open(path, "w", encoding="utf-8") as stream:
+                    yaml.safe_dump(document, stream)
+                self.assertIn("violated", answers(path, os.path.join(folder, "scenario.yaml")), key)
 
     def test_each_broken_value_is_refused(self):
         folder = os.path.join(ROOT, "config/examples/ferrante2019_oscillator")

@@ -80,8 +80,10 @@ def fall_of_measured(name, resets, X, level):
         [transposed(across), minus(times(level, identity(len(M))), products(transposed(M), X, M))]]))
 
 
-def fall(name, resets, P, P_after, K, level):
+def fall(name, resets, P, P_after, K, level, part=1):
+    """V just after the event is at most this part of V before, and what noise of that level adds."""
     m = len(resets.C)
+    P = times(part, P)
     kept = product(transposed(minus(resets.J, product(K, resets.C)) if m else resets.J), P_after)
     if m == 0:
         return Fixed(name, stacked([[P, kept], [transposed(kept), P_after]]))
@@ -150,6 +152,12 @@ def timer_dependent(claim, fields, timers, nodes):
     """e' = F e + N w + G phi between events, and those of each timer."""
     size = len(fields[0])
     is_lipschitz = claim.G is not None and not claim.vertices
+    part = mpf(1)
+    if "mu" in claim.values:
+        part = claim.value("mu")
+        yield Number("mu > 0", part)
+        yield Number("mu < 1", 1 - part)
+        yield Statement("mu is of one timer with T1 > 0", len(timers) == 1 and bool(timers[0].T1 > 0))
     yield Number("lambda_t >= 0", claim.value("lambda_t"), may_be_zero=True)
     for timer, of_timer in zip(timers, nodes):
         may_coincide = of_timer[0] == timer.T1 == 0 and timer.J == identity(size)
@@ -178,7 +186,7 @@ def timer_dependent(claim, fields, timers, nodes):
                 continue
             if tau > 0:
                 K = timer.K(node) if timer.C else None
-                yield fall(name, timer, value, P[grid.after(node, index)], K, level)
+                yield fall(name, timer, value, P[grid.after(node, index)], K, level, part)
             elif timer.Z is not None:
                 yield fall_at_once(name, timer, value, level, timer.Z(node))
             else:

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -47,6 +48,15 @@ class CertifiedGains {
   }
   CertifiedGains& assuming(const std::string& assumptions) {
     return with("error_assumptions: " + assumptions);
+  }
+
+  /// Without a section that the files have.
+  CertifiedGains& without(const std::string& key) {
+    auto& entries = tree_.entries;
+    entries.erase(std::remove_if(entries.begin(), entries.end(),
+                                 [&](const auto& entry) { return entry.first == key; }),
+                  entries.end());
+    return *this;
   }
 
   const ConfigNode& tree() const { return tree_; }

@@ -44,7 +44,9 @@ ObserverConfig config_of(const Attack& attack, bool declares = true) {
   gains.assuming("{initial_error: " + std::to_string(attack.initial_error) +
                  ", noise: " + std::to_string(attack.noise) +
                  ", disturbance: " + std::to_string(attack.disturbance) + "}");
-  if (attack.disturbance > 0.0) gains.with("certificate: {N: [[0], [1], [0]]}");
+  if (attack.disturbance > 0.0) {
+    gains.with("certificate: {N: [[0], [1], [0]]}").without(kRunTimeCertificate);
+  }
   gains.with("history: {duration: 1000, max_events: 1000}");
   if (declares) {
     gains.with("jumps: {stamp_error: " + std::to_string(attack.stamp_error) + "}");

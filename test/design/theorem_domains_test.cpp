@@ -62,6 +62,7 @@ CertificateSubject subject_of(const Theorem& theorem) {
     const auto kind = is_average ? DwellTime::Kind::kAverage : DwellTime::Kind::kReverseAverage;
     subject.dwell_time = DwellTime{kind, 0.3, 2.0};
   }
+  subject.falls_at_events = theorem.takes_fall_at_events();
   require_subject(theorem, subject);
   return subject;
 }
@@ -192,6 +193,29 @@ TEST_P(TheoremDomainsTest, AreConditionsForTheTimes) {
 
 INSTANTIATE_TEST_SUITE_P(All, TheoremDomainsTest, ::testing::ValuesIn(theorems()),
                          [](const auto& info) { return info.param->name(); });
+
+TEST(TheoremDomains, LetNoFunctionFallAtEventsThatMayCoincide) {
+  const Theorem& theorem = *find_theorem("timer_dependent_constant_gain");
+  CertificateSubject subject = subject_of(theorem);
+  subject.T1 = 0.0;
+  EXPECT_THROW(require_subject(theorem, subject), std::invalid_argument);
+  subject.falls_at_events = false;
+  EXPECT_NO_THROW(require_subject(theorem, subject));
+}
+
+TEST(TheoremDomains, LetNoFunctionThatGrowsAtEventsPassForOneThatFalls) {
+  const Theorem& theorem = *find_theorem("timer_dependent_constant_gain");
+  const CertificateSubject subject = subject_of(theorem);
+  NamedMatrices values;
+  for (const auto& shapes : {theorem.parameters(subject), theorem.multipliers(subject)}) {
+    for (const NamedShape& shape : shapes) {
+      if (shape.form == NamedShape::Form::kScalar) values[shape.name] = scalar_matrix(0.5);
+    }
+  }
+  values["mu"] = scalar_matrix(1.0);
+  EXPECT_FALSE(all_hold(check(domains(theorem, subject), values)));
+  EXPECT_NE(first_unproved(prove(domains(theorem, subject), values)), "");
+}
 
 /// With a rate of −2 the conditions are about an error that is let grow by e^{2 t}, and hold
 /// without any correction.

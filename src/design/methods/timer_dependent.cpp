@@ -18,6 +18,10 @@ std::vector<DesignParameter> timer_dependent_parameters(const CertificateSubject
   std::vector<DesignParameter> all = {{"lambda_t",
                                        "rate of convergence [1/s]; 0.001/T2 where not given",
                                        1e-3 / subject.T2, std::nullopt}};
+  if (subject.falls_at_events) {
+    all.push_back(
+        {"mu", "factor by which V falls at events", std::nullopt, final_error_falls(false)});
+  }
   if (subject.plant.N.cols() > 0) {
     all.push_back({"gamma", "L2 gain from the disturbance, where it is not minimized", std::nullopt,
                    std::nullopt});
@@ -54,6 +58,7 @@ void require_function(LmiProgram& program, const TimerDependentFunction& functio
     if (is_homogeneous) program.bound_above(shape.name + " <= I", P, identity(shape.rows));
   }
   program.fix("lambda_t", scalar_matrix(parameters.at("lambda_t")));
+  if (function.falls_at_events()) program.fix("mu", scalar_matrix(parameters.at("mu")));
   add_gamma(program, subject, parameters, objective);
   for (const Condition& condition : function.conditions()) program.require(condition, 1);
   if (objective == Objective::kMinFinalError) {

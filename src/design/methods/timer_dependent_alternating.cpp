@@ -77,6 +77,7 @@ class AlternatingDesign : public DesignMethod {
       fixed[shape.name] = gains.at(shape.name);
     }
     fixed["lambda_t"] = scalar_matrix(parameters.at("lambda_t"));
+    if (subject.falls_at_events) fixed["mu"] = scalar_matrix(parameters.at("mu"));
     const auto gamma = parameters.find("gamma");
     if (gamma != parameters.end() && objective != Objective::kMinGamma) {
       fixed["gamma"] = scalar_matrix(gamma->second);
@@ -138,6 +139,7 @@ class AlternatingDesign : public DesignMethod {
       }
     }
     program.fix("lambda_t", scalar_matrix(parameters.at("lambda_t")));
+    if (subject.falls_at_events) program.fix("mu", scalar_matrix(parameters.at("mu")));
     add_gamma(program, subject, parameters, objective);
     for (const Condition& condition : theorem().conditions(subject)) program.require(condition, 1);
     if (objective == Objective::kMinFinalError) {

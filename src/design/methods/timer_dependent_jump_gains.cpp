@@ -35,7 +35,7 @@ class JumpGainDesign : public LmiDesignMethod {
                                Objective objective, ErrorSystem (*error)(const CertificateSubject&),
                                const GainProducts& products, LmiProgram program) {
     const TimerDependentFunction function(error(subject), grid_of(subject), shortest_times(subject),
-                                          products);
+                                          products, subject.falls_at_events);
     require_function(program, function, subject, parameters, objective);
     return program;
   }
