@@ -165,6 +165,16 @@ TEST_F(DesignTool, MakesAGainFileThatVerifiesAndProves) {
   EXPECT_TRUE(proved.says("proved    M(T2) <= 0"));
 }
 
+TEST_F(DesignTool, TellsOfManyConditionsOfAKindByOne) {
+  const std::string folder = SDO_SOURCE_DIR "/config/examples/ferrante2019_oscillator/";
+  const ToolRun proved = run("verify --rigorous " + folder + "gains_timer_dependent.yaml");
+  EXPECT_EQ(proved.status, 0) << proved.output;
+  EXPECT_TRUE(proved.says("flow of cell 0 at node 0")) << proved.output;
+  EXPECT_FALSE(proved.says("flow of cell 1 at node 1")) << proved.output;
+  EXPECT_TRUE(proved.says(" more of its kind")) << proved.output;
+  EXPECT_LT(std::count(proved.output.begin(), proved.output.end(), '\n'), 30) << proved.output;
+}
+
 TEST_F(DesignTool, RecordsAProofInTheGainFile) {
   ASSERT_EQ(synthesize(write("plant.yaml", oscillator())).status, 0);
   const std::string made = read("gains.yaml");

@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <map>
 #include <memory>
 #include <sstream>
 #include <stdexcept>
@@ -28,9 +30,51 @@ struct VerifyArguments {
   double time_limit = ProofOptions().time_limit;  // [s]
 };
 
+/// Conditions that hold and differ in their numbers only, as those at the nodes of a grid do: many
+/// of them are told of by one, the one with the least value.
+class RowsOfKinds {
+ public:
+  void add(std::size_t row, const std::string& name, double value) {
+    Kind& kind = kinds_[kind_of(name)];
+    if (kind.rows++ == 0 || value < kind.least) kind.least = value, kind.row = row;
+  }
+  /// How many rows this one stands for, itself included; 0 where another one stands for it.
+  std::size_t stands_for(std::size_t row, const std::string& name) const {
+    constexpr std::size_t kMany = 6;
+    const Kind& kind = kinds_.at(kind_of(name));
+    if (kind.rows <= kMany) return 1;
+    return kind.row == row ? kind.rows : 0;
+  }
+
+ private:
+  struct Kind {
+    std::size_t rows = 0;
+    std::size_t row = 0;
+    double least = 0.0;
+  };
+  static std::string kind_of(std::string name) {
+    const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+    name.erase(std::remove_if(name.begin(), name.end(), is_digit), name.end());
+    return name;
+  }
+  std::map<std::string, Kind> kinds_;
+};
+
+void print_rest(std::size_t rows) {
+  if (rows > 1) std::printf("; and %zu more of its kind", rows - 1);
+  std::printf("\n");
+}
+
 void verify_in_floating_point(const Certificate& certificate) {
   const auto checks = check(certificate);
-  for (const ConditionCheck& check : checks) {
+  RowsOfKinds kinds;
+  for (std::size_t i = 0; i < checks.size(); ++i) {
+    if (checks[i].holds()) kinds.add(i, checks[i].name, checks[i].min_eigenvalue);
+  }
+  for (std::size_t i = 0; i < checks.size(); ++i) {
+    const ConditionCheck& check = checks[i];
+    const std::size_t rows = check.holds() ? kinds.stands_for(i, check.name) : 1;
+    if (rows == 0) continue;
     std::printf("  %-9s %s", check.holds() ? "holds" : "VIOLATED", check.name.c_str());
     if (check.kind == Condition::Kind::kDefinite) {
       std::printf(", least eigenvalue %.3g (scaled, rounding %.1e)", check.min_eigenvalue,
@@ -39,7 +83,7 @@ void verify_in_floating_point(const Certificate& certificate) {
       std::printf(", by %.6g", std::abs(check.min_eigenvalue));
     }
     if (check.tau) std::printf(" at tau = %.6g s", *check.tau);
-    std::printf("\n");
+    print_rest(rows);
   }
   if (!all_hold(checks)) throw ExitStatus{kNotVerified};
 }
@@ -60,8 +104,15 @@ std::size_t verify_rigorously(const Certificate& certificate, double time_limit)
   }
   bool is_disproved = false;
   bool is_undecided = false;
+  RowsOfKinds kinds;
+  for (std::size_t i = 0; i < proofs.size(); ++i) {
+    if (proofs[i].status == ProofStatus::kProved) kinds.add(i, proofs[i].name, 0.0);
+  }
   for (std::size_t i = 0; i < proofs.size(); ++i) {
     const ConditionProof& proof = proofs[i];
+    const bool is_proved = proof.status == ProofStatus::kProved;
+    const std::size_t rows = is_proved ? kinds.stands_for(i, proof.name) : 1;
+    if (rows == 0) continue;
     std::printf("  %-9s %s", to_string(proof.status), proof.name.c_str());
     switch (proof.status) {
       case ProofStatus::kProved:
@@ -78,7 +129,7 @@ std::size_t verify_rigorously(const Certificate& certificate, double time_limit)
         std::printf(": %s", proof.reason.c_str());
         break;
     }
-    std::printf("\n");
+    print_rest(rows);
   }
   if (is_disproved) throw ExitStatus{kNotVerified};
   if (is_undecided) throw ExitStatus{kUndecided};
