@@ -29,7 +29,7 @@ def keys_of_code():
 def literals_of_code():
     """All words that the code has in quotes: keys are also read in loops over lists of them."""
     words = set()
-    for folder in ('config', 'simulation', 'messages', 'design', 'certificate', 'observer', 'tools'):
+    for folder in ('config', 'simulation', 'messages', 'design', 'certificate', 'observer', 'replay', 'tools'):
         for path in glob.glob(os.path.join(ROOT, 'src', folder, '**', '*'), recursive=True):
             if path.endswith(('.cpp', '.h')):
                 with open(path, encoding='utf-8') as source:
@@ -64,6 +64,13 @@ def words_of_pages():
 class Keys(unittest.TestCase):
     def test_that_are_read_stand_on_a_page(self):
         self.assertEqual(sorted(keys_of_code() - words_of_pages()), [])
+
+    def test_of_summaries_stand_on_the_page_of_replay(self):
+        with open(os.path.join(ROOT, 'src', 'replay', 'summary.cpp'), encoding='utf-8') as source:
+            keys = set(re.findall(r'\bjson\["(\w+)"\]', source.read()))
+        self.assertGreater(len(keys), 30)
+        with open(os.path.join(ROOT, 'doc', 'replay.md'), encoding='utf-8') as page:
+            self.assertEqual(sorted(keys - set(re.findall(r'`(\w+)`', page.read()))), [])
 
     def test_that_stand_in_a_table_are_read(self):
         known = keys_of_code() | literals_of_code()
