@@ -1,7 +1,7 @@
 // What predicting over 10 ms and correcting by three outputs cost a Kalman filter of 15 states:
 // pose, velocity and acceleration of a body, as in robot_localization, by formulas; and a linear
-// plant of that size. Compare within one run: machines differ. The counter `allocations` is the
-// number of heap allocations per operation.
+// plant of that size, and the first with sigma points. Compare within one run: machines differ. The
+// counter `allocations` is the number of heap allocations per operation.
 #include <benchmark/benchmark.h>
 
 #include <Eigen/Core>
@@ -11,6 +11,7 @@
 #include "allocations.h"
 #include "body_plant.h"
 #include "observer/hybrid_kalman_filter.h"
+#include "observer/unscented_kalman_filter.h"
 
 namespace sampled_data_observers {
 namespace {
@@ -26,7 +27,8 @@ std::shared_ptr<const VectorMap> linear_flow() {
   return std::make_shared<const AffineMap>(A);
 }
 
-std::shared_ptr<const HybridKalmanFilter> filter(std::shared_ptr<const VectorMap> flow) {
+template <class Law>
+std::shared_ptr<const ObserverLaw> filter(std::shared_ptr<const VectorMap> flow) {
   PlantDescription plant;
   plant.state_names = body_names().x;
   plant.sensors = {{"position", SensorTiming::kSampled, {false, false, false}}};
@@ -41,15 +43,14 @@ std::shared_ptr<const HybridKalmanFilter> filter(std::shared_ptr<const VectorMap
   covariances.R = {Eigen::MatrixXd(Eigen::Matrix3d::Identity() * 0.1)};
   covariances.Q = 0.05 * one;
   covariances.Q_d = 0.0 * one;
-  return std::make_shared<const HybridKalmanFilter>(
+  return std::make_shared<const Law>(
       ObserverContext{std::make_shared<const Plant>(plant), Eigen::VectorXd::Constant(kStates, 0.1),
                       Eigen::VectorXd::Zero(0)},
       covariances);
 }
 
-void predict_and_correct(benchmark::State& state, const std::shared_ptr<const VectorMap>& flow,
+void predict_and_correct(benchmark::State& state, const std::shared_ptr<const ObserverLaw>& law,
                          Duration duration, bool corrects) {
-  const auto law = filter(flow);
   Eigen::VectorXd x(law->state_size());
   Eigen::VectorXd workspace(law->workspace_size());
   law->initialize(x.data());
@@ -66,11 +67,20 @@ void predict_and_correct(benchmark::State& state, const std::shared_ptr<const Ve
   }
 }
 
-BENCHMARK_CAPTURE(predict_and_correct, formulas_predict, body_flow(), kStep, false);
-BENCHMARK_CAPTURE(predict_and_correct, formulas, body_flow(), kStep, true);
-BENCHMARK_CAPTURE(predict_and_correct, linear_predict, linear_flow(), kStep, false);
-BENCHMARK_CAPTURE(predict_and_correct, linear, linear_flow(), kStep, true);
-BENCHMARK_CAPTURE(predict_and_correct, linear_uneven_time, linear_flow(), kUneven, true);
+using Extended = HybridKalmanFilter;
+using Unscented = UnscentedKalmanFilter;
+
+BENCHMARK_CAPTURE(predict_and_correct, formulas_predict, filter<Extended>(body_flow()), kStep,
+                  false);
+BENCHMARK_CAPTURE(predict_and_correct, formulas, filter<Extended>(body_flow()), kStep, true);
+BENCHMARK_CAPTURE(predict_and_correct, unscented_predict, filter<Unscented>(body_flow()), kStep,
+                  false);
+BENCHMARK_CAPTURE(predict_and_correct, unscented, filter<Unscented>(body_flow()), kStep, true);
+BENCHMARK_CAPTURE(predict_and_correct, linear_predict, filter<Extended>(linear_flow()), kStep,
+                  false);
+BENCHMARK_CAPTURE(predict_and_correct, linear, filter<Extended>(linear_flow()), kStep, true);
+BENCHMARK_CAPTURE(predict_and_correct, linear_uneven_time, filter<Extended>(linear_flow()), kUneven,
+                  true);
 
 }  // namespace
 }  // namespace sampled_data_observers

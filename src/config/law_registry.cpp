@@ -11,6 +11,7 @@
 #include "observer/sample_and_hold_observer.h"
 #include "observer/scheduled_gain_observer.h"
 #include "observer/time_varying_gain_observer.h"
+#include "observer/unscented_kalman_filter.h"
 
 namespace sampled_data_observers {
 namespace {
@@ -29,6 +30,15 @@ std::shared_ptr<const ObserverLaw> build_time_varying_gain(ConfigSection& gains,
   }
   const auto [P, lambda] = read_time_varying_gains(gains, context);
   return std::make_shared<const TimeVaryingGainObserver>(context.observer, P, lambda);
+}
+
+std::shared_ptr<const ObserverLaw> build_hybrid_kalman_filter(ConfigSection& gains,
+                                                              const LawContext& context) {
+  const auto [covariances, is_unscented] = read_kalman_gains(gains, context);
+  if (is_unscented) {
+    return std::make_shared<const UnscentedKalmanFilter>(context.observer, covariances);
+  }
+  return std::make_shared<const HybridKalmanFilter>(context.observer, covariances);
 }
 
 std::shared_ptr<const ObserverLaw> build_high_gain(ConfigSection& gains,
@@ -53,7 +63,7 @@ std::map<std::string, LawBuilder>& builders() {
   static std::map<std::string, LawBuilder> all = {
       {"ConstantGainObserver", build<ConstantGainObserver, read_sampled_gains>},
       {"HighGainObserver", build_high_gain},
-      {"HybridKalmanFilter", build<HybridKalmanFilter, read_covariances>},
+      {"HybridKalmanFilter", build_hybrid_kalman_filter},
       {"IntersampleInjectionObserver", build<IntersampleInjectionObserver, read_intersample_gains>},
       {"SampleAndHoldObserver", build<SampleAndHoldObserver, read_sampled_gains>},
       {"SwitchedObserver", build<SwitchedObserver, read_switched_gains>},

@@ -81,6 +81,26 @@ inline bool factor_cholesky(double* M, Eigen::Index n, double tolerance = kRankT
   return true;
 }
 
+/// M ← L, lower triangular, with M = L Lᵀ for a positive semidefinite M, of which only the lower
+/// triangle is read. Where what is left of a diagonal entry is not greater than kRankTolerance
+/// times the entry, or than zero, it is rounding, and that column of L is zero. What is not a
+/// number makes columns of L that are none.
+inline void factor_semidefinite(double* M, Eigen::Index n) {
+  for (Eigen::Index j = 0; j < n; ++j) {
+    double* column = M + j * n;
+    const double diagonal = column[j];
+    for (Eigen::Index k = 0; k < j; ++k) {
+      const double factor = M[k * n + j];
+      if (factor == 0.0) continue;
+      for (Eigen::Index i = j; i < n; ++i) column[i] -= M[k * n + i] * factor;
+    }
+    const bool is_rounding = column[j] <= kRankTolerance * diagonal || column[j] <= 0.0;
+    const double root = std::sqrt(column[j]);
+    for (Eigen::Index i = 0; i < j; ++i) column[i] = 0.0;
+    for (Eigen::Index i = j; i < n; ++i) column[i] = is_rounding ? 0.0 : column[i] / root;
+  }
+}
+
 /// L ← the lower triangular factor of MᵀM = L Lᵀ (cols x cols), without forming the product: by the
 /// modified Gram–Schmidt process, which overwrites M (rows x cols) with orthonormal columns.
 /// Returns false where a column depends on those before it, or is not finite.

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "linear_algebra/ordered_linear_algebra.h"
+#include "observer/unit_norm_covariance.h"
 
 namespace sampled_data_observers {
 namespace {
@@ -39,18 +40,13 @@ HybridKalmanFilter::HybridKalmanFilter(const ObserverContext& context,
 }
 
 LawGains HybridKalmanFilter::gains() const {
-  LawGains all;
-  for (std::size_t i = 0; i < sensors(); ++i) {
-    all.add("R/" + plant().sensors()[i].name, matrices_.R[i]);
-  }
-  all.add("P0", matrices_.P0).add("Q", matrices_.Q).add("Q_d", matrices_.Q_d);
-  return all.add("iterations", static_cast<double>(iterations_));
+  return gains_of(matrices_, plant()).add("iterations", static_cast<double>(iterations_));
 }
 
 void HybridKalmanFilter::start_from(const double* estimate, double* state) const {
   PlantObserver::start_from(estimate, state);
   P_.set(matrices_.P0.data(), state);
-  project(state, P_.of(state));
+  project_covariance(plant(), state, P_.of(state));
 }
 
 double HybridKalmanFilter::mahalanobis_distance(const Event& sample, const double* state,
@@ -103,15 +99,14 @@ void HybridKalmanFilter::flow_constants(Duration duration, const Held& held, dou
 }
 
 void HybridKalmanFilter::step_constants(Duration duration, const Held& held, const double* before,
-                                        const double* after, double* state,
-                                        double* workspace) const {
+                                        double* after, double* state, double* workspace) const {
   double* middle = midpoint_.of(workspace);
   for (Eigen::Index i = 0; i < n(); ++i) middle[i] = 0.5 * (before[i] + after[i]);
   double* F = jacobian_.of(workspace);
   jacobians_.modes[held.mode].flow.evaluate(middle, held.u, F, differentiating_.of(workspace));
   covariance_step(F, matrices_.Q.data(), n(), to_seconds(duration), P_.of(state),
                   stepping_.of(workspace));
-  project(after, P_.of(state));
+  project_covariance(plant(), after, P_.of(state));
 }
 
 void HybridKalmanFilter::sample(std::size_t sensor, const double* y, const Held& held,

@@ -66,8 +66,8 @@ class HybridKalmanFilter : public PlantObserver {
   bool flow_is_affine() const override { return !covariance_flows_.empty(); }
   void flow_constants(Duration duration, const Held& held, double* state,
                       double* workspace) const override;
-  void step_constants(Duration duration, const Held& held, const double* before,
-                      const double* after, double* state, double* workspace) const override;
+  void step_constants(Duration duration, const Held& held, const double* before, double* after,
+                      double* state, double* workspace) const override;
 
  private:
   void add_covariance_of_stamp(const double* C, Eigen::Index m, const double* state, double* S,
@@ -87,7 +87,6 @@ class HybridKalmanFilter : public PlantObserver {
   void correct_iteratively(std::size_t sensor, const double* y, const Held& held, double* state,
                            double* workspace) const;
   void normalize(double* state) const;
-  void project(const double* x, double* P) const;
   void update(const double* rows, Eigen::Index outputs, Eigen::Index size, double* P,
               double* workspace) const;
   /// Number of variables that are corrected at jumps: x, and ε where stamps are uncertain.

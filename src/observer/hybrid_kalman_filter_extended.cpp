@@ -1,9 +1,9 @@
 // What the filter does where the plant is not affine: linearize it along the estimate.
 #include <algorithm>
-#include <cmath>
 
 #include "linear_algebra/ordered_linear_algebra.h"
 #include "observer/hybrid_kalman_filter.h"
+#include "observer/unit_norm_covariance.h"
 
 namespace sampled_data_observers {
 
@@ -39,29 +39,8 @@ const double* HybridKalmanFilter::jump_matrix(const Held& held, const double* x,
 
 /// After a reset: brings the groups of unit norm back to it, and P with them.
 void HybridKalmanFilter::normalize(double* state) const {
-  project(state, P_.of(state));
+  project_covariance(plant(), state, P_.of(state));
   plant().normalize(state);
-}
-
-/// P ← N P Nᵀ with the Jacobian N = (I − q qᵀ/|q|²)/|q| of the normalization of each group q of x.
-void HybridKalmanFilter::project(const double* x, double* P) const {
-  for (const std::vector<Eigen::Index>& group : plant().unit_norms()) {
-    double squares = 0.0;
-    for (const Eigen::Index i : group) squares += x[i] * x[i];
-    if (squares == 0.0) continue;
-    const double norm = std::sqrt(squares);
-    // To a row or a column of P, whose entries are `stride` apart.
-    const auto apply = [&](double* line, Eigen::Index stride) {
-      double along = 0.0;
-      for (const Eigen::Index i : group) along += x[i] * line[i * stride];
-      for (const Eigen::Index i : group) {
-        line[i * stride] = (line[i * stride] - x[i] * along / squares) / norm;
-      }
-    };
-    for (Eigen::Index j = 0; j < n(); ++j) apply(P + j * n(), 1);
-    for (Eigen::Index i = 0; i < n(); ++i) apply(P + i, n());
-    mirror_lower(P, n());
-  }
 }
 
 /// x̂⁺ from x̂ and P before the update each time, with the outputs linearized at the last x̂⁺, x_i:

@@ -45,4 +45,12 @@ KalmanMatrices kalman_matrices(const KalmanCovariances& covariances, const Plant
   return result;
 }
 
+LawGains gains_of(const KalmanMatrices& matrices, const Plant& plant) {
+  LawGains all;
+  for (std::size_t i = 0; i < plant.sensors().size(); ++i) {
+    all.add("R/" + plant.sensors()[i].name, matrices.R[i]);
+  }
+  return all.add("P0", matrices.P0).add("Q", matrices.Q).add("Q_d", matrices.Q_d);
+}
+
 }  // namespace sampled_data_observers

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "sampled_data_observers/observer/law_gains.h"
 #include "sampled_data_observers/plant/plant.h"
 
 namespace sampled_data_observers {
@@ -33,5 +34,8 @@ struct KalmanMatrices {
 /// @throws std::invalid_argument for covariances that do not fit the plant or are not definite as
 /// they must be, and for a stamp_deviation that is negative or infinite.
 KalmanMatrices kalman_matrices(const KalmanCovariances& covariances, const Plant& plant);
+
+/// The covariances among them, by the keys that they have in a file.
+LawGains gains_of(const KalmanMatrices& matrices, const Plant& plant);
 
 }  // namespace sampled_data_observers

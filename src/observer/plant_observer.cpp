@@ -318,7 +318,7 @@ void PlantObserver::jump(const Held& held, std::size_t, const JumpOutputs&, doub
 
 void PlantObserver::flow_constants(Duration, const Held&, double*, double*) const {}
 
-void PlantObserver::step_constants(Duration, const Held&, const double*, const double*, double*,
+void PlantObserver::step_constants(Duration, const Held&, const double*, double*, double*,
                                    double*) const {}
 
 void PlantObserver::complete(const Held&, double*, double*) const {}

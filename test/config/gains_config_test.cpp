@@ -71,6 +71,13 @@ INSTANTIATE_TEST_SUITE_P(
                  {"iterations: 3", "iterations: 0", {"gains/iterations", "1", "20", "0"}}},
         BadGains{"hybrid_kalman_filter_formulas",
                  {"iterations: 3", "iterations: 2.5", {"gains/iterations", "whole number"}}},
+        BadGains{
+            "hybrid_kalman_filter_formulas",
+            {"iterations: 3", "variant: cubature", {"gains/variant", "unscented", "cubature"}}},
+        BadGains{"hybrid_kalman_filter_formulas",
+                 {"iterations: 3",
+                  "iterations: 3\n  variant: unscented",
+                  {"gains/iterations", "no such key beside variant: unscented"}}},
         BadGains{kTimeVarying, {"lambda: 0.4", "lambda: 1", {"gains/lambda", "[0, 1)"}}},
         BadGains{kTimeVarying, {"lambda: 0.4", "lambda: -0.1", {"gains/lambda", "found -0.1"}}},
         BadGains{kTimeVarying, {"P: [[2,", "P: [[-2,", {"gains", "P"}}},

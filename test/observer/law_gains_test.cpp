@@ -42,7 +42,7 @@ TEST_P(GainsOfTypeTest, EveryKeyOfTheFileIsAmongThem) {
   for (const std::string& key : ConfigSection(tree, "").section("gains").keys()) {
     if (key == "form" || key == "definitions") continue;  // of T, Phi and Theta, which are listed
     if (key == "variant") {
-      EXPECT_NE(nullptr, gains.find("H"));
+      EXPECT_TRUE(gains.find("H") != nullptr || gains.find("variant") != nullptr);
     } else if (key == "theta0") {
       EXPECT_LT(0.0, gains.initial_injection);
     } else if (key == "output_injection") {

@@ -26,6 +26,8 @@ inline std::vector<std::string> type_examples() {
           "hybrid_kalman_filter_formulas",
           "hybrid_kalman_filter_switched",
           "hybrid_kalman_filter_unit_norm",
+          "hybrid_kalman_filter_unscented",
+          "hybrid_kalman_filter_unscented_unit_norm",
           "intersample_injection",
           "intersample_injection_lipschitz",
           "sample_and_hold",

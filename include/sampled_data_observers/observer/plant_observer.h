@@ -191,10 +191,10 @@ class PlantObserver : public ObserverLaw {
   virtual void flow_constants(Duration duration, const Held& held, double* state,
                               double* workspace) const;
 
-  /// Moves them with a step of an integrated flow, of s from `before` to `after`; that in `state`
-  /// is still where the flow began. By default they stand.
+  /// Moves them with a step of an integrated flow, of s from `before` to `after`, which it may
+  /// correct; that in `state` is still where the flow began. By default they stand.
   virtual void step_constants(Duration duration, const Held& held, const double* before,
-                              const double* after, double* state, double* workspace) const;
+                              double* after, double* state, double* workspace) const;
 
   /// Brings what depends on the rest of the state up to date, after every flow and reset.
   virtual void complete(const Held& held, double* state, double* workspace) const;

@@ -17,7 +17,7 @@ Eigen::Index outputs_of(const Plant& plant) {
 
 }  // namespace
 
-KalmanCovariances read_covariances(ConfigSection& gains, const LawContext& context) {
+KalmanGains read_kalman_gains(ConfigSection& gains, const LawContext& context) {
   const Plant& plant = context.plant();
   const Eigen::Index n = plant.states();
   const Eigen::Index variables = n + plant.inputs() + outputs_of(plant);
@@ -27,7 +27,15 @@ KalmanCovariances read_covariances(ConfigSection& gains, const LawContext& conte
     if (gains.has(key)) return gains.square_matrix(key, n);
     return Eigen::MatrixXd::Zero(n, n);
   };
-  KalmanCovariances covariances;
+  KalmanGains result;
+  result.is_unscented =
+      gains.has("variant") && gains.choice("variant", {"extended", "unscented"}) == "unscented";
+  if (result.is_unscented && gains.has("iterations")) {
+    throw gains.error("iterations",
+                      "no such key beside variant: unscented, which linearizes nothing",
+                      "iterations");
+  }
+  KalmanCovariances& covariances = result.covariances;
   covariances.P0 = gains.square_matrix("P0", n);
   covariances.R =
       read_square_per_sensor(gains, "R", plant, {SensorTiming::kSampled, SensorTiming::kAtJumps});
@@ -36,7 +44,7 @@ KalmanCovariances read_covariances(ConfigSection& gains, const LawContext& conte
   covariances.iterations = static_cast<int>(gains.count("iterations", 1, kMostIterations, 1));
   // Nothing is known but the limits, as of a uniform distribution between them.
   covariances.stamp_deviation = context.jump_stamp_error / std::sqrt(3.0);
-  return covariances;
+  return result;
 }
 
 }  // namespace sampled_data_observers

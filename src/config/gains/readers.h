@@ -24,6 +24,12 @@ struct TimeVaryingGains {
   double lambda = 0.0;
 };
 
+/// Of a HybridKalmanFilter, in one of its variants.
+struct KalmanGains {
+  KalmanCovariances covariances;
+  bool is_unscented = false;
+};
+
 /// Of a HighGainObserver, in one of its three forms.
 struct HighGains {
   enum class Form { kLinear, kTransformed, kOriginal };
@@ -41,7 +47,7 @@ std::vector<IntersampleGains> read_intersample_gains(ConfigSection& gains,
                                                      const LawContext& context);
 /// Of a TimeVaryingGainObserver with gains on a grid.
 ScheduledGains read_scheduled_gains(ConfigSection& gains, const LawContext& context);
-KalmanCovariances read_covariances(ConfigSection& gains, const LawContext& context);
+KalmanGains read_kalman_gains(ConfigSection& gains, const LawContext& context);
 SwitchedGains read_switched_gains(ConfigSection& gains, const LawContext& context);
 SynchronizedGains read_synchronized_gains(ConfigSection& gains, const LawContext& context);
 TimeVaryingGains read_time_varying_gains(ConfigSection& gains, const LawContext& context);
