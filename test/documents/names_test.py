@@ -8,7 +8,7 @@ import xml.etree.ElementTree
 
 from pages import ROOT, all_pages
 
-FOLDERS = ('bench', 'build', 'cmake', 'config', 'doc', 'include', 'launch', 'msg', 'python', 'scripts', 'src', 'srv', 'test')
+FOLDERS = ('bench', 'build', 'cmake', 'config', 'doc', 'include', 'launch', 'msg', 'scripts', 'src', 'srv', 'test')
 
 
 def spans():
