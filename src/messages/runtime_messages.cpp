@@ -38,6 +38,15 @@ void write_estimate(const Estimate& estimate, const PublishedBound& bound,
   message.input_stale = law.observer().is_input_stale(whole) ? 1 : 0;
 }
 
+/// Whether the values of an event are those that a sensor measured: what was rejected may have
+/// none.
+bool has_values(const Event& event, EventOutcome outcome) {
+  const bool is_measured = event.kind == EventKind::kSample || event.kind == EventKind::kOutput ||
+                           event.kind == EventKind::kJumpOutput;
+  return is_measured && (outcome == EventOutcome::kUsed || outcome == EventOutcome::kUsedLate ||
+                         outcome == EventOutcome::kGated);
+}
+
 Eigen::Map<Eigen::VectorXd> state_bounds_of(StateEstimate& message) {
   return {message.error_bounds.data(), static_cast<Eigen::Index>(message.error_bounds.size())};
 }
@@ -100,6 +109,8 @@ void write(const EventChannel& channel, const Event& event, const EventReport& r
   status.interval = report.interval ? to_seconds(*report.interval) : kNone;
   status.interval_check = static_cast<std::uint8_t>(report.interval_check);
   status.dwell_check = static_cast<std::uint8_t>(report.dwell_check);
+  const Eigen::Index values = has_values(event, report.outcome) ? event.size : 0;
+  status.values.assign(event.values, event.values + values);
   const Eigen::Index innovations = report.innovations == nullptr ? 0 : event.size;
   status.innovation.assign(report.innovations, report.innovations + innovations);
   status.gate_share = report.gate_share;

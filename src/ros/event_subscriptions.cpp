@@ -19,6 +19,7 @@ constexpr std::size_t kStatusesHeld = 16;
 /// @param outputs  the most that a sensor has
 EventStatus status_prototype(Eigen::Index outputs) {
   EventStatus status;
+  status.values.resize(static_cast<std::size_t>(outputs));
   status.innovation.resize(static_cast<std::size_t>(outputs));
   status.source = status.reason =
       std::string(64 + kLongestPair, ' ');  // room, so that writing allocates nothing

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "console/command_line.h"
+#include "console/html_page.h"
 #include "console/option_checks.h"
 #include "console/output_checks.h"
 #include "console/tool_main.h"
@@ -159,7 +160,7 @@ void write_record(const Arguments& arguments, sdo::ReplayOptions options,
   if (!arguments.tables.empty()) sdo::write_tables(arguments.tables, config, record, runs);
   if (arguments.report.empty()) return;
   const nlohmann::json data = sdo::report_data(config, arguments.config, summary, record, runs);
-  sdo::write_output(arguments.report, sdo::report_page(data));
+  sdo::write_output(arguments.report, sdo::html_page(data, sdo::page_parts::report()));
 }
 
 int replay(const Arguments& arguments) {

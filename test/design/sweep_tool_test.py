@@ -10,6 +10,7 @@ import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "support"))
 from folder_test import FolderTest  # noqa: E402
+from report_page import data_of, read_page  # noqa: E402
 
 DESIGN = ""  # the tool
 INTERRUPTED = 130
@@ -99,6 +100,11 @@ class SweepTest(ToolTest):
         for picture, begin in (("curve.png", b"\x89PNG"), ("curve.svg", b"<?xml")):
             with open(self.path("out/" + picture), "rb") as file:
                 self.assertTrue(file.read().startswith(begin))
+        data = data_of(read_page(self.path("out/report.html")))
+        drawn, = data["charts"][0]["curves"]
+        self.assertEqual(drawn["x"], [float(row["T2"]) for row in curve])
+        self.assertEqual(drawn["y"], gammas)
+        self.assertEqual(len(data["tables"][0]["rows"]), 4)
 
     def test_resumes_after_ctrl_c_and_after_being_killed(self):
         options = ["--T2", "0.1", "0.38", "--points", "15"]
@@ -202,9 +208,13 @@ class ExplainTest(ToolTest):
         text = self.explain("--T1", "3", "--T2", "4")
         self.assertIn("the first is tau = 8.541 s; none in [T1, T2] = [3, 4] s", text)
         self.assertNotIn("NO OBSERVER", text)
-        text = self.explain("--T1", "8.5", "--T2", "8.6", "--plot", self.path("curve.png"))
+        text = self.explain("--T1", "8.5", "--T2", "8.6", "--plot", self.path("curve.png"),
+                            "--report", self.path("report.html"))
         self.assertIn("NO OBSERVER CAN CONVERGE - samples that come exactly every 8.541 s", text)
         self.assertTrue(os.path.exists(self.path("curve.png")))
+        data = data_of(read_page(self.path("report.html")))
+        self.assertEqual(" ".join(data["text"].split()), text)
+        self.assertEqual(data["charts"][0]["band"], {"low": 8.5, "high": 8.6, "label": "[T1, T2]"})
 
     def test_names_what_is_unseen(self):
         self.plant = self.write("unseen.yaml", OSCILLATOR.replace("[z1, z2]", "[z1, z2, drift]")

@@ -48,6 +48,10 @@ scenario: {jumps: {missed: 0.2, duplicate: 0.5, false_rate: 0.1, stamp_error: 0.
 AT_LEAST = 5
 
 
+# The one that ends with a table, all nodes with it.
+SUMMED_UP = "in_real_time"
+
+
 # Most of a launch is waiting.
 AT_ONCE = 3
 
@@ -101,9 +105,11 @@ class LiveExamplesTest(unittest.TestCase):
     def launch(cls, run, file, *arguments):
         port = free_port()
         command = ["roslaunch", "--port", str(port), file,
-                   "output:=" + cls.path(run, "live.bag"), *arguments]
+                   "output:=" + cls.path(run, "live.bag"), "summary:=" + str(run == SUMMED_UP).lower(), *arguments]
+        if run == SUMMED_UP:
+            command = ["bash", "-c", 'exec "$@" >"$0" 2>&1', cls.path(run, "roslaunch.log"), *command]
         with RosProcess(command, port) as process:
-            process.wait(120)
+            return process.wait(120)
 
     def check(self, name):
         self.launched[name].result()
@@ -143,6 +149,14 @@ class LiveExamplesTest(unittest.TestCase):
             stamps = sorted(message.header.stamp.to_sec()
                             for _, message, _ in bag.read_messages(["jumps", "/jumps"]))
         self.assertLess(min(b - a for a, b in zip(stamps, stamps[1:])), 0.02)  # told twice
+
+    def test_an_example_ends_by_itself_with_a_table(self):
+        self.assertEqual(self.launched[SUMMED_UP].result(), 0)
+        with open(self.path(SUMMED_UP, "roslaunch.log"), encoding="utf-8") as file:
+            text = file.read()
+        self.assertRegex(text, r"state +RMSE +largest +at the end")
+        self.assertRegex(text, r"\nz1 +[0-9.]+ ")
+        self.assertNotIn("died", text.replace("all processes on machine have died, roslaunch will exit", ""))
 
     def test_in_real_time_the_estimates_approach_the_truth(self):
         import rosbag

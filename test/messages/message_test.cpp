@@ -72,6 +72,7 @@ gains: {L: [[1]]}
     send(1, 0.0);
     send(2, 9.0);
     EXPECT_EQ(EventStatus::GATED, status.outcome);
+    EXPECT_EQ(std::vector<double>{9.0}, status.values);
     EXPECT_EQ(std::vector<double>{9.0}, status.innovation);
     EXPECT_EQ(9.0, status.gate_share);
     EXPECT_TRUE(std::isnan(status.nis));
@@ -215,7 +216,8 @@ gains: {P0: [[3, 1], [1, 2]], R: [[1]]}
   write(runtime, runtime.estimator().make_estimate(), prototype);
   MessagePool<StateEstimate> estimates(prototype, 4);
   EventStatus status;
-  status.innovation.resize(1);  // room, as those of an observer have
+  status.values.resize(1);  // room, as those of an observer have
+  status.innovation.resize(1);
   const double y = 1.0;
   const auto receive = [&](Stamp stamp) {
     const Event event{stamp, EventKind::kSample, 0, &y, 1};

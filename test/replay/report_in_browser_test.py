@@ -90,7 +90,7 @@ def main():
             file.write(first + ACTIONS + '<script type="application/json"' + rest)
         said = subprocess.run(
             [browser, "--headless=new", "--no-sandbox", "--disable-gpu", "--user-data-dir=" + folder,
-             "--window-size=1280,6000", "--virtual-time-budget=5000", "--enable-logging=stderr",
+             "--window-size=1280,6000", "--virtual-time-budget=20000", "--enable-logging=stderr",
              "--screenshot=" + os.path.join(folder, "report.png"), "file://" + page],
             check=True, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, universal_newlines=True,
             timeout=120).stderr

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "console/html_page.h"
 #include "replay/report/packed_array.h"
 #include "replay/report/report_errors.h"
 #include "replay/report/report_page.h"
@@ -151,7 +152,8 @@ TEST(ReportVerdict, ComparesInnovationsWithTheirCovariance) {
 
 TEST(ReportPage, HoldsNoMarkupOfItsData) {
   const std::string page =
-      report_page({{"bag", "</script><!-- /* STYLE */ /* DATA */ \xff"}, {"observer", "x"}});
+      html_page({{"bag", "</script><!-- /* STYLE */ /* DATA */ \xff"}, {"observer", "x"}},
+                page_parts::report());
   EXPECT_THAT(page, HasSubstr(R"("bag":"\u003c/script>\u003c!-- /* STYLE */ /* DATA */ )"));
   EXPECT_THAT(page, Not(HasSubstr("/* SCRIPT */")));
 }

@@ -1,12 +1,11 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 
-namespace sampled_data_observers {
+/// The files of page/report, which CMake puts into the program.
+namespace sampled_data_observers::page_parts {
 
-/// A page that shows a report, all in one file: it asks no network for anything, and runs no script
-/// but its own, whatever the texts in the data are.
-std::string report_page(const nlohmann::json& data);
+/// What makes the page of report_data(), for html_page().
+std::string report();
 
-}  // namespace sampled_data_observers
+}  // namespace sampled_data_observers::page_parts

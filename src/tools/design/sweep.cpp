@@ -10,6 +10,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "config/design_config.h"
@@ -18,12 +20,14 @@
 #include "console/output_checks.h"
 #include "console/plot_program.h"
 #include "console/progress_bar.h"
+#include "design/paragraphs.h"
 #include "design/sweep_folder.h"
 #include "design/workers.h"
 #include "files/csv.h"
 #include "messages/plant_plugins.h"
 #include "tools/design/claims.h"
 #include "tools/design/commands.h"
+#include "tools/design/design_page.h"
 #include "tools/design/gain_files.h"
 
 namespace sampled_data_observers {
@@ -36,6 +40,9 @@ constexpr double kLogarithmicFrom = 8.0;
 
 /// Formats of the curves.
 constexpr std::array<const char*, 2> kPictures = {"png", "svg"};
+
+/// Of the page, in the folder.
+constexpr char kPage[] = "/report.html";
 
 struct SweepArguments {
   std::vector<std::string> files;
@@ -114,8 +121,24 @@ SweepRequest request_of(const SweepArguments& arguments, const DesignConfig& con
   return request;
 }
 
-void draw(const SweepRequest& request, const std::vector<CurvePoint>& curves,
-          const SweepArguments& arguments) {
+/// Points that have a design, which another one with a longer T2 beats.
+nlohmann::json candidates_beside(const std::vector<CurvePoint>& curves,
+                                 const std::vector<SweepPoint>& points, const std::string& method) {
+  nlohmann::json x = nlohmann::json::array();
+  nlohmann::json y = nlohmann::json::array();
+  for (const CurvePoint& curve : curves) {
+    if (curve.method != method || curve.design.T2 == curve.T2) continue;
+    for (const SweepPoint& point : points) {
+      if (point.method != method || point.T2 != curve.T2 || !point.value) continue;
+      x.push_back(point.T2);
+      y.push_back(*point.value);
+    }
+  }
+  return {{"x", x}, {"y", y}};
+}
+
+nlohmann::json chart_of(const SweepRequest& request, const std::vector<CurvePoint>& curves,
+                        const std::vector<SweepPoint>& points, const SweepArguments& arguments) {
   nlohmann::json json;
   json["title"] = arguments.files.front();
   for (const auto& [name, value] : request.given) {
@@ -142,12 +165,58 @@ void draw(const SweepRequest& request, const std::vector<CurvePoint>& curves,
         crosses.push_back(point.T2);
       }
     }
-    json["curves"].push_back({{"label", method->name()}, {"x", x}, {"y", y}, {"crosses", crosses}});
+    json["curves"].push_back({{"label", method->name()},
+                              {"x", x},
+                              {"y", y},
+                              {"crosses", crosses},
+                              {"candidates", candidates_beside(curves, points, method->name())}});
   }
   json["logarithmic"] = largest > kLogarithmicFrom * least;
+  return json;
+}
+
+/// Every point, with what it was made with or why there is no design.
+PageTable candidates_of(const std::vector<SweepPoint>& points) {
+  PageTable table;
+  table.title = "Candidates";
+  table.note = "The best design of each method for each longest time between samples.";
+  table.heads = {"method", "T2 [s]",   "value",
+                 "with",   "took [s]", "gain file, or why there is none"};
+  table.texts = {0, 3, 5};
+  for (const SweepPoint& point : points) {
+    std::string parameters;
+    for (const auto& [name, value] : point.parameters) {
+      parameters += (parameters.empty() ? "" : ", ") + name + " = " + brief(value);
+    }
+    table.rows.push_back({point.method, shortest_decimal(point.T2),
+                          point.value ? brief(*point.value) : "", parameters, brief(point.seconds),
+                          point.value ? SweepFolder::gain_file(point) : point.message});
+  }
+  std::sort(table.rows.begin(), table.rows.end(), [](const auto& first, const auto& second) {
+    return std::make_pair(first[0], std::stod(first[1])) <
+           std::make_pair(second[0], std::stod(second[1]));
+  });
+  return table;
+}
+
+void draw(const SweepRequest& request, const std::vector<CurvePoint>& curves,
+          const std::vector<SweepPoint>& points, const SweepArguments& arguments) {
+  nlohmann::json json = chart_of(request, curves, points, arguments);
   for (const char* ending : kPictures) {
     run_plot_program("plot_curves", json_text(json), arguments.output + "/curve." + ending);
   }
+  DesignPage page;
+  page.title = "Sweep of " + json["title"].get<std::string>();
+  page.subtitle = std::string("Objective ") + to_string(request.objective) +
+                  ", T1 = " + shortest_decimal(request.subject.T1) + " s.";
+  json["marks"] = true;
+  json["heading"] = "Frontier";
+  json["note"] =
+      "The best design of each method for each longest time between samples. A design for a longer "
+      "one serves for a shorter one, too.";
+  page.charts.push_back(std::move(json));
+  page.tables.push_back(candidates_of(points));
+  write_page(page, arguments.output + kPage);
 }
 
 void print_summary(const SweepRequest& request, const std::vector<CurvePoint>& curves) {
@@ -179,6 +248,7 @@ void refuse_overwriting(const SweepArguments& arguments, const SweepRequest& req
   };
   for (const std::string& name : SweepFolder::tables()) add(name);
   for (const char* ending : kPictures) add(std::string("curve.") + ending);
+  outputs.push_back({"--output", arguments.output + kPage});
   for (const DesignMethod* method : request.methods) {
     SweepPoint point;
     point.method = method->name();
@@ -250,9 +320,9 @@ void sweep_command(const SweepArguments& arguments, const std::string& command_l
   }
   folder.write_curve();
   const std::vector<CurvePoint> curves = best_curves(folder.points(), request.objective);
-  draw(request, curves, arguments);
+  draw(request, curves, folder.points(), arguments);
   print_summary(request, curves);
-  std::printf("written to %s: curve.csv, curve.png, curve.svg, points.csv, gains/\n",
+  std::printf("written to %s: curve.csv, curve.png, curve.svg, report.html, points.csv, gains/\n",
               arguments.output.c_str());
   if (lost > 0) {
     throw std::runtime_error(std::to_string(lost) +

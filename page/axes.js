@@ -29,7 +29,7 @@ function linearTicks(low, high, count) {
 function logTicks(low, high, count) {
   const first = Math.ceil(low - 1e-9);
   const last = Math.floor(high + 1e-9);
-  if (last - first < 1) {
+  if (last - first < 2) {
     const ticks = [];
     for (let exponent = Math.floor(low); exponent <= high; ++exponent) {
       for (const factor of [1, 2, 5]) {

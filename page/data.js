@@ -51,6 +51,13 @@ class Series {
     this.levels = null;
   }
 
+  /** Of values as they are. */
+  static of(times, values) {
+    const series = new Series(times, {});
+    series.levels = [{low: values, high: values}];
+    return series;
+  }
+
   level(number) {
     if (this.levels === null) {
       const low = unpackValues(this.packed.low);

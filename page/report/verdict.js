@@ -9,10 +9,6 @@ function verdictSection() {
   made.append(findings);
 }
 
-function cell(value, className = "") {
-  return element("td", {className, textContent: value});
-}
-
 /** What other gains would have done: root mean squares, and what is said of the norm. */
 function besideTable() {
   const names = data.errors.map((row) => row.name);

@@ -1,10 +1,9 @@
-#include "replay/report/report_page.h"
+#include "console/html_page.h"
 
 #include <cstddef>
 #include <stdexcept>
 
 #include "console/json_text.h"
-#include "replay/report/page_parts.h"
 
 namespace sampled_data_observers {
 namespace {
@@ -25,17 +24,17 @@ std::string without_markup(const std::string& json) {
 
 void put(const std::string& place, const std::string& text, std::string& page) {
   const std::size_t at = page.find(place);
-  if (at == std::string::npos) throw std::logic_error("the page of reports has no " + place);
+  if (at == std::string::npos) throw std::logic_error("page/frame.html has no " + place);
   page.replace(at, place.size(), text);
 }
 
 }  // namespace
 
-std::string report_page(const nlohmann::json& data) {
+std::string html_page(const nlohmann::json& data, const std::string& script) {
   std::string page = page_parts::frame();
   // The data last: nothing is looked for in what it holds.
   put("/* STYLE */", page_parts::style(), page);
-  put("/* SCRIPT */", page_parts::script(), page);
+  put("/* SCRIPT */", page_parts::charts() + script, page);
   put("/* DATA */", without_markup(json_text(data)), page);
   return page;
 }

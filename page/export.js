@@ -93,7 +93,7 @@ function drawSheet(figure, context, width, height) {
   write(figure.title, "text");
   for (const layer of figure.keys.filter((each) => !each.isHidden)) {
     context.fillStyle = colour(layer.colour);
-    context.globalAlpha = layer.kind === "band" ? 0.35 : 1;
+    context.globalAlpha = ["band", "interval"].includes(layer.kind) ? 0.35 : 1;
     context.fillRect(x, HEAD / 2 - 4, 12, 8);
     context.globalAlpha = 1;
     x += 17;

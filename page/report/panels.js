@@ -48,21 +48,6 @@ function unitOfNorm() {
   return units.size === 1 ? [...units][0] : "";
 }
 
-/** A section with a heading; the toolbar links to it. */
-function section(id, title, note = "", shortTitle = title) {
-  const made = element("section", {id}, element("h2", {textContent: title}));
-  if (note) made.append(element("p", {className: "note", textContent: note}));
-  document.getElementById("main").append(made);
-  run.sections = [...(run.sections ?? []), {id, title: shortTitle}];
-  return made;
-}
-
-function grid(parent, charts, isSingle = charts.length === 1) {
-  const made = element("div", {className: "grid" + (isSingle ? " single" : "")});
-  made.append(...charts.map((chart) => chart.figure));
-  parent.append(made);
-}
-
 function modesLayer() {
   const {times, modes} = run.changes;
   if (modes.length === 0) return [];

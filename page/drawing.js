@@ -170,6 +170,29 @@ function drawSpans(context, view, layer) {
   });
 }
 
+/** A part of the axis. */
+function drawInterval(context, view, layer) {
+  const left = Math.max(view.left, view.x(layer.from));
+  const right = Math.min(view.right, view.x(layer.to));
+  context.fillStyle = colour(layer.colour);
+  context.globalAlpha = 0.14;
+  context.fillRect(left, view.top, right - left, view.bottom - view.top);
+  context.globalAlpha = 1;
+}
+
+/** Where there is no value: crosses on top, in a row for each layer, so that they don't hide each other. */
+function drawAbsent(context, view, layer) {
+  const y = view.top + 10 + 11 * layer.row;
+  context.strokeStyle = colour(layer.colour);
+  context.lineWidth = 1.6;
+  context.beginPath();
+  for (const time of layer.times) {
+    const x = view.x(time);
+    if (x >= view.left && x <= view.right) MARKERS.cross(context, x, y);
+  }
+  context.stroke();
+}
+
 /** A line at a value, with its name. */
 function drawLevel(context, view, layer) {
   const y = view.y(layer.value);
@@ -200,7 +223,9 @@ function drawStairs(context, view, layer) {
 }
 
 const DRAWN_BY = {
+  absent: drawAbsent,
   band: drawBand,
+  interval: drawInterval,
   level: drawLevel,
   line: drawLine,
   marks: drawMarks,

@@ -86,7 +86,7 @@ class Figure {
     const swatch = element("span", {className: "swatch"});
     const isThin = layer.kind === "line" || layer.kind === "level" || layer.kind === "stairs";
     swatch.style.background = `var(--${layer.colour})`;
-    swatch.style.opacity = layer.kind === "band" ? "0.35" : "1";
+    swatch.style.opacity = ["band", "interval"].includes(layer.kind) ? "0.35" : "1";
     if (isThin) swatch.style.height = "3px";
     if (["points", "marks"].includes(layer.kind)) swatch.style.width = layer.kind === "points" ? "8px" : "2px";
     if (layer.kind === "points") swatch.style.height = "8px";

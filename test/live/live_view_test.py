@@ -1,0 +1,142 @@
+#!/usr/bin/env python3
+"""The server of live_view and the summary of run_summary, without a master: live_view_test.py"""
+import http.client
+import importlib.machinery
+import importlib.util
+import json
+import math
+import os
+import threading
+import unittest
+
+import genpy
+from sampled_data_observers.msg import EventStatus, StateEstimate
+
+TOOLS = os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..", "src", "tools")
+
+
+def tool(name):
+    """A program as a module."""
+    loader = importlib.machinery.SourceFileLoader(name, os.path.join(TOOLS, name))
+    module = importlib.util.module_from_spec(importlib.util.spec_from_loader(name, loader))
+    loader.exec_module(module)
+    return module
+
+
+live_view = tool("live_view")
+run_summary = tool("run_summary")
+
+
+def estimate(t, x, bound=math.nan, names=("p",)):
+    message = StateEstimate(names=list(names), state=list(x), error_bound=bound)
+    message.error_bounds = [] if math.isnan(bound) else [bound] * len(x)
+    message.header.stamp = genpy.Time.from_sec(t)
+    return message
+
+
+def event(t, outcome=EventStatus.USED, reason="used"):
+    message = EventStatus(source="s", kind=EventStatus.SAMPLE, outcome=outcome, reason=reason, values=[1.5], innovation=[0.5], interval=math.nan)
+    message.header.stamp = genpy.Time.from_sec(t)
+    return message
+
+
+class FeedTest(unittest.TestCase):
+    def batches(self, feed):
+        feed.flush()
+        return [json.loads(text) for _, text in feed.after(0, 0)]
+
+    def test_truth_meets_the_estimate_of_its_stamp_whichever_comes_first(self):
+        feed = live_view.Feed(10)
+        feed.add_truth(estimate(1, [2]))
+        feed.add_estimate(estimate(1, [3], bound=math.inf))
+        feed.add_estimate(estimate(1.5, [4], bound=2))
+        feed.add_truth(estimate(1.5, [5]))
+        feed.add_truth(estimate(1.7, [5]))
+        batch, = self.batches(feed)
+        self.assertEqual(batch["compared"], [{"t": 0.0, "truth": [2]}, {"t": 0.5, "truth": [5]}])
+        self.assertEqual([entry["bound"] for entry in batch["estimates"]], [None, 2])
+
+    def test_it_holds_no_more_than_its_seconds_and_tells_what_it_leaves_out(self):
+        feed = live_view.Feed(1)
+        for k in range(100):
+            for i in range(150):
+                feed.add_estimate(estimate(k + i / 1000, [i]))
+                feed.add_truth(estimate(k + 0.0005 + i / 1000, [i]))
+            for i in range(300):
+                feed.add_event(event(k + i / 1000))
+            feed.flush()
+        self.assertEqual(len(feed.batches), 10)
+        self.assertLessEqual(len(feed.waiting["truth"]), live_view.MOST_WAITING)
+        batch = json.loads(feed.batches[-1][1])
+        self.assertEqual((len(batch["estimates"]), batch["count"]), (50, 150))
+        self.assertEqual((len(batch["events"]), batch["left_out"]), (200, 100))
+
+    def test_time_that_goes_back_begins_anew(self):
+        feed = live_view.Feed(10)
+        feed.add_estimate(estimate(100, [1]))
+        feed.flush()
+        feed.add_estimate(estimate(1, [2]))
+        first, second = self.batches(feed)
+        self.assertEqual(first, {"restart": True})
+        self.assertEqual([entry["t"] for entry in second["estimates"]], [0.0])
+
+
+class ServerTest(unittest.TestCase):
+    def setUp(self):
+        self.feed = live_view.Feed(10)
+        live_view.Handler.feed = self.feed
+        settings = {"units": {"p": "m </script>"}, "sensors": {}}
+        live_view.Handler.make_page = staticmethod(lambda: live_view.page("Live", settings, 10))
+        self.server = live_view.Server(("127.0.0.1", 0), live_view.Handler)
+        threading.Thread(target=self.server.serve_forever, daemon=True).start()
+
+    def tearDown(self):
+        self.server.shutdown()
+        self.server.server_close()
+
+    def get(self, path, host="localhost:1"):
+        connection = http.client.HTTPConnection("127.0.0.1", self.server.server_address[1], timeout=10)
+        connection.request("GET", path, headers={"Host": host})
+        return connection.getresponse()
+
+    def test_it_serves_one_page_that_asks_no_other_host(self):
+        text = self.get("/").read().decode("utf-8")
+        self.assertIn("connect-src 'self'", text)
+        self.assertEqual(text.count("</script"), 2)
+        self.assertNotIn("/* SCRIPT */", text)
+        self.assertEqual(self.get("/etc/passwd").status, 404)
+        self.assertEqual(self.get("/", host="elsewhere.example:1").status, 403)
+
+    def test_it_tells_what_comes(self):
+        self.feed.add_estimate(estimate(1, [2]))
+        self.feed.flush()
+        answer = self.get("/stream")
+        self.assertEqual(answer.getheader("Content-Type"), "text/event-stream")
+        self.assertEqual(json.loads(answer.readline()[len("data: "):]), {"restart": True})
+        answer.readline()
+        self.assertEqual(json.loads(answer.readline()[len("data: "):])["estimates"][0]["x"], [2.0])
+        answer.readline()
+        self.feed.add_event(event(1, EventStatus.GATED, "outside"))
+        self.feed.flush()
+        told = json.loads(answer.readline()[len("data: "):])["events"][0]
+        self.assertEqual((told["reason"], told["values"], told["interval"]), ("outside", [1.5], None))
+
+
+class SummaryTest(unittest.TestCase):
+    def test_the_table(self):
+        summary = run_summary.Summary()
+        for t, x, truth, bound in ((1, 3.0, 0.0, 4.0), (2, 4.0, 8.0, 3.0), (3, 1.0, 1.0, math.inf)):
+            summary.add_truth(estimate(t, [truth]))
+            summary.add_estimate(estimate(t, [x], bound))
+        for outcome, reason in ((EventStatus.USED, ""), (EventStatus.USED_LATE, ""), (EventStatus.GATED, "outside the gate")):
+            summary.add_event(event(1, outcome, reason))
+        text = summary.text()
+        self.assertIn("3 estimates; 2 events used, 1 of them late; 1 rejected or without effect", text)
+        self.assertIn("1 x outside the gate", text)
+        row = [line for line in text.splitlines() if line.startswith("p ")][0].split()
+        self.assertEqual(row[1:4], ["%.4g" % math.sqrt(25 / 3), "4", "0"])
+        self.assertIn("EXCEEDED at 1 of 2 stamps", text)
+
+
+if __name__ == "__main__":
+    unittest.main()
