@@ -86,7 +86,7 @@ Design synthesize(const DesignMethod& method, const DesignProblem& problem,
                   const SynthesisOptions& options) {
   require_sense(method, problem);
   const bool has_rate = problem.given.count(method.decay_parameter()) > 0;
-  const Design design = solve_on_refined_cells(
+  Design design = solve_on_refined_cells(
       method.theorem(), problem.subject, problem.objective, problem.assumptions, has_rate,
       [&](const CertificateSubject& subject, const Design* coarser) {
         DesignProblem on_grid = problem;
