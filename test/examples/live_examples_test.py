@@ -42,6 +42,9 @@ scenario: {jumps: {missed: 0.2, duplicate: 0.5, false_rate: 0.1, stamp_error: 0.
 """),
 }
 
+# A robot of config/, whose file and scenario are all it takes.
+ROBOT = "planar_robot"
+
 # How many of the estimates must rest on the same events live and replayed, in percent. The others had
 # an event still on its way when they were published, which is more often so where the machine is
 # busy, or come after the last message of the bag.
@@ -71,6 +74,8 @@ class LiveExamplesTest(unittest.TestCase):
             launches[name + "_mistaken"] = (
                 os.path.join(ROOT, "launch", "example.launch"), "scenario:=" + " ".join(scenario),
                 "observer:=" + " ".join(observer), "duration:=%d" % duration, "speed:=%d" % speed)
+        launches[ROBOT] = (os.path.join(ROOT, "launch", "robot.launch"), "robot:=" + ROBOT,
+                           "simulated:=true", "speed:=10")
         pool = concurrent.futures.ThreadPoolExecutor(AT_ONCE)
         cls.launched = {run: pool.submit(cls.launch, run, *arguments)
                         for run, arguments in launches.items()}
@@ -157,6 +162,11 @@ class LiveExamplesTest(unittest.TestCase):
         self.assertRegex(text, r"state +RMSE +largest +at the end")
         self.assertRegex(text, r"\nz1 +[0-9.]+ ")
         self.assertNotIn("died", text.replace("all processes on machine have died, roslaunch will exit", ""))
+
+    def test_a_robot_of_config_live_as_replayed(self):
+        self.launched[ROBOT].result()
+        self.compare(ROBOT, 60, [os.path.join(ROOT, "config", ROBOT + end)
+                                 for end in (".yaml", "_scenario.yaml")], [])
 
     def test_in_real_time_the_estimates_approach_the_truth(self):
         import rosbag
