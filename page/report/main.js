@@ -6,6 +6,7 @@ verdictSection();
 errorsSection();
 statesSection();
 normSection();
+seedsSection();
 lyapunovSection();
 pathSection();
 hybridSection();

@@ -179,6 +179,21 @@ function normSection() {
   grid(made, [new Chart(withUnit("Norm of the error", unitOfNorm()), {range: run.range, layers, log: true, hasLog: true, height: 260})]);
 }
 
+/** The norm of the errors over all seeds of a thinning, and figures of each. */
+function seedsSection() {
+  if (!data.seeds) return;
+  const times = unpackTimes(data.seeds.times);
+  const layers = [...modesLayer(), ...jumpsLayer(),
+                  {kind: "line", series: new Series(times, data.seeds.range), colour: "truth", label: "least to largest of all seeds"},
+                  {kind: "line", series: new Series(times, data.seeds.median), colour: "error", width: 1.8, label: "median"}];
+  const made = section("seeds", "Seeds", "The norm of the error at the stamps that all seeds compared.");
+  grid(made, [new Chart(withUnit("Norm of the error over seeds", unitOfNorm()), {range: run.range, layers, log: true, hasLog: true, height: 260})]);
+  const share = (row) => (row.share === null ? "–" : shortNumber(100 * row.share, 3) + " %");
+  made.append(element("details", {}, element("summary", {textContent: "each seed"}),
+    tableOf(["seed", "RMSE (norm)", "largest", "largest share of the bound"], [], data.seeds.rows.map((row) => [
+      cell(row.seed), cell(shortNumber(row.rmse)), cell(shortNumber(row.largest)), cell(share(row), row.is_guarantee_broken ? "bad" : "")]))));
+}
+
 /** The Lyapunov function of the certificate along the error, and the bound on it. */
 function lyapunovSection() {
   if (!data.lyapunov_bound) return;

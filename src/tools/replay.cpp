@@ -48,6 +48,7 @@ struct Arguments {
   std::string report;
   std::string tables;  // a folder
   std::vector<std::string> beside;
+  std::size_t seeds = 1;
 
   bool needs_record() const { return !report.empty() || !tables.empty(); }
 };
@@ -116,6 +117,9 @@ sdo::ReplayOptions options_of(const Arguments& arguments) {
       (!arguments.needs_record() || (options.truth_topic.empty() && !options.thinning))) {
     throw sdo::UsageError("--beside", "needs --report or --csv, and a truth, by --truth or --thin");
   }
+  if (arguments.seeds > 1 && (!options.thinning || !arguments.needs_record())) {
+    throw sdo::UsageError("--seeds", "needs --thin or --thin-to-sampling, and --report or --csv");
+  }
   std::vector<sdo::GivenFile> inputs = sdo::given_files("CONFIG", arguments.config);
   for (const std::string& path : arguments.beside) inputs.push_back({"--beside", path});
   for (const std::string& bag : options.bags) inputs.push_back({"BAG", bag});
@@ -147,9 +151,27 @@ std::vector<Beside> configurations_beside(const Arguments& arguments) {
   return all;
 }
 
+/// The replay that was made, and those with the seeds that follow.
+std::vector<sdo::SeedRun> runs_of_seeds(const Arguments& arguments, sdo::ReplayOptions options,
+                                        const sdo::ObserverConfig& config,
+                                        const sdo::ReplaySummary& summary,
+                                        const sdo::RunRecord& record) {
+  if (arguments.seeds < 2) return {};
+  options.output.clear();
+  std::vector<sdo::SeedRun> runs = {sdo::seed_run(options.thinning->seed, summary, record)};
+  while (runs.size() < arguments.seeds) {
+    ++options.thinning->seed;
+    sdo::RunRecord other;
+    const sdo::ReplaySummary of_seed = sdo::replay(config, options, &other);
+    runs.push_back(sdo::seed_run(options.thinning->seed, of_seed, other));
+  }
+  return runs;
+}
+
 void write_record(const Arguments& arguments, sdo::ReplayOptions options,
                   const sdo::ObserverConfig& config, const sdo::ReplaySummary& summary,
-                  const sdo::RunRecord& record, const std::vector<Beside>& beside) {
+                  const sdo::RunRecord& record, const std::vector<Beside>& beside,
+                  const std::vector<sdo::SeedRun>& seeds) {
   options.output.clear();
   std::vector<sdo::BesideRun> runs;
   for (const Beside& other : beside) {
@@ -157,9 +179,10 @@ void write_record(const Arguments& arguments, sdo::ReplayOptions options,
     run.name = other.gains.substr(other.gains.rfind('/') + 1);
     run.summary = sdo::replay(other.config, options, &run.record);
   }
-  if (!arguments.tables.empty()) sdo::write_tables(arguments.tables, config, record, runs);
+  if (!arguments.tables.empty()) sdo::write_tables(arguments.tables, config, record, runs, seeds);
   if (arguments.report.empty()) return;
-  const nlohmann::json data = sdo::report_data(config, arguments.config, summary, record, runs);
+  const nlohmann::json data =
+      sdo::report_data(config, arguments.config, summary, record, runs, seeds);
   sdo::write_output(arguments.report, sdo::html_page(data, sdo::page_parts::report()));
 }
 
@@ -176,10 +199,17 @@ int replay(const Arguments& arguments) {
   sdo::print_table(summary, std::cout);
   if (!arguments.json.empty()) sdo::write_json(summary, arguments.json);
   if (!arguments.plot.empty()) sdo::draw_plot(summary, arguments.plot);
+  bool is_broken = summary.is_guarantee_broken();
   if (arguments.needs_record()) {
-    write_record(arguments, options, config, summary, record, beside);
+    const std::vector<sdo::SeedRun> seeds =
+        runs_of_seeds(arguments, options, config, summary, record);
+    write_record(arguments, options, config, summary, record, beside, seeds);
+    if (!seeds.empty()) std::cout << sdo::finding_over(seeds).text << "\n";
+    is_broken = is_broken || std::any_of(seeds.begin(), seeds.end(), [](const sdo::SeedRun& run) {
+                  return run.is_guarantee_broken;
+                });
   }
-  if (summary.is_guarantee_broken()) return kGuaranteeBroken;
+  if (is_broken) return kGuaranteeBroken;
   return summary.diverged.empty() ? 0 : kDiverged;
 }
 
@@ -202,6 +232,10 @@ void declare(Arguments& arguments, sdo::CommandLine& tool) {
             "Likewise, of each sensor T1 to T2 of its sampling apart, whatever the others do");
   tool.option("--seed NUMBER", arguments.seed, "Seed of --thin and --thin-to-sampling (default 0)")
       .check(sdo::whole_number_at_least(0));
+  tool.option("--seeds NUMBER", arguments.seeds,
+              "Replay with so many seeds, from --seed on, and show in the report how the errors "
+              "spread (default 1)")
+      .check(sdo::whole_number_between(1, 10000));
   tool.option("--from SECONDS", arguments.from,
               "Compare from this time on [s after the first truth]")
       .check(sdo::number_at_least(0));

@@ -204,6 +204,28 @@ class ReportTest(FolderTest):
         self.assertEqual(status, 1)
         self.assertIn("file", text)
 
+    def test_seeds_spread_around_the_median(self):
+        self.simulate(CART)
+        self.replay(OBSERVER, "--truth", "truth", "--thin", "0.1", "0.3", "--seed", "4", "--seeds", "5", "--csv", self.path("tables"))
+        data = self.report()
+        rows = data["seeds"]["rows"]
+        self.assertEqual([row["seed"] for row in rows], [4, 5, 6, 7, 8])
+        self.assertEqual(len({row["rmse"] for row in rows}), 5)
+        self.assertEqual(rows[0]["rmse"], data["errors"][-1]["rmse"])
+        low, middle, high = (values_of(data["seeds"][key][end]) for key, end in (("range", "low"), ("median", "low"), ("range", "high")))
+        self.assertGreater(len(low), 100)
+        self.assertTrue(all(a <= b <= c for a, b, c in zip(low, middle, high)))
+        self.assertTrue(any(a < b < c for a, b, c in zip(low, middle, high)))
+        self.assertTrue(any(finding["text"].startswith("Over 5 seeds: RMSE ") for finding in data["verdict"]))
+        # Each by itself is the same.
+        self.replay(OBSERVER, "--truth", "truth", "--thin", "0.1", "0.3", "--seed", "6")
+        self.assertEqual(self.report()["errors"][-1]["rmse"], rows[2]["rmse"])
+        with open(os.path.join(self.path("tables"), "seeds.csv"), encoding="utf-8") as file:
+            self.assertEqual([row["seed"] for row in csv.DictReader(file)], ["4", "5", "6", "7", "8"])
+        _, text = self.run_tool("replay", self.path("run.bag"), self.path("scenario.yaml"), self.path("observer.yaml"),
+                                "--seeds", "3", "--report", self.path("report.html"))
+        self.assertIn("--seeds: needs --thin", text)
+
     def test_jumps_and_angles(self):
         self.simulate(BOUNCING)
         self.replay(OBSERVER.replace("0.12", "0.2").replace("400000", "3"), "--truth", "truth")

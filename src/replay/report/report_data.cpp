@@ -162,19 +162,21 @@ Json position_of(const ObserverConfig& config) {
 
 nlohmann::json report_data(const ObserverConfig& config, const std::vector<std::string>& files,
                            const ReplaySummary& summary, const RunRecord& record,
-                           const std::vector<BesideRun>& beside) {
+                           const std::vector<BesideRun>& beside,
+                           const std::vector<SeedRun>& seeds) {
   const PackedTime time = time_of(record);
   const std::size_t stride = stride_of(record);
   const ThinnedSeries thinned(stride);
   const ErrorFigures norm = error_figures(record.compared, record.compared.norms);
 
   Json verdict = Json::array();
-  for (const ReportFinding& finding : verdict_of(summary, norm, config.warning)) {
+  const auto find = [&verdict](const ReportFinding& finding) {
     verdict.push_back({{"level", name_of(finding.level)}, {"text", finding.text}});
-  }
+  };
+  for (const ReportFinding& finding : verdict_of(summary, norm, config.warning)) find(finding);
+  if (!seeds.empty()) find(finding_over(seeds));
   for (const BesideRun& other : beside) {
-    const ReportFinding finding = finding_beside(other.name, other.summary, summary);
-    verdict.push_back({{"level", name_of(finding.level)}, {"text", finding.text}});
+    find(finding_beside(other.name, other.summary, summary));
   }
   std::vector<Stamp> jumps;
   for (const Event& jump : record.jumps) jumps.push_back(jump.stamp);
@@ -209,6 +211,7 @@ nlohmann::json report_data(const ObserverConfig& config, const std::vector<std::
     }
     data["counted"] = counted_span(record.compared, time);
   }
+  if (!seeds.empty()) data["seeds"] = seeds_of(seeds, time);
   if (!record.estimates.lyapunov_bounds.empty()) {
     data["lyapunov_bound"] = thinned.sizes(record.estimates.lyapunov_bounds);
   }

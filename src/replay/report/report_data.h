@@ -6,6 +6,7 @@
 
 #include "replay/report/beside_run.h"
 #include "replay/report/run_record.h"
+#include "replay/report/seed_runs.h"
 #include "replay/summary.h"
 #include "sampled_data_observers/config/observer_config.h"
 
@@ -18,9 +19,10 @@ namespace sampled_data_observers {
 /// used as they should left out, so that the page stays below 15 MB.
 /// @param files   the configuration's, as given
 /// @param beside  replays of the same bag with other gains
+/// @param seeds   replays with other seeds of the thinning, that of the record first; may be empty
 /// @throws OutputError where one of them can't be read any more
 nlohmann::json report_data(const ObserverConfig& config, const std::vector<std::string>& files,
                            const ReplaySummary& summary, const RunRecord& record,
-                           const std::vector<BesideRun>& beside);
+                           const std::vector<BesideRun>& beside, const std::vector<SeedRun>& seeds);
 
 }  // namespace sampled_data_observers

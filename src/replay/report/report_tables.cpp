@@ -7,6 +7,7 @@
 #include <cinttypes>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <utility>
 
 #include "files/csv.h"
@@ -24,6 +25,7 @@ const char kSamples[] = "samples.csv";
 const char kJumps[] = "jumps.csv";
 const char kEvents[] = "events.csv";
 const char kBeside[] = "beside.csv";
+const char kSeeds[] = "seeds.csv";
 
 std::string decimal(double value) {
   if (std::isnan(value)) return "";
@@ -174,14 +176,24 @@ Table beside_of(const std::vector<BesideRun>& runs) {
   return table;
 }
 
+Table seeds_table(const std::vector<SeedRun>& runs) {
+  Table table(kSeeds, {"seed", "rmse", "largest", "bound_share"});
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  for (const SeedRun& run : runs) {
+    table.add({std::to_string(run.seed), decimal(run.rmse.value_or(kNone)),
+               decimal(run.largest.value_or(kNone)), decimal(run.bound_share.value_or(kNone))});
+  }
+  return table;
+}
+
 }  // namespace
 
 std::vector<std::string> table_names() {
-  return {kQuantities, kEstimates, kErrors, kSamples, kJumps, kEvents, kBeside};
+  return {kQuantities, kEstimates, kErrors, kSamples, kJumps, kEvents, kBeside, kSeeds};
 }
 
 void write_tables(const std::string& folder, const ObserverConfig& config, const RunRecord& record,
-                  const std::vector<BesideRun>& beside) {
+                  const std::vector<BesideRun>& beside, const std::vector<SeedRun>& seeds) {
   if (::mkdir(folder.c_str(), 0777) != 0 && errno != EEXIST) throw OutputError(folder, errno);
   quantities_of(config, record).write(folder);
   estimates_of(record).write(folder);
@@ -190,6 +202,7 @@ void write_tables(const std::string& folder, const ObserverConfig& config, const
   jumps_of(record).write(folder);
   events_of_run(record).write(folder);
   beside_of(beside).write(folder);
+  seeds_table(seeds).write(folder);
 }
 
 }  // namespace sampled_data_observers

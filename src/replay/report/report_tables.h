@@ -5,6 +5,7 @@
 
 #include "replay/report/beside_run.h"
 #include "replay/report/run_record.h"
+#include "replay/report/seed_runs.h"
 #include "sampled_data_observers/config/observer_config.h"
 
 namespace sampled_data_observers {
@@ -17,6 +18,6 @@ std::vector<std::string> table_names();
 /// empty field.
 /// @throws OutputError
 void write_tables(const std::string& folder, const ObserverConfig& config, const RunRecord& record,
-                  const std::vector<BesideRun>& beside);
+                  const std::vector<BesideRun>& beside, const std::vector<SeedRun>& seeds);
 
 }  // namespace sampled_data_observers
