@@ -62,6 +62,7 @@ struct SmallPlant {
   double R = 0.01;
   double Q = 0.0;
   std::vector<std::vector<Eigen::Index>> unit_norms = {};
+  std::vector<std::string> jump = {};  ///< no jumps
 };
 
 template <class Law>
@@ -76,6 +77,7 @@ std::shared_ptr<const Law> filter_of(const SmallPlant& small) {
   PlantMode mode;
   mode.flow = formulas(names, small.flow);
   mode.outputs = {formulas(names, small.outputs)};
+  if (!small.jump.empty()) mode.jump = formulas(names, small.jump);
   description.modes = {mode};
   const auto m = static_cast<Eigen::Index>(small.angular.size());
   KalmanCovariances covariances;
@@ -127,6 +129,24 @@ TEST(UnscentedKalmanFilterTest, OfAFlowThatCurvesItFollowsTheMean) {
   EXPECT_NEAR(mean, a.estimate()(0), 0.05 * (mean - 1.0));
   EXPECT_NEAR(variance, covariance_of(*unscented, a)(0, 0),
               0.8 * std::abs(variance - covariance_of(*extended, b)(0, 0)));
+}
+
+TEST(UnscentedKalmanFilterTest, AJumpThatSquaresHasTheMeanAndTheVarianceOfTheSquare) {
+  const double mu = 0.7;
+  const double variance = 0.2;
+  SmallPlant square{{"x"},
+                    {"0*x"},
+                    {"x"},
+                    {false},
+                    Eigen::VectorXd::Constant(1, mu),
+                    Eigen::VectorXd::Constant(1, variance)};
+  square.jump = {"x^2"};
+  const auto law = filter_of<UnscentedKalmanFilter>(square);
+  LawRunner runner(law);
+  runner.jump();
+  EXPECT_NEAR(mu * mu + variance, runner.estimate()(0), 1e-14);
+  EXPECT_NEAR(4.0 * mu * mu * variance + 2.0 * variance * variance,
+              covariance_of(*law, runner)(0, 0), 1e-14);
 }
 
 /// Errors of one update by a distance, over many true positions.
