@@ -135,6 +135,7 @@ const std::vector<const Theorem*>& theorems() {
       &sferlazza2019_theorem2(),
       &sferlazza2019_theorem2_rate(),
       &sferlazza2019_equation17(),
+      &sferlazza2019_theorem2_norm(),
       &timer_dependent_constant_gain(),
       &timer_dependent_intersample_injection(),
       &timer_dependent_sample_and_hold(),

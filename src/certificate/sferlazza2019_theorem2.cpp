@@ -28,13 +28,15 @@ constexpr double kRounding = 1e-12;
 /// the same until the next one, which makes it
 ///   ‖R (I − K(τ) C) e^{Aτ} R⁻¹‖ level + ‖R K(τ)‖ |η|.
 /// Both factors are computed at the sample, for the τ that came and the gain that the law used, to
-/// the bit. By (13), (14) the first one is less than 1 for τ in [T1, T2]; where it lies outside,
-/// the error is what it is.
+/// the bit. By (13), (14) the first one is less than 1 for τ in [T1, T2] where P is the one of the
+/// gain. Outside, and in the norm of a P that has nothing to do with the gain, it is what it is.
 class Theorem2Bound : public SampledErrorBound {
  public:
   Theorem2Bound(const CertificateSubject& subject, const ErrorAssumptions& assumptions,
-                const Eigen::MatrixXd& R, std::unique_ptr<const TimeVaryingGain> gain)
+                const Eigen::MatrixXd& R, std::unique_ptr<const TimeVaryingGain> gain,
+                bool falls = true)
       : SampledErrorBound(subject, assumptions, 1),
+        falls_(falls),
         per_error_(raised(norm2(R))),
         n_(R.rows()),
         m_(subject.plant.C().rows()),
@@ -65,7 +67,7 @@ class Theorem2Bound : public SampledErrorBound {
   }
   void sample_numbers(const Interval& at, double* level, double* workspace) const override {
     const Factors factors = factors_at(at.tau, workspace);
-    const double kept = is_foreseen(at.tau) ? std::min(1.0, factors.kept) : factors.kept;
+    const double kept = falls_ && is_foreseen(at.tau) ? std::min(1.0, factors.kept) : factors.kept;
     *level = kept * *level + factors.noise * noise_;
   }
   double error(const Interval& at, const double* level) const override {
@@ -150,6 +152,7 @@ class Theorem2Bound : public SampledErrorBound {
     return kRounding * std::sqrt(dot(b, b, n_ * n_));
   }
 
+  bool falls_;        ///< whether the level certainly falls at samples in time
   double per_error_;  ///< the level of an error of norm 1, at most
   Eigen::Index n_;
   Eigen::Index m_;
@@ -262,16 +265,58 @@ class Theorem2 : public Theorem {
     if (has_rate_ && scalar_value(values, "decay") < 0.0) {
       throw std::invalid_argument("decay must not be negative: V would not fall at samples");
     }
-    // Symmetric to the bit, as the gain needs it.
-    const Eigen::MatrixXd P = (values.at("P") + values.at("P").transpose()) / 2.0;
-    return std::make_unique<const Theorem2Bound>(
-        subject, assumptions, cholesky_root(P),
-        std::make_unique<const CertificateGain>(subject.plant.C(), P,
-                                                scalar_value(values, "lambda")));
+    return std::make_unique<const Theorem2Bound>(subject, assumptions,
+                                                 cholesky_root(symmetric_part(values.at("P"))),
+                                                 gain_of(subject, values));
+  }
+
+ protected:
+  /// To the bit, as the gain needs it.
+  static Eigen::MatrixXd symmetric_part(const Eigen::MatrixXd& P) {
+    return (P + P.transpose()) / 2.0;
+  }
+  static std::unique_ptr<const TimeVaryingGain> gain_of(const CertificateSubject& subject,
+                                                        const NamedMatrices& values) {
+    return std::make_unique<const CertificateGain>(
+        subject.plant.C(), symmetric_part(values.at("P")), scalar_value(values, "lambda"));
   }
 
  private:
   bool has_rate_;
+};
+
+/// The theorem as printed, with a bound at run time that follows the error in the norm of another
+/// matrix Q than the P that the gain is made of. Any Q > 0 will do: what a sample does to |e|_Q is
+/// computed when it comes.
+class Theorem2InOtherNorm : public Theorem2 {
+ public:
+  Theorem2InOtherNorm() : Theorem2(false) {}
+
+  std::string name() const override { return "sferlazza2019_theorem2_norm"; }
+
+  std::string guarantee() const override {
+    return "as sferlazza2019_theorem2; the bound at run time follows the error in the norm of Q";
+  }
+
+  std::vector<NamedShape> multipliers(const CertificateSubject& subject) const override {
+    return {symmetric_shape("Q", subject.plant.states())};
+  }
+
+  std::vector<Condition> conditions(const CertificateSubject& subject) const override {
+    const Eigen::Index n = subject.plant.states();
+    std::vector<Condition> all = Theorem2::conditions(subject);
+    all.push_back({"Q > 0", symbol("Q", n, n), std::nullopt});
+    return all;
+  }
+
+  std::unique_ptr<const ErrorBound> error_bound(
+      const CertificateSubject& subject, const NamedMatrices& values,
+      const ErrorAssumptions& assumptions) const override {
+    require_no_disturbance("sferlazza2019", assumptions);
+    return std::make_unique<const Theorem2Bound>(subject, assumptions,
+                                                 cholesky_root(symmetric_part(values.at("Q"))),
+                                                 gain_of(subject, values), false);
+  }
 };
 
 /// sferlazza2019, (17): where all of the state is measured, any P > 0 proves (13) and (14).
@@ -334,6 +379,11 @@ const Theorem& sferlazza2019_equation17() {
 
 const Theorem& sferlazza2019_theorem2() {
   static const Theorem2 theorem(false);
+  return theorem;
+}
+
+const Theorem& sferlazza2019_theorem2_norm() {
+  static const Theorem2InOtherNorm theorem;
   return theorem;
 }
 

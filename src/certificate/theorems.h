@@ -33,6 +33,7 @@ const Theorem& ferrante2019_corollary1();
 const Theorem& ferrante2019_corollary2();
 const Theorem& sferlazza2019_equation17();
 const Theorem& sferlazza2019_theorem2();
+const Theorem& sferlazza2019_theorem2_norm();
 const Theorem& sferlazza2019_theorem2_rate();
 const Theorem& timer_dependent_constant_gain();
 const Theorem& timer_dependent_intersample_injection();

@@ -72,7 +72,7 @@ double gain_rounding_of(const std::vector<Eigen::MatrixXd>& P, const TensorGrid&
     largest = std::max(largest, (d.asDiagonal() * evaluate(reset.K(corner.node), values)).norm());
   }
   const double share = 64.0 * n * n * std::numeric_limits<double>::epsilon() +
-                       static_cast<double>(TensorGrid::kMaxVertices) * n * weight_rounding;
+                       std::ldexp(n * weight_rounding, static_cast<int>(grid.dimensions()));
   // Of one timer P⁺ is P_0 everywhere, and the gain the plain mean of what is given.
   const bool solves = grid.dimensions() > 1 || reset.Z;
   return share * std::sqrt(n) * largest / (solves ? least : 1.0);

@@ -9,6 +9,7 @@
 #include "design/final_error.h"
 #include "design/request_error.h"
 #include "design/run_time_figures.h"
+#include "design/run_time_norm.h"
 
 namespace sampled_data_observers {
 namespace {
@@ -71,6 +72,13 @@ std::shared_ptr<const Design> prove_for_run_time(const Design& design,
                                                  const ErrorAssumptions& assumptions,
                                                  const SynthesisOptions& options) {
   std::shared_ptr<const Design> best = own_proof_for_run_time(design, assumptions, options);
+  if (assumptions.disturbance == 0.0 || design.certificate.subject.plant.N.cols() == 0) {
+    ErrorAssumptions undisturbed = assumptions;
+    undisturbed.disturbance = 0.0;
+    const std::shared_ptr<const Design> found = in_better_norm(design);
+    const double least = figure(best ? best->certificate : design.certificate, undisturbed);
+    if (found && figure(found->certificate, undisturbed) < kWorthIt * least) best = found;
+  }
   const std::optional<AnalysisProblem> problem = problem_by_timers(design, assumptions);
   if (!problem) return best;
   const double least = figure(best ? best->certificate : design.certificate, problem->assumptions);

@@ -14,7 +14,7 @@ namespace sampled_data_observers {
 /// Immutable; nothing but the constructor allocates or throws.
 class TensorGrid {
  public:
-  static constexpr std::size_t kMaxDimensions = 3;
+  static constexpr std::size_t kMaxDimensions = 5;
   static constexpr std::size_t kMaxVertices = std::size_t{1} << kMaxDimensions;
 
   /// The vertices of the cell that a point lies in, and their weights there.

@@ -188,6 +188,12 @@ def sferlazza2019_theorem2_rate(claim):
     yield from sferlazza2019(claim, claim.value("decay"))
 
 
+def sferlazza2019_theorem2_norm(claim):
+    """The theorem, and a matrix in whose norm the error is followed: any that is positive definite."""
+    yield Fixed("Q > 0", claim.value("Q"))
+    yield from sferlazza2019(claim, mpf(0))
+
+
 def sferlazza2019_equation17(claim):
     """(17): each sample keeps the part lambda of the error, whatever P."""
     share = claim.value("lambda")
@@ -552,6 +558,7 @@ OBSERVERS = {
     ferrante2019_corollary2: "IntersampleInjectionObserver",
     sferlazza2019_theorem2: "TimeVaryingGainObserver",
     sferlazza2019_theorem2_rate: "TimeVaryingGainObserver",
+    sferlazza2019_theorem2_norm: "TimeVaryingGainObserver",
     sferlazza2019_equation17: "TimeVaryingGainObserver",
     etienne2019_proposition1: "SampleAndHoldObserver",
     etienne2019_theorem1: "SampleAndHoldObserver",

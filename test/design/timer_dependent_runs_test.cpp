@@ -47,6 +47,15 @@ constexpr char kPolytopicPendulum[] =
     "  vertices: {1: [[0, 0], [0.3, 0]], 2: [[0, 0], [-0.3, 0]]}\n"
     "sensors: {angle: {C: [[1, 0]], source: {topic: angle}}}\n";
 
+constexpr char kCrowd[] =
+    "plant: {states: [x1, x2], A: [[0, 1], [-1, 0]]}\n"
+    "sensors:\n"
+    "  a: {C: [[1, 0]], source: {topic: a}}\n"
+    "  b: {C: [[0, 1]], source: {topic: b}}\n"
+    "  c: {C: [[1, 1]], source: {topic: c}}\n"
+    "  d: {C: [[1, 0]], source: {topic: d}}\n"
+    "  e: {C: [[1, -1]], source: {topic: e}}\n";
+
 constexpr char kFormulas[] =
     "plant:\n"
     "  states: [x1, x2]\n"
@@ -75,6 +84,7 @@ const Scene kScenes[] = {
     {"scheduled", kOscillator, "timer_dependent_scheduled_gain", {{0.1, 0.4}}, 4},
     // Gains found by hand.
     {"two_sensors", kIntegrator, "", {{0.2, 1.0}, {0.05, 0.2}}, 3},
+    {"five_sensors", kCrowd, "", {{0.3, 1.0}, {0.2, 0.8}, {0.5, 1.0}, {0.1, 0.5}, {0.4, 0.9}}, 2},
     {"two_sensors_scheduled",
      kIntegrator,
      "timer_dependent_scheduled_gain",
@@ -101,6 +111,14 @@ DesignedObserver observer_of(const Scene& scene) {
                             Eigen::MatrixXd::Identity(n, n));
   if (scene.method[0] != '\0') {
     observer.design(scene.method, kRate, scene.cells);
+  } else if (scene.plant == kCrowd) {
+    observer.prove_gains("timer_dependent_constant_gain",
+                         {{"L/a", Eigen::Vector2d(0.4, 0.0)},
+                          {"L/b", Eigen::Vector2d(0.0, 0.4)},
+                          {"L/c", Eigen::Vector2d(0.2, 0.2)},
+                          {"L/d", Eigen::Vector2d(0.4, 0.0)},
+                          {"L/e", Eigen::Vector2d(0.2, -0.2)}},
+                         kRate, scene.cells);
   } else {
     observer.prove_gains("timer_dependent_constant_gain",
                          {{"L/position", Eigen::Vector3d(0.8, 0.0, 0.0)},
