@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The server of live_view and the summary of run_summary, without a master: live_view_test.py"""
+"""The server of live_view, the markers of estimate_markers and the summary of run_summary, without a master: live_view_test.py"""
 import http.client
 import importlib.machinery
 import importlib.util
@@ -25,6 +25,7 @@ def tool(name):
 
 live_view = tool("live_view")
 run_summary = tool("run_summary")
+estimate_markers = tool("estimate_markers")
 
 
 def estimate(t, x, bound=math.nan, names=("p",)):
@@ -120,6 +121,41 @@ class ServerTest(unittest.TestCase):
         self.feed.flush()
         told = json.loads(answer.readline()[len("data: "):])["events"][0]
         self.assertEqual((told["reason"], told["values"], told["interval"]), ("outside", [1.5], None))
+
+
+class MarkersTest(unittest.TestCase):
+    def setUp(self):
+        self.markers = estimate_markers.Markers.__new__(estimate_markers.Markers)  # without a publisher
+        self.markers.lock = threading.Lock()
+        self.markers.frame, self.markers.size, self.markers.observer = "map", 0.3, "/observer"
+        self.markers.forget()
+        self.markers.settings = {"position": ["p", "q", 0.5], "yaw": None, "sensors": {"s": {"states": ["p"]}}}
+
+    def see(self, t, x, bound, jumps=0):
+        message = estimate(t, x, bound, names=("p", "q"))
+        message.jumps = jumps
+        self.markers.add_estimate(message)
+        return dict(zip(message.names, message.state))
+
+    def test_the_box_holds_what_the_bounds_allow(self):
+        values = self.see(1, [1, 2], bound=0.25)
+        box, ball = self.markers.guaranteed(values)
+        self.assertEqual((box.scale.x, box.scale.y, ball.scale.z), (0.5, 0.5, 0.5))
+        self.assertEqual((box.pose.position.x, box.pose.position.y, box.pose.position.z), (1, 2, 0.5))
+        self.assertEqual({marker.action for marker in self.markers.guaranteed(self.see(2, [1, 2], bound=math.inf))}, {box.DELETE})
+
+    def test_the_path_has_a_gap_at_jumps_and_samples_lie_where_they_were_measured(self):
+        for t, (x, jumps) in enumerate(((0, 0), (1, 0), (5, 1), (6, 1)), 1):
+            self.see(t, [x, 0], 1, jumps)
+        self.assertEqual([point.x for point in self.markers.lines().points], [0, 1, 5, 6])
+        self.assertEqual([point.x for point in self.markers.jumps], [5])
+        self.markers.add_event(event(4))
+        self.markers.add_event(event(4, EventStatus.GATED))
+        point, = self.markers.samples["samples"]
+        self.assertEqual((point.x, point.y, point.z), (1.5, 0, 0.5))
+        self.assertEqual(len(self.markers.samples["rejected"]), 1)
+        empty = self.markers.points("jumps", [])
+        self.assertEqual(empty.action, empty.DELETE)
 
 
 class SummaryTest(unittest.TestCase):
