@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace sampled_data_observers {
@@ -13,33 +14,50 @@ constexpr int kDigitBits = 6;
 constexpr int kDigits = 1 << kDigitBits;
 constexpr int kPlaces = (63 + kDigitBits - 1) / kDigitBits;
 
+/// The step of 2^times as long a time.
+template <class Step>
+Step doubled(Step step, int times) {
+  for (int i = 0; i < times && step.is_finite(); ++i) step = compose(step, step);
+  return step;
+}
+
 /// The tables of a flow: `block` numbers for each digit d but 0 at each place k, those of d at k at
 /// (63 k + d − 1) block. They end before what overflows, as an unstable plant's later transitions
 /// do, and with the last digit that a duration has.
 ///
-/// A Step is what the flow does in some time. It has is_finite(), and compose(Step, Step) gives the
-/// step of both.
-/// @param none   the step of no time
-/// @param unit   unit(scale) is the step of `scale` nanoseconds
-/// @param write  write(step, numbers) puts what is needed of a step into its block of zeros
-template <class Step, class Unit, class Write>
+/// A Step is what the flow does in some time. It has is_finite(), whether all of it is as a double,
+/// and compose(Step, Step) gives the step of both.
+/// @param none       the step of no time
+/// @param unit       unit(scale) is the step of `scale` nanoseconds
+/// @param doublings  doublings(scale): how often a shorter step is doubled() for that; 6 more times
+/// for
+///                   the next place, where it is at all
+/// @param write      write(step, numbers) puts what is needed of a step into its block of zeros
+template <class Step, class Unit, class Doublings, class Write>
 std::vector<double> digit_tables(std::size_t block, const Step& none, const Unit& unit,
-                                 const Write& write) {
+                                 const Doublings& doublings, const Write& write) {
+  constexpr std::size_t kComposed = kDigits / 2;  // larger digits are no part of others
   constexpr std::size_t kDigitsOfLastPlace = std::size_t{1} << (63 - kDigitBits * (kPlaces - 1));
   constexpr std::size_t kBlocks = (kDigits - 1) * (kPlaces - 1) + kDigitsOfLastPlace - 1;
   std::vector<double> tables(block * kBlocks);
   double* table = tables.data();
+  Step first = none;
+  bool is_doubled = false;
   for (int place = 0; place < kPlaces; ++place) {
+    const long double scale = std::ldexp(1.0L, kDigitBits * place);
+    first = is_doubled ? doubled(std::move(first), kDigitBits) : unit(scale);
+    is_doubled = is_doubled || doublings(scale) > 0;
     const std::size_t end = place + 1 < kPlaces ? kDigits : kDigitsOfLastPlace;
-    std::vector<Step> digits = {none, unit(std::ldexp(1.0L, kDigitBits * place))};
+    std::vector<Step> digits = {none};
     for (std::size_t d = 1; d < end; ++d, table += block) {
-      if (d > 1) digits.push_back(compose(digits[d / 2], digits[d - d / 2]));
-      if (!digits[d].is_finite()) {
+      Step step = d > 1 ? compose(digits[d / 2], digits[d - d / 2]) : first;
+      if (!step.is_finite()) {
         tables.resize(static_cast<std::size_t>(table - tables.data()));
         tables.shrink_to_fit();
         return tables;
       }
-      write(digits[d], table);
+      write(step, table);
+      if (d <= kComposed) digits.push_back(std::move(step));
     }
   }
   return tables;

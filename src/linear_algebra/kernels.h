@@ -36,6 +36,16 @@ struct SparseRows {
   const std::int32_t* offset = nullptr;  ///< of each entry: padded(n) times its column
 };
 
+/// Of a symmetric matrix of n x n, the lower half is kept, column by column: column j from the
+/// first of the four rows on among which its diagonal is, padded.
+constexpr std::ptrdiff_t first_row_of_lower(std::ptrdiff_t j) { return j / kPadding * kPadding; }
+
+/// Where column j of it begins; of column n, where it ends.
+constexpr std::ptrdiff_t lower_column(std::ptrdiff_t n, std::ptrdiff_t j) {
+  const std::ptrdiff_t top = first_row_of_lower(j);
+  return top * padded(n) - top * (top - kPadding) / 2 + (j - top) * (padded(n) - top);
+}
+
 /// A measurement update: see joseph_update().
 struct JosephUpdate {
   const double* rows = nullptr;
@@ -53,8 +63,8 @@ struct Kernels {
   LinearFlow linear_flow[kPanelRows + 1];
 
   /// P ← Φ P Φᵀ + Q with the block of each digit: entries of Φ where they may differ from zero,
-  /// then Q, n x n, its columns padded. P is n x n, symmetric to the bit, and so again. `scratch`:
-  /// covariance_scratch(n) numbers.
+  /// then the lower half of Q, of n x n (lower_column()). P is n x n, symmetric to the bit, and so
+  /// again. `scratch`: covariance_scratch(n) numbers.
   void (*covariance_flow)(const double* const* blocks, int digits, const SparseRows& entries,
                           std::ptrdiff_t n, double* P, double* scratch);
 

@@ -15,11 +15,16 @@ struct Transition {
         full(ExtendedMatrix::Identity(minus_identity.rows(), minus_identity.cols()) +
              minus_identity) {}
 
-  bool is_finite() const { return full.allFinite(); }
+  /// As doubles, which overflow earlier.
+  bool is_finite() const { return full.cast<double>().allFinite(); }
 
   ExtendedMatrix minus_identity;
   ExtendedMatrix full;
 };
+
+/// a b, each entry summed in the order of the columns of a, in blocks that stay in registers: the
+/// processor loads a long double from memory many times slower than it multiplies two.
+ExtendedMatrix product(const ExtendedMatrix& a, const ExtendedMatrix& b);
 
 /// The product of two that commute.
 Transition compose(const Transition& a, const Transition& b);

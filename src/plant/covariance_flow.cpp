@@ -3,9 +3,11 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "linear_algebra/digit_tables.h"
 #include "linear_algebra/kernels.h"
+#include "linear_algebra/shared_tables.h"
 #include "linear_algebra/transition_matrix.h"
 
 namespace sampled_data_observers {
@@ -16,12 +18,12 @@ struct CovarianceStep {
   Transition transition;
   ExtendedMatrix noise;
 
-  bool is_finite() const { return transition.is_finite() && noise.allFinite(); }
+  bool is_finite() const { return transition.is_finite() && noise.cast<double>().allFinite(); }
 };
 
 CovarianceStep compose(const CovarianceStep& first, const CovarianceStep& second) {
   const ExtendedMatrix& Phi = second.transition.full;
-  const ExtendedMatrix noise = Phi * first.noise * Phi.transpose() + second.noise;
+  const ExtendedMatrix noise = product(product(Phi, first.noise), Phi.transpose()) + second.noise;
   return {compose(first.transition, second.transition), (noise + noise.transpose()) / 2.0L};
 }
 
@@ -32,15 +34,14 @@ CovarianceStep unit_step(const ExtendedMatrix& A, const ExtendedMatrix& Q) {
   constexpr int kTerms = 20;
   const int doublings = doublings_for(A);
   const long double h = std::ldexp(1.0L, -doublings);
+  const ExtendedMatrix transposed = A.transpose();
   ExtendedMatrix term = Q * h;
   ExtendedMatrix sum = term;
   for (int k = 2; k <= kTerms; ++k) {
-    term = ((A * term + term * A.transpose()) * (h / static_cast<long double>(k))).eval();
+    term = (product(A, term) + product(term, transposed)) * (h / static_cast<long double>(k));
     sum += term;
   }
-  CovarianceStep result{exponential(A * h), sum};
-  for (int i = 0; i < doublings && result.is_finite(); ++i) result = compose(result, result);
-  return result;
+  return doubled(CovarianceStep{exponential(A * h), sum}, doublings);
 }
 
 /// Where e^{At} may differ from zero: where there is a path from one state to another.
@@ -80,6 +81,9 @@ CovarianceFlow::CovarianceFlow(const Eigen::MatrixXd& A, const Eigen::MatrixXd& 
     const long double seconds = 1e-9L * scale;
     return unit_step(A.cast<long double>() * seconds, Q.cast<long double>() * seconds);
   };
+  const auto doublings = [&](long double scale) {
+    return doublings_for(A.cast<long double>() * (1e-9L * scale));
+  };
   const Eigen::Index rows = padded(states_);
   row_begins_ = {0};
   for (const std::vector<bool>& row : paths_of(A)) {
@@ -97,22 +101,31 @@ CovarianceFlow::CovarianceFlow(const Eigen::MatrixXd& A, const Eigen::MatrixXd& 
         *block++ = static_cast<double>(step.transition.full(i, column));
       }
     }
-    // No zero of it is negative: kernels rely on that.
-    Eigen::Map<Eigen::MatrixXd>(block, rows, states_).topRows(states_) =
-        step.noise.cast<double>().array() + 0.0;
+    for (Eigen::Index j = 0; j < states_; ++j) {
+      const Eigen::Index top = first_row_of_lower(j);
+      for (Eigen::Index i = top; i < states_; ++i) {
+        // No zero of it is negative: kernels rely on that.
+        block[lower_column(states_, j) + i - top] = static_cast<double>(step.noise(i, j)) + 0.0;
+      }
+    }
   };
-  tables_ = digit_tables(block(), CovarianceStep{Transition(zero), zero}, unit, write);
+  std::vector<double> key = {kCovarianceTables, static_cast<double>(states_)};
+  key.insert(key.end(), A.data(), A.data() + A.size());
+  key.insert(key.end(), Q.data(), Q.data() + Q.size());
+  tables_ = shared_tables(std::move(key), [&] {
+    return digit_tables(block(), CovarianceStep{Transition(zero), zero}, unit, doublings, write);
+  });
 }
 
 Eigen::Index CovarianceFlow::scratch_size(Eigen::Index n) { return covariance_scratch(n); }
 
 std::size_t CovarianceFlow::block() const {
-  return offsets_.size() + static_cast<std::size_t>(padded(states_) * states_);
+  return offsets_.size() + static_cast<std::size_t>(lower_column(states_, states_));
 }
 
 void CovarianceFlow::apply(Duration duration, double* P, double* scratch) const {
   DigitBlocks blocks;
-  if (!find_digits(duration, tables_, block(), blocks)) {
+  if (!find_digits(duration, *tables_, block(), blocks)) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     for (Eigen::Index i = 0; i < states_ * states_; ++i) P[i] = nan;
   } else if (blocks.count > 0) {

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "sampled_data_observers/hybrid/time.h"
@@ -13,9 +14,9 @@ namespace sampled_data_observers {
 ///
 /// As in LinearFlow, Φ and Q_Δ of every base-64 digit of a duration are tabulated, computed in
 /// extended precision; of Φ those entries only that may differ from zero, since there is a path of
-/// entries of A from one state to the other. The tables hold 1276 n² doubles at most, with n
-/// rounded up to a multiple of 4 for rows of Q_Δ: 160 kB for n = 4, 2.4 MB for n = 15. Copies share
-/// them.
+/// entries of A from one state to the other. The tables hold some 957 n² doubles at most,
+/// since of Q_Δ one half is enough: 160 kB for n = 4, 1.9 MB for n = 15. Flows of the same A and Q
+/// in one process share them.
 class CovarianceFlow {
  public:
   /// @param A  n x n
@@ -38,8 +39,8 @@ class CovarianceFlow {
   /// Where Φ may differ from zero: as SparseRows.
   std::vector<std::int32_t> row_begins_;
   std::vector<std::int32_t> offsets_;
-  /// Of each digit: these entries of Φ, then Q_Δ, column-major with padded columns.
-  std::vector<double> tables_;
+  /// Of each digit: these entries of Φ, then Q_Δ, as Kernels::covariance_flow takes them.
+  std::shared_ptr<const std::vector<double>> tables_;
 };
 
 }  // namespace sampled_data_observers

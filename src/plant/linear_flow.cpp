@@ -2,9 +2,11 @@
 
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "linear_algebra/digit_tables.h"
 #include "linear_algebra/kernels.h"
+#include "linear_algebra/shared_tables.h"
 #include "linear_algebra/transition_matrix.h"
 
 namespace sampled_data_observers {
@@ -42,19 +44,27 @@ LinearFlow::LinearFlow(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B, const
   const Eigen::Index columns = generator.cols();
   const Eigen::Index rows = padded(states_);
   const auto unit = [&](long double scale) { return exponential(generator * scale); };
+  const auto doublings = [&](long double scale) { return doublings_for(generator * scale); };
   // Of the transition of (x, u, 1) the rows of x are wanted.
   const auto write = [&](const Transition& step, double* block) {
     Eigen::Map<Eigen::MatrixXd>(block, rows, columns).topRows(states_) =
         step.full.topRows(states_).cast<double>();
   };
-  tables_ = digit_tables(static_cast<std::size_t>(rows * columns),
-                         Transition(ExtendedMatrix::Zero(columns, columns)), unit, write);
+  std::vector<double> key = {kLinearTables, static_cast<double>(states_),
+                             static_cast<double>(inputs_)};
+  key.insert(key.end(), A.data(), A.data() + A.size());
+  key.insert(key.end(), B.data(), B.data() + B.size());
+  key.insert(key.end(), c.data(), c.data() + c.size());
+  tables_ = shared_tables(std::move(key), [&] {
+    return digit_tables(static_cast<std::size_t>(rows * columns),
+                        Transition(ExtendedMatrix::Zero(columns, columns)), unit, doublings, write);
+  });
 }
 
 void LinearFlow::apply(Duration duration, double* x, const double* u, double* scratch) const {
   const Eigen::Index columns = states_ + inputs_ + (has_constant_ ? 1 : 0);
   DigitBlocks blocks;
-  if (!find_digits(duration, tables_, static_cast<std::size_t>(padded(states_) * columns),
+  if (!find_digits(duration, *tables_, static_cast<std::size_t>(padded(states_) * columns),
                    blocks)) {
     for (Eigen::Index i = 0; i < states_; ++i) x[i] = std::numeric_limits<double>::quiet_NaN();
   } else if (blocks.count > 0) {

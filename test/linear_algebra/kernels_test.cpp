@@ -72,7 +72,8 @@ struct Flow {
         }
       }
       for (Index j = 0; j < n; ++j) {
-        entries.insert(entries.end(), &noise[at(j * n)], &noise[at(j * n)] + n);
+        entries.insert(entries.end(), &noise[at(j * n + first_row_of_lower(j))],
+                       &noise[at(j * n)] + n);
         entries.resize(entries.size() + at(rows - n));
       }
       plain.push_back(M);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <vector>
 
 #include "sampled_data_observers/hybrid/time.h"
@@ -16,7 +17,8 @@ namespace sampled_data_observers {
 /// unstable plants take the same time and are exact to rounding.
 ///
 /// The tables hold 638 n (n + p) doubles, and 638 n for c, the first n rounded up to a multiple of
-/// 4: 80 kB for n = 4, 1.2 MB for n = 15, without inputs.
+/// 4: 80 kB for n = 4, 1.2 MB for n = 15, without inputs. Flows of the same matrices in one process
+/// share them.
 class LinearFlow {
  public:
   /// @param A  n x n
@@ -38,7 +40,7 @@ class LinearFlow {
   Eigen::Index inputs_;
   bool has_constant_;
   /// [Φ Γ γ] of each digit, columns padded: see digit_tables().
-  std::vector<double> tables_;
+  std::shared_ptr<const std::vector<double>> tables_;
 };
 
 }  // namespace sampled_data_observers

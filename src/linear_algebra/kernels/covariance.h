@@ -35,7 +35,7 @@ void covariance_flow(const double* const* blocks, int digits, const SparseRows& 
     });
     transpose_in_place<kWidth>(product, stride);
     for_each_lower_panel<kWidth>(n, [&](auto sum, std::ptrdiff_t first, std::ptrdiff_t j) {
-      sum.load(Q + j * stride + first);
+      sum.load(Q + lower_column(n, j) + first - first_row_of_lower(j));
       for (std::int32_t k = entries.begin[j]; k < entries.begin[j + 1]; ++k) {
         sum.add_product(product + first + entries.offset[k], Phi[k]);
       }
