@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <map>
 #include <optional>
@@ -46,5 +47,23 @@ struct ReplayOptions {
 /// @throws ReplayError, ConfigError, OutputError
 ReplaySummary replay(const ObserverConfig& config, const ReplayOptions& options,
                      RunRecord* record = nullptr);
+
+/// One of several replays of the same bags.
+struct ReplayCase {
+  std::vector<std::string> config;  ///< files
+  std::uint64_t seed = 0;           ///< of the thinning, if any
+};
+
+/// Reads a configuration.
+using ConfigLoader = std::function<ObserverConfig(const std::vector<std::string>& files)>;
+
+/// Runs all cases, reading each message once, on as many threads as there are processors. The
+/// summaries are those of replay(), but for the time, which is that of all together.
+/// @param options  without output; the seed is that of each case
+/// @param load     called on the calling thread; may be asked for the same files again
+/// @pre there is a case
+/// @throws ReplayError, ConfigError, also where configurations do not take the same events
+std::vector<ReplaySummary> replay_all(const std::vector<ReplayCase>& cases,
+                                      const ReplayOptions& options, const ConfigLoader& load);
 
 }  // namespace sampled_data_observers

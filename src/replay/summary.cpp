@@ -281,7 +281,7 @@ void print_table(const ReplaySummary& summary, std::ostream& out) {
   if (!summary.diverged.empty()) out << "\nDIVERGED: " << summary.diverged << "\n";
 }
 
-void write_json(const ReplaySummary& summary, const std::string& path) {
+nlohmann::json json_of(const ReplaySummary& summary) {
   nlohmann::json json;
   json["bag"] = summary.bag;
   json["observer"] = summary.observer;
@@ -357,7 +357,11 @@ void write_json(const ReplaySummary& summary, const std::string& path) {
   json["bag_seconds"] = summary.bag_seconds;
   json["wall_seconds"] = summary.wall_seconds;
 
-  write_output(path, json_text(json, 2) + "\n");
+  return json;
+}
+
+void write_json(const ReplaySummary& summary, const std::string& path) {
+  write_output(path, json_text(json_of(summary), 2) + "\n");
 }
 
 }  // namespace sampled_data_observers

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <ostream>
 #include <string>
@@ -181,7 +182,10 @@ struct ReplaySummary {
 /// The summary as a table for people.
 void print_table(const ReplaySummary& summary, std::ostream& out);
 
-/// The summary for machines, as JSON; what does not exist is null.
+/// The summary for machines; what does not exist is null.
+nlohmann::json json_of(const ReplaySummary& summary);
+
+/// The same as a file.
 void write_json(const ReplaySummary& summary, const std::string& path);
 
 }  // namespace sampled_data_observers

@@ -21,6 +21,11 @@ Quantity quantity_of(const Plant& plant, const std::string& state) {
                     state + "'");
 }
 
+std::size_t place_of(const std::string& state, const StateEstimate& message) {
+  const auto found = std::find(message.names.begin(), message.names.end(), state);
+  return static_cast<std::size_t>(found - message.names.begin());
+}
+
 Truth truth_from_states(const Plant& plant, const std::map<std::string, std::string>& fields) {
   Truth truth;
   std::vector<std::string> sources;
@@ -34,41 +39,47 @@ Truth truth_from_states(const Plant& plant, const std::map<std::string, std::str
     truth.quantities.push_back(quantity_of(plant, state));
     sources.push_back(field);
   }
-  truth.read = [sources](const rosbag::MessageInstance& instance, Stamp& stamp,
-                         std::vector<double>& values) {
+  truth.take = [sources](const rosbag::MessageInstance& instance) {
     const auto message = instantiate<StateEstimate>(instance);
+    for (const std::string& source : sources) {
+      if (place_of(source, *message) < message->state.size()) continue;
+      throw BagMessageError(instance, "it has no state called '" + source + "'");
+    }
+    return message;
+  };
+  truth.read = [sources](const MessagePointer& pointer, Stamp, Stamp& stamp,
+                         std::vector<double>& values) {
+    const auto message = boost::static_pointer_cast<const StateEstimate>(pointer);
     stamp = to_stamp(message->header.stamp);
     values.clear();
     for (const std::string& source : sources) {
-      const auto found = std::find(message->names.begin(), message->names.end(), source);
-      const auto index = static_cast<std::size_t>(found - message->names.begin());
-      if (index >= message->state.size()) {
-        throw BagMessageError(instance, "it has no state called '" + source + "'");
-      }
-      values.push_back(message->state[index]);
+      values.push_back(message->state[place_of(source, *message)]);
     }
     return true;
   };
   return truth;
 }
 
-/// What reads the messages of a source, all of them.
-std::function<bool(const rosbag::MessageInstance&, Stamp&, std::vector<double>&)> reader_of(
-    TopicSource config, const std::shared_ptr<const TransformBuffer>& transforms,
-    std::shared_ptr<const MessageDefinition> definition) {
+/// Has all messages of a source read.
+/// @param size  number of values that a message must have
+void read_from(TopicSource config, const std::shared_ptr<const TransformBuffer>& transforms,
+               std::shared_ptr<const MessageDefinition> definition, std::size_t size,
+               Truth& truth) {
   config.min_interval = 0;
   const std::shared_ptr<MessageSource> source =
       make_message_source(config, transforms, std::move(definition));
-  return [source, transforms](const rosbag::MessageInstance& instance, Stamp& stamp,
-                              std::vector<double>& values) {
+  truth.take = [source](const rosbag::MessageInstance& instance) {
+    return instantiate(*source, instance);
+  };
+  truth.read = [source, transforms, size](const MessagePointer& message, Stamp receipt,
+                                          Stamp& stamp, std::vector<double>& values) {
     // A truth sets no datum.
     if (transforms->plane() != nullptr && transforms->datum_text().empty()) return false;
-    const MessagePointer message = instantiate(*source, instance);
     Event event;
-    if (source->read(message, to_stamp(instance.getTime()), event) != Reading::kEvent) return false;
+    if (source->read(message, receipt, event) != Reading::kEvent) return false;
     stamp = event.stamp;
     values.assign(event.values, event.values + event.size);
-    return true;
+    return values.size() == size;
   };
 }
 
@@ -90,7 +101,7 @@ Truth truth_from_fields(const Plant& plant, const std::string& type,
     throw ReplayError("--compare: expected STATE=FIELD for a truth of type " + type +
                       ", found nothing");
   }
-  truth.read = reader_of(source, transforms, std::move(definition));
+  read_from(source, transforms, std::move(definition), source.size, truth);
   return truth;
 }
 
@@ -132,11 +143,7 @@ Truth truth_from_samples(const ObserverConfig& config, const std::vector<BagChan
     }
     truth.quantities.push_back(std::move(quantity));
   }
-  truth.read = [read = reader_of(bound.channel.source, transforms, bound.definition),
-                size = truth.quantities.size()](const rosbag::MessageInstance& instance,
-                                                Stamp& stamp, std::vector<double>& values) {
-    return read(instance, stamp, values) && values.size() == size;
-  };
+  read_from(bound.channel.source, transforms, bound.definition, truth.quantities.size(), truth);
   return truth;
 }
 

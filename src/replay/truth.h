@@ -19,7 +19,12 @@ struct Truth {
   std::vector<Quantity> quantities;
   /// Returns false for a message that says nothing of the truth; else sets the stamp and one value
   /// per quantity.
-  std::function<bool(const rosbag::MessageInstance&, Stamp&, std::vector<double>&)> read;
+  using Reader = std::function<bool(const MessagePointer&, Stamp receipt, Stamp& stamp,
+                                    std::vector<double>& values)>;
+  Reader read;
+  /// Takes what read() reads out of the bag.
+  /// @throws BagMessageError
+  std::function<MessagePointer(const rosbag::MessageInstance&)> take;
 };
 
 /// The truth on a topic of its own: a StateEstimate, whose states are found by name, or fields of

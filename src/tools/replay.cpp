@@ -8,6 +8,7 @@
 #include <iostream>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,7 @@
 #include "replay/report/report_data.h"
 #include "replay/report/report_page.h"
 #include "replay/report/report_tables.h"
+#include "replay/run_table.h"
 
 namespace sdo = sampled_data_observers;
 
@@ -48,9 +50,12 @@ struct Arguments {
   std::string report;
   std::string tables;  // a folder
   std::vector<std::string> beside;
-  std::size_t seeds = 1;
+  std::vector<std::string> gains;
+  std::optional<std::uint64_t> seeds;
 
   bool needs_record() const { return !report.empty() || !tables.empty(); }
+  /// Whether a table of runs is asked for; a report shows seeds itself.
+  bool has_runs() const { return !gains.empty() || (seeds && !needs_record()); }
 };
 
 std::map<std::string, std::string> parse_fields(const std::vector<std::string>& assignments) {
@@ -73,6 +78,7 @@ std::optional<sdo::ReplayOptions::Thinning> thinning_of(const Arguments& argumen
   if (arguments.thin_to_sampling) return sdo::ReplayOptions::Thinning{std::nullopt, seed};
   if (!arguments.thin) {
     if (arguments.seed) throw sdo::UsageError("--seed", "needs --thin or --thin-to-sampling");
+    if (arguments.seeds) throw sdo::UsageError("--seeds", "needs --thin or --thin-to-sampling");
     return std::nullopt;
   }
   const auto [T1, T2] = *arguments.thin;
@@ -117,11 +123,15 @@ sdo::ReplayOptions options_of(const Arguments& arguments) {
       (!arguments.needs_record() || (options.truth_topic.empty() && !options.thinning))) {
     throw sdo::UsageError("--beside", "needs --report or --csv, and a truth, by --truth or --thin");
   }
-  if (arguments.seeds > 1 && (!options.thinning || !arguments.needs_record())) {
-    throw sdo::UsageError("--seeds", "needs --thin or --thin-to-sampling, and --report or --csv");
+  if (arguments.has_runs() &&
+      (!options.output.empty() || !arguments.plot.empty() || arguments.needs_record())) {
+    throw sdo::UsageError(arguments.gains.empty() ? "--seeds" : "--gains",
+                          "a table of runs, not beside what is of one run: --output, --plot, "
+                          "--report and --csv");
   }
   std::vector<sdo::GivenFile> inputs = sdo::given_files("CONFIG", arguments.config);
   for (const std::string& path : arguments.beside) inputs.push_back({"--beside", path});
+  for (const std::string& path : arguments.gains) inputs.push_back({"--gains", path});
   for (const std::string& bag : options.bags) inputs.push_back({"BAG", bag});
   std::vector<sdo::GivenFile> outputs = {{"--output", options.output},
                                          {"--json", arguments.json},
@@ -156,10 +166,11 @@ std::vector<sdo::SeedRun> runs_of_seeds(const Arguments& arguments, sdo::ReplayO
                                         const sdo::ObserverConfig& config,
                                         const sdo::ReplaySummary& summary,
                                         const sdo::RunRecord& record) {
-  if (arguments.seeds < 2) return {};
+  const std::uint64_t count = arguments.seeds.value_or(1);
+  if (count < 2) return {};
   options.output.clear();
   std::vector<sdo::SeedRun> runs = {sdo::seed_run(options.thinning->seed, summary, record)};
-  while (runs.size() < arguments.seeds) {
+  while (runs.size() < count) {
     ++options.thinning->seed;
     sdo::RunRecord other;
     const sdo::ReplaySummary of_seed = sdo::replay(config, options, &other);
@@ -186,12 +197,53 @@ void write_record(const Arguments& arguments, sdo::ReplayOptions options,
   sdo::write_output(arguments.report, sdo::html_page(data, sdo::page_parts::report()));
 }
 
-int replay(const Arguments& arguments) {
-  const sdo::ReplayOptions options = options_of(arguments);
-  const sdo::ObserverConfig config =
-      sdo::read_observer_config(arguments.config, sdo::load_plant_plugin);
+void print_warnings(const sdo::ObserverConfig& config) {
   if (!config.warning.empty()) std::cerr << "replay: " << config.warning << "\n";
   for (const std::string& warning : config.warnings) std::cerr << "replay: " << warning << "\n";
+}
+
+/// Several runs at once.
+int replay_runs(const Arguments& arguments, const sdo::ReplayOptions& options) {
+  std::vector<std::string> gains = arguments.gains;
+  if (gains.empty()) gains.emplace_back();
+  std::vector<sdo::NamedRun> runs;
+  std::vector<sdo::ReplayCase> cases;
+  const std::uint64_t first = arguments.seed.value_or(0);
+  for (const std::string& file : gains) {
+    const std::vector<std::string> config =
+        file.empty() ? arguments.config : sdo::with_gains(arguments.config, file);
+    for (std::uint64_t seed = first; seed < first + arguments.seeds.value_or(1); ++seed) {
+      cases.push_back({config, seed});
+      runs.push_back({file, seed, {}});
+    }
+  }
+  std::set<std::vector<std::string>> warned;
+  const auto load = [&](const std::vector<std::string>& files) {
+    sdo::ObserverConfig config = sdo::read_observer_config(files, sdo::load_plant_plugin);
+    if (warned.insert(files).second) print_warnings(config);
+    return config;
+  };
+  std::vector<sdo::ReplaySummary> summaries = sdo::replay_all(cases, options, load);
+  bool is_broken = false;
+  bool has_diverged = false;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    runs[i].summary = std::move(summaries[i]);
+    is_broken = is_broken || runs[i].summary.is_guarantee_broken();
+    has_diverged = has_diverged || !runs[i].summary.diverged.empty();
+  }
+  const bool has_seeds = arguments.seeds.has_value();
+  sdo::print_runs(runs, has_seeds, std::cout);
+  if (!arguments.json.empty()) sdo::write_runs(runs, has_seeds, arguments.json);
+  if (is_broken) return kGuaranteeBroken;
+  return has_diverged ? kDiverged : 0;
+}
+
+int replay(const Arguments& arguments) {
+  const sdo::ReplayOptions options = options_of(arguments);
+  if (arguments.has_runs()) return replay_runs(arguments, options);
+  const sdo::ObserverConfig config =
+      sdo::read_observer_config(arguments.config, sdo::load_plant_plugin);
+  print_warnings(config);
   const std::vector<Beside> beside = configurations_beside(arguments);
   sdo::RunRecord record;
   const sdo::ReplaySummary summary =
@@ -233,9 +285,12 @@ void declare(Arguments& arguments, sdo::CommandLine& tool) {
   tool.option("--seed NUMBER", arguments.seed, "Seed of --thin and --thin-to-sampling (default 0)")
       .check(sdo::whole_number_at_least(0));
   tool.option("--seeds NUMBER", arguments.seeds,
-              "Replay with so many seeds, from --seed on, and show in the report how the errors "
-              "spread (default 1)")
+              "Replay with so many seeds, from --seed on: a table of the runs, or with --report or "
+              "--csv how the errors spread")
       .check(sdo::whole_number_between(1, 10000));
+  tool.option("--gains FILE...", arguments.gains,
+              "Replay with this gain file instead of that of CONFIG, and print a table of the runs; "
+              "may be given several times");
   tool.option("--from SECONDS", arguments.from,
               "Compare from this time on [s after the first truth]")
       .check(sdo::number_at_least(0));

@@ -396,6 +396,41 @@ class ToolsTest(FolderTest):
         self.assertIn("expected T1 > 0 and a T2 in the sampling of gps, found T1 = 0",
                       self.fault("replay", *self.replay("--thin-to-sampling", "--truth", "truth")))
 
+    def test_several_runs_are_those_of_single_ones(self):
+        self.simulate()
+        self.observer = self.write("observer.yaml",
+                                   OBSERVER.replace("DELAY", "0").replace(
+                                       "gains: {L: [[0.5], [0.5]]}\n", ""))
+        gains = [self.write(name, "gains: {L: [[%g], [%g]]}\n" % (L, L))
+                 for name, L in (("soft.yaml", 0.3), ("hard.yaml", 0.8))]
+        thinned = ["--truth", "truth", "--thin", "0.1", "0.4"]
+        single = []
+        for file in gains:
+            for seed in (2, 3, 4):
+                self.succeed("replay", *self.replay(file, *thinned, "--seed", str(seed), "--json",
+                                                    self.path("one.json")))
+                with open(self.path("one.json")) as summary:
+                    single.append(dict(json.load(summary), gains=file, seed=seed))
+        text = self.succeed("replay", *self.replay(
+            gains[0], *thinned, "--seed", "2", "--seeds", "3", "--gains", gains[0], "--gains",
+            gains[1], "--json", self.path("runs.json")))
+        self.assertEqual(len(re.findall("median", text)), 2)
+        with open(self.path("runs.json")) as runs:
+            found = json.load(runs)
+        for run in single + found["runs"]:
+            del run["wall_seconds"]
+        self.assertEqual(found["runs"], single)
+        for i, group in enumerate(found["gains"]):
+            norms = sorted(run["rmse_norm"] for run in single[3 * i:3 * i + 3])
+            self.assertLess(norms[0], norms[2])
+            self.assertEqual(group["over_runs"]["RMSE norm"],
+                             dict(zip(("min", "median", "max"), norms)))
+        self.assertIn("--seeds: needs --thin",
+                      self.refuse("replay", *self.replay("--seeds", "2")))
+        self.assertIn("--gains: a table of runs, not beside",
+                      self.refuse("replay", *self.replay("--gains", gains[0], "-o",
+                                                         self.path("out.bag"))))
+
     def test_errors_around_jumps_are_told_apart(self):
         self.scenario = self.write("scenario.yaml", BOUNCING)
         self.observer = self.write("observer.yaml", OBSERVER.replace("DELAY", "0"))
