@@ -162,10 +162,4 @@ std::vector<BagChannel> bind_channels(const ObserverConfig& config, const BagSet
   return result;
 }
 
-void take_transforms(const rosbag::MessageInstance& instance, bool are_static,
-                     TransformBuffer& transforms) {
-  const auto message = instantiate<tf2_msgs::TFMessage>(instance);
-  transforms.take(*message, are_static, to_stamp(instance.getTime()));
-}
-
 }  // namespace sampled_data_observers

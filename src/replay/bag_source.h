@@ -127,9 +127,4 @@ std::vector<BagChannel> bind_channels(const ObserverConfig& config, const BagSet
                                       const std::shared_ptr<const TransformBuffer>& transforms,
                                       bool may_lack_input);
 
-/// Takes the transforms of a message.
-/// @throws ReplayError when the message can't be read as transforms.
-void take_transforms(const rosbag::MessageInstance& instance, bool are_static,
-                     TransformBuffer& transforms);
-
 }  // namespace sampled_data_observers

@@ -149,7 +149,8 @@ RecordedMessage MessageStream::prepare(const rosbag::MessageInstance& instance) 
 /// Whether a source makes the same of the messages of a channel in every run: it is given all of
 /// them, none waits for transforms, and no datum depends on what was used.
 bool MessageStream::reads_for_all(const EventChannel& channel) const {
-  return !is_thinned(options_, channel) && !channel.source.frames.any() &&
+  const SourceFrames& frames = channel.source.frames;
+  return !is_thinned(options_, channel) && !frames.any() && !frames.are_wanted_themselves() &&
          transforms_->plane() == nullptr;
 }
 
