@@ -288,9 +288,10 @@ void declare(Arguments& arguments, sdo::CommandLine& tool) {
               "Replay with so many seeds, from --seed on: a table of the runs, or with --report or "
               "--csv how the errors spread")
       .check(sdo::whole_number_between(1, 10000));
-  tool.option("--gains FILE...", arguments.gains,
-              "Replay with this gain file instead of that of CONFIG, and print a table of the runs; "
-              "may be given several times");
+  tool.option(
+      "--gains FILE...", arguments.gains,
+      "Replay with this gain file instead of that of CONFIG, and print a table of the runs; "
+      "may be given several times");
   tool.option("--from SECONDS", arguments.from,
               "Compare from this time on [s after the first truth]")
       .check(sdo::number_at_least(0));
