@@ -27,6 +27,9 @@ class FaultList {
     }
   }
 
+  /// Whether there are some.
+  bool any() const { return count_ > 0; }
+
   /// @throws ConfigError with all of them, where there are some.
   void require_none() const {
     if (count_ == 0) return;

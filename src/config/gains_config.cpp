@@ -36,7 +36,52 @@ std::vector<Eigen::MatrixXd> read_per_sensor(ConfigSection& gains, const std::st
   return result;
 }
 
+/// Nothing where the key holds a matrix.
+std::optional<MessageCovariance> read_message_covariance(ConfigSection& section,
+                                                         const std::string& key,
+                                                         const Sensor& sensor) {
+  const char* const from_message = "message";
+  const bool is_text =
+      section.has(key) && !section.is_map(key) && !section.is_list(key) && !section.is_number(key);
+  MessageCovariance covariance;
+  covariance.floor = Eigen::VectorXd::Zero(sensor.outputs());
+  if (is_text) {
+    const std::string text = section.text(key);
+    if (text != from_message) {
+      throw section.error(key, "a matrix, or " + std::string(from_message), "'" + text + "'");
+    }
+  } else {
+    if (!section.is_map(key)) return std::nullopt;
+    ConfigSection map = section.section(key);
+    if (!map.has(from_message)) return std::nullopt;
+    ConfigSection message = map.section(from_message);
+    constexpr double kLargest = 1e100;
+    covariance.scale = message.number_in("scale", 1.0 / kLargest, kLargest, 1.0);
+    if (message.has("floor")) covariance.floor = message.vector("floor", sensor.outputs());
+    if (covariance.floor.minCoeff() < 0.0) {
+      throw message.error("floor", "variances, not negative", "a negative one");
+    }
+    message.finish();
+    map.finish();
+  }
+  if (sensor.timing == SensorTiming::kSampled) return covariance;
+  throw section.error(key, "a matrix, since nothing measured at jumps comes with a covariance",
+                      from_message);
+}
+
 }  // namespace
+
+std::vector<std::optional<MessageCovariance>> read_message_covariances(ConfigSection& gains,
+                                                                       const Plant& plant) {
+  std::vector<std::optional<MessageCovariance>> result(plant.sensors().size());
+  read_per_sensor(gains, "R", plant, {SensorTiming::kSampled, SensorTiming::kAtJumps},
+                  [&](ConfigSection& section, const std::string& of, const Sensor& sensor) {
+                    const auto index = static_cast<std::size_t>(&sensor - plant.sensors().data());
+                    result[index] = read_message_covariance(section, of, sensor);
+                    return Eigen::MatrixXd();
+                  });
+  return result;
+}
 
 std::vector<Eigen::MatrixXd> read_gain_per_sensor(ConfigSection& gains, const std::string& key,
                                                   const Plant& plant, SensorTiming timing,
@@ -55,6 +100,15 @@ std::vector<Eigen::MatrixXd> read_square_per_sensor(ConfigSection& gains, const 
                          [](ConfigSection& section, const std::string& of, const Sensor& sensor) {
                            return section.square_matrix(of, sensor.outputs());
                          });
+}
+
+std::vector<Eigen::MatrixXd> read_noise_covariances(ConfigSection& gains, const Plant& plant) {
+  return read_per_sensor(
+      gains, "R", plant, {SensorTiming::kSampled, SensorTiming::kAtJumps},
+      [](ConfigSection& section, const std::string& of, const Sensor& sensor) -> Eigen::MatrixXd {
+        if (read_message_covariance(section, of, sensor)) return {};
+        return section.square_matrix(of, sensor.outputs());
+      });
 }
 
 std::vector<OutputInjection> read_output_injections(ConfigSection& gains, const Plant& plant) {

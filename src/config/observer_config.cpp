@@ -13,6 +13,7 @@
 #include "config/law_config.h"
 #include "config/sampling_config.h"
 #include "sampled_data_observers/config/config_section.h"
+#include "sampled_data_observers/config/gains_config.h"
 #include "sampled_data_observers/config/law_registry.h"
 #include "sampled_data_observers/config/plant_config.h"
 #include "sampled_data_observers/config/yaml_file.h"
@@ -91,6 +92,30 @@ RealTimeOptions read_real_time(ConfigSection& root) {
   return options;
 }
 
+/// Tells sources that a covariance is wanted beside their values.
+void take_covariances(ConfigSection& root, ObserverConfig& config) {
+  ConfigSection gains = root.section("gains");
+  const auto wanted = read_message_covariances(gains, *config.plant);
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    if (!wanted[i]) continue;
+    TopicSource& source = *config.sensors[i];
+    const SourceFrames& frames = source.frames;
+    if (source.is_of_own_type() || frames.are_wanted_themselves()) {
+      throw ConfigError(source.origin, source.path + "/type",
+                        "a message type with a covariance, for gains/R from the message",
+                        source.is_of_own_type() ? source.type : "tf");
+    }
+    if (frames.any()) {
+      const bool is_frame = !frames.frame.empty();
+      throw ConfigError(
+          source.origin, source.path + (is_frame ? "/frame" : "/body_frame"),
+          "none beside gains/R from the message, whose covariance is in its own frame",
+          "'" + (is_frame ? frames.frame : frames.body_frame) + "'");
+    }
+    source.covariance = wanted[i];
+  }
+}
+
 /// An observer that measures what it publishes itself would believe in whatever it estimates.
 void require_no_loop(const ObserverConfig& config) {
   if (!config.outputs || !config.outputs->transform) return;
@@ -162,6 +187,7 @@ ObserverConfig read_observer_config(const ConfigNode& tree, const PlantPluginLoa
   faults.attempt([&] { read_settings(root, config); });
   faults.require_none();
   for (const auto& source : config.sensors) config.has_topic.push_back(source.has_value());
+  if (config.type == "HybridKalmanFilter") take_covariances(root, config);
 
   Guarantee guarantee = read_guarantee(root, tree, config, layers.delays_jumps);
   config.guarantee = std::move(guarantee.text);
@@ -177,10 +203,13 @@ ObserverConfig read_observer_config(const ConfigNode& tree, const PlantPluginLoa
   layers.bound = std::move(guarantee.bound);
   layers.noise = guarantee.noise;
   for (const DwellTime& claimed : guarantee.dwell_times) watch(claimed, layers.dwell_times);
-  layers.gates = read_gates(root, plant, *config.law);
+  faults.attempt([&] { layers.gates = read_gates(root, plant, *config.law); });
+  faults.attempt([&] {
+    config.outputs = read_outputs(root, {config.law->estimate_names(), config.plant->input_names()},
+                                  config.frame_id, layers.bound != nullptr);
+  });
+  faults.require_none();
   config.law = assemble(config.law, config.plant, std::move(layers));
-  config.outputs = read_outputs(root, {config.law->estimate_names(), config.plant->input_names()},
-                                config.frame_id, config.law->has_bound());
   require_no_loop(config);
   if (config.jumps && config.jumps->detector) {
     config.jumps->detector->future_tolerance = config.options.future_tolerance;

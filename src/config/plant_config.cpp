@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "config/expression_config.h"
+#include "config/fault_list.h"
 #include "config/input_channels.h"
 #include "config/mode_config.h"
 #include "config/size_limits.h"
@@ -96,21 +97,33 @@ class PlantReader {
       names_.x = read_names(section_, "states");
       if (section_.has("inputs") || section_.has("B")) names_.u = read_names(section_, "inputs");
       require_bounded(names_.x.size() + names_.u.size(), 1, kMostVariables, section_, "states");
-      read_modes();
     }
     plant_.state_names = names_.x;
     plant_.input_names = names_.u;
-    plant_.integration = read_integration(section_);
-    read_unit_norms();
+    // All that takes no more than the names of states and inputs is read on.
+    FaultList faults;
+    if (plant_.modes.empty()) faults.attempt([&] { read_modes(); });
+    faults.attempt([&] { plant_.integration = read_integration(section_); });
+    const bool has_modes = !faults.any();
+    faults.attempt([&] { read_unit_norms(); });
     ConfigSection units = section_.section_or_empty("units");
-    complete_sets("jump_set", &PlantMode::jump_set);
-    complete_sets("flow_set", &PlantMode::flow_set);
-    section_.finish();
-    if (sensors_.keys().empty()) throw root.error("sensors", "at least one sensor", "none");
-    for (const std::string& name : sorted_keys(sensors_)) read_sensor(name);
+    if (has_modes) {
+      faults.attempt([&] {
+        complete_sets("jump_set", &PlantMode::jump_set);
+        complete_sets("flow_set", &PlantMode::flow_set);
+        section_.finish();
+      });
+    }
+    if (sensors_.keys().empty()) faults.add(root.error("sensors", "at least one sensor", "none"));
+    for (const std::string& name : sorted_keys(sensors_)) {
+      faults.attempt([&] { read_sensor(name); });
+    }
+    faults.attempt([&] {
+      plant_.input_channels = read_input_channels(root, names_.u, sorted_keys(sensors_));
+    });
+    faults.require_none();
     check_outputs_of_modes();
     read_units(units);
-    plant_.input_channels = read_input_channels(root, names_.u, sorted_keys(sensors_));
     require_bounded(variables_of(plant_) + biases_.size(), plant_.modes.size(), kMostVariables,
                     root, "plant");
   }

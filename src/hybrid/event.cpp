@@ -23,9 +23,10 @@ int compare(const Event& a, const Event& b) {
   if (const int order = three_way(a.rejected, b.rejected)) return order;
   if (const int order = three_way(a.index, b.index)) return order;
   if (const int order = three_way(a.size, b.size)) return order;
+  if (const int order = three_way(a.covariance, b.covariance)) return order;
   if (const int order = three_way(a.mode, b.mode)) return order;
   if (const int order = three_way(a.delay, b.delay)) return order;
-  for (Eigen::Index i = 0; i < a.size; ++i) {
+  for (Eigen::Index i = 0; i < a.size + a.covariance; ++i) {
     if (const int order = three_way(a.values[i], b.values[i])) return order;
   }
   return 0;

@@ -260,7 +260,8 @@ void Timeline::open_position(std::size_t position, const Event& event) {
   const double* values = own.values;
   // Negative zeros become positive ones: they compare equal, and whichever comes first must not
   // decide which of them the maps see.
-  values_.col(static_cast<Eigen::Index>(free_slot)).head(event.size) = event.vector().array() + 0.0;
+  values_.col(static_cast<Eigen::Index>(free_slot)).head(event.numbers().size()) =
+      event.numbers().array() + 0.0;
   own = event;
   own.values = values;
 }

@@ -61,6 +61,13 @@ inline void add_symmetric_product(const double* A, const double* B, Eigen::Index
   mirror_lower(C, n);
 }
 
+/// M ← the symmetric matrix whose lower triangle stands in `rows`, row by row.
+inline void unpack_lower(const double* rows, Eigen::Index n, double* M) {
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index j = 0; j <= i; ++j) M[i + j * n] = M[j + i * n] = *rows++;
+  }
+}
+
 /// M ← L, lower triangular, with M = L Lᵀ; only the lower triangle of M is read, the upper one
 /// becomes zero. Returns false, and leaves M of no use, where a pivot is not greater than
 /// `tolerance` times the diagonal entry it came from: M is not positive definite, or not finite.

@@ -3,6 +3,7 @@
 #include <ros/message_event.h>
 #include <ros/subscribe_options.h>
 
+#include <algorithm>
 #include <array>
 #include <boost/make_shared.hpp>
 #include <utility>
@@ -72,7 +73,7 @@ DecodedSource::DecodedSource(const TopicSource& source,
       stamp_plan_(compile_stamp(source, definition_)),
       parts_(compile(source, definition_, plane_of(transforms_))),
       decoded_(parts_.plan.counts()),
-      values_(parts_.fields.size()) {}
+      values_(parts_.fields.size() + (parts_.covariance ? parts_.covariance->size() : 0)) {}
 
 DecodedSource::Parts DecodedSource::compile(
     const TopicSource& source, const std::shared_ptr<const MessageDefinition>& definition,
@@ -80,8 +81,10 @@ DecodedSource::Parts DecodedSource::compile(
   PlanCompiler compiler(definition);
   const auto stamp = want_stamp(source, *definition, compiler);
   DecodedFields fields(source, *definition, compiler, std::move(plane));
+  std::optional<CovarianceFields> covariance;
+  if (source.covariance) covariance.emplace(source, *definition, compiler);
   FrameBlocks frames(source, *definition, fields.paths(), compiler);
-  return {stamp, std::move(fields), std::move(frames), compiler.compile()};
+  return {stamp, std::move(fields), std::move(covariance), std::move(frames), compiler.compile()};
 }
 
 ros::Subscriber DecodedSource::subscribe(ros::NodeHandle& handle, std::uint32_t queue_length,
@@ -140,12 +143,21 @@ Reading DecodedSource::read(const MessagePointer& message, Stamp receipt, Event&
   const Reading fields = parts_.fields.read(decoded_, event.stamp, values_.data());
   if (fields != Reading::kEvent) return fields;
   event.values = values_.data() + (has_mode_ ? 1 : 0);
-  event.size = static_cast<Eigen::Index>(values_.size()) - (has_mode_ ? 1 : 0);
+  event.size = static_cast<Eigen::Index>(parts_.fields.size()) - (has_mode_ ? 1 : 0);
   if (has_mode_) event.mode = values_.front();
   if (!corrected_.apply(event)) return Reading::kOutOfLimits;
+  if (parts_.covariance && !add_covariance(event)) return Reading::kNoCovariance;
   // What will be rejected does not take the place of the next message.
   const bool counts = has_stamp && is_admissible(event.vector());
   return !counts || thinned_.keep(event.stamp) ? Reading::kEvent : Reading::kPassedOver;
+}
+
+/// Behind the values, once they are corrected.
+bool DecodedSource::add_covariance(Event& event) {
+  if (event.values != values_.data()) std::copy_n(event.values, event.size, values_.data());
+  event.values = values_.data();
+  event.covariance = static_cast<Eigen::Index>(parts_.covariance->size());
+  return parts_.covariance->read(decoded_, values_.data() + event.size);
 }
 
 void DecodedSource::name_missing_transform(const MessagePointer& message, Stamp stamp,

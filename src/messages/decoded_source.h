@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "messages/decoded_fields.h"
 #include "messages/definition/decoding_plan.h"
 #include "messages/frame_blocks.h"
+#include "messages/message_covariance.h"
 #include "messages/raw_message.h"
 #include "runtime/thinned_stamps.h"
 #include "sampled_data_observers/messages/message_source.h"
@@ -39,12 +41,14 @@ class DecodedSource : public MessageSource {
     std::pair<std::size_t, std::size_t>
         stamp;  ///< slots, where messages are not stamped on receipt
     DecodedFields fields;
+    std::optional<CovarianceFields> covariance;
     FrameBlocks frames;
     DecodingPlan plan;
   };
   static Parts compile(const TopicSource& source,
                        const std::shared_ptr<const MessageDefinition>& definition,
                        std::shared_ptr<LocalPlane> plane);
+  bool add_covariance(Event& event);
   /// The stamp that a message carries; 0 where it is malformed.
   Stamp own_stamp(const RawMessage& message) const;
 

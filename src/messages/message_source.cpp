@@ -62,6 +62,8 @@ EventOutcome outcome_of(Reading reading) {
       return EventOutcome::kOtherDefinition;
     case Reading::kMalformed:
       return EventOutcome::kMalformed;
+    case Reading::kNoCovariance:
+      return EventOutcome::kNoCovariance;
     case Reading::kBeforeDatum:
       return EventOutcome::kTooOld;
     case Reading::kEvent:

@@ -83,6 +83,7 @@ static_assert(EventStatus::TAKEN_BACK == static_cast<int>(EventOutcome::kTakenBa
 static_assert(EventStatus::WITHDRAWN == static_cast<int>(EventOutcome::kWithdrawn));
 static_assert(EventStatus::NO_SUCH_JUMP == static_cast<int>(EventOutcome::kNoSuchJump));
 static_assert(EventStatus::OUT_OF_LIMITS == static_cast<int>(EventOutcome::kOutOfLimits));
+static_assert(EventStatus::NO_COVARIANCE == static_cast<int>(EventOutcome::kNoCovariance));
 static_assert(EventStatus::DWELL_NONE == static_cast<int>(DwellCheck::kNone));
 static_assert(EventStatus::DWELL_WITHIN == static_cast<int>(DwellCheck::kWithin));
 static_assert(EventStatus::DWELL_SHORT == static_cast<int>(DwellCheck::kShort));

@@ -6,11 +6,13 @@
 #include <memory>
 
 #include "messages/definition/installed_definitions.h"
+#include "messages/message_covariance.h"
 #include "sampled_data_observers/messages/message_source.h"
 
 namespace sampled_data_observers {
 
-MessageEncoder::MessageEncoder(const TopicSource& source, const std::optional<NavSatDatum>& navsat)
+MessageEncoder::MessageEncoder(const TopicSource& source, const std::optional<NavSatDatum>& navsat,
+                               double variance)
     : has_mode_(source.has_mode) {
   const auto transforms = std::make_shared<TransformBuffer>(std::vector<StaticTransform>(), navsat);
   make_message_source(source, transforms);
@@ -20,6 +22,7 @@ MessageEncoder::MessageEncoder(const TopicSource& source, const std::optional<Na
   const bool is_transform = source.frames.are_wanted_themselves();
   const std::string prefix = is_transform ? "transforms.0.transform." : "";
   for (const std::string& field : source.fields) add_field(prefix + field);
+  if (variance > 0.0) add_variances(source, prefix, variance);
   if (!fixes_.empty() && !plane_->datum()) {
     throw ConfigError(source.origin, source.path + "/fields",
                       "a navsat/datum of numbers, since nobody knows where the simulated plant is",
@@ -66,6 +69,26 @@ void MessageEncoder::add_field(const std::string& text) {
   fix.values.at(static_cast<std::size_t>(field.derived) - east) = value;
 }
 
+/// Where the messages have those of the values.
+void MessageEncoder::add_variances(const TopicSource& source, const std::string& prefix,
+                                   double variance) {
+  constexpr double kDiagonalIsKnown = 2.0;  // sensor_msgs/NavSatFix
+  const auto add = [&](const MessagePath& path, double number) {
+    items_.push_back({{path}});
+    items_.back().number = number;
+  };
+  for (std::size_t i = 0; i < source.fields.size(); ++i) {
+    const auto place = CovarianceFields::place_of(
+        *definition_, *find_field(*definition_, prefix + source.fields[i]));
+    if (!place) continue;
+    const Eigen::VectorXd& scales = source.correction.scale;
+    const double scale = scales.size() == 0 ? 1.0 : scales(static_cast<Eigen::Index>(i));
+    add(place->path_with(*place), variance / (scale * scale));
+    const auto type = CovarianceFields::type_of(*definition_, *place);
+    if (type) add(*type, kDiagonalIsKnown);
+  }
+}
+
 /// What is not said of its place in the plane is 0.
 void MessageEncoder::add_fix(const Fix& fix, const std::vector<double>& values,
                              std::vector<MessageItem>& items) const {
@@ -107,7 +130,7 @@ SimulatedMessages::SimulatedMessages(const std::vector<SimulatedChannel>& channe
   for (const SimulatedChannel& channel : channels_) {
     encoders_.emplace_back();
     const bool is_own = !channel.source || channel.source->is_of_own_type();
-    if (!is_own) encoders_.back().emplace(*channel.source, navsat);
+    if (!is_own) encoders_.back().emplace(*channel.source, navsat, channel.variance);
   }
 }
 

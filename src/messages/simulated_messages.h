@@ -26,8 +26,12 @@ class MessageEncoder {
   /// @param navsat  the local plane, for values in it
   /// @throws ConfigError for a type or field that does not exist, frames that its messages have
   /// no use for, or a local plane whose datum is not given.
+  /// @param variance  of the noise of each event's value, for messages that tell of it; 0: it is
+  /// not
+  ///   known
   explicit MessageEncoder(const TopicSource& source,
-                          const std::optional<NavSatDatum>& navsat = std::nullopt);
+                          const std::optional<NavSatDatum>& navsat = std::nullopt,
+                          double variance = 0.0);
 
   RawMessage encode(const SimulatedMessage& from) const;
 
@@ -42,6 +46,7 @@ class MessageEncoder {
   };
 
   void add_field(const std::string& text);
+  void add_variances(const TopicSource& source, const std::string& prefix, double variance);
   void add_fix(const Fix& fix, const std::vector<double>& values,
                std::vector<MessageItem>& items) const;
 

@@ -36,6 +36,9 @@ HybridKalmanFilter::HybridKalmanFilter(const ObserverContext& context,
       covariance_flows_.emplace_back(mode.flow->affine()->M(), matrices_.Q);
     }
   }
+  for (std::size_t i = 0; i < sensors(); ++i) {
+    if (matrices_.R[i].size() == 0) take_covariance_with(i);
+  }
   build_flow();
 }
 
@@ -53,12 +56,13 @@ double HybridKalmanFilter::mahalanobis_distance(const Event& sample, const doubl
                                                 double* workspace) const {
   const auto sensor = static_cast<std::size_t>(sample.sensor);
   const Eigen::Index m = sample.size;
+  take_noise(sensor, sample.values, workspace);
   double* nu = innovation_.of(workspace);
   double* S = S_.of(workspace);
   double* PC = PC_.of(workspace);
   innovation(sample, state, nu);
   // Where the noise has variance 1, S = I + C P Cᵀ.
-  solve_lower(matrices_.noise_roots[sensor].data(), m, m, nu, 1);
+  solve_lower(noise_root(sensor, workspace), m, m, nu, 1);
   const double* C = output_rows(sensor, held(state), state, workspace);
   multiply(covariance(state), n(), n(), C, m, PC);
   for (Eigen::Index j = 0; j < m; ++j) {
@@ -111,8 +115,23 @@ void HybridKalmanFilter::step_constants(Duration duration, const Held& held, con
 
 void HybridKalmanFilter::sample(std::size_t sensor, const double* y, const Held& held,
                                 double* state, double* workspace) const {
+  take_noise(sensor, y, workspace);
   correct(sensor, y, held, state, workspace);
   normalize(state);
+}
+
+/// Where R comes with the outputs y, behind them: makes noise_root() that of this sample.
+void HybridKalmanFilter::take_noise(std::size_t sensor, const double* y, double* workspace) const {
+  if (matrices_.R[sensor].size() > 0) return;
+  const Eigen::Index m = plant().sensors()[sensor].outputs();
+  write_noise(matrices_, sensor, m, y, noise_root_.of(workspace));
+  factor_cholesky(noise_root_.of(workspace), m);
+}
+
+/// L with R = L Lᵀ.
+const double* HybridKalmanFilter::noise_root(std::size_t sensor, const double* workspace) const {
+  const Eigen::MatrixXd& root = matrices_.noise_roots[sensor];
+  return root.size() > 0 ? root.data() : noise_root_.of(workspace);
 }
 
 void HybridKalmanFilter::jump(const Held& held, std::size_t next, const JumpOutputs& outputs,
@@ -151,7 +170,7 @@ void HybridKalmanFilter::correct(std::size_t sensor, const double* y, const Held
     return;
   }
   const double* correction = correction_.of(workspace);
-  normalized_innovation(sensor, y, held, state, innovation_.of(workspace));
+  normalized_innovation(sensor, y, held, state, workspace);
   update(output_rows(sensor, held, state, workspace), plant().sensors()[sensor].outputs(), n(),
          P_.of(state), workspace);
   for (Eigen::Index i = 0; i < n(); ++i) state[i] += correction[i];
@@ -166,13 +185,14 @@ void HybridKalmanFilter::update(const double* rows, Eigen::Index outputs, Eigen:
                 updating_.of(workspace));
 }
 
-/// The innovation of outputs whose noises are independent and of variance 1.
+/// innovation_ ← that of outputs whose noises are independent and of variance 1.
 void HybridKalmanFilter::normalized_innovation(std::size_t sensor, const double* y,
                                                const Held& held, const double* state,
-                                               double* innovation) const {
+                                               double* workspace) const {
   const Eigen::Index m = plant().sensors()[sensor].outputs();
+  double* innovation = innovation_.of(workspace);
   compute_innovation(plant(), held.mode, sensor, y, state, held.u, innovation);
-  solve_lower(matrices_.noise_roots[sensor].data(), m, m, innovation, 1);
+  solve_lower(noise_root(sensor, workspace), m, m, innovation, 1);
 }
 
 }  // namespace sampled_data_observers

@@ -79,7 +79,9 @@ class HybridKalmanFilter : public PlantObserver {
   void jump_of_uncertain_stamp(const Held& held, std::size_t next, const JumpOutputs& outputs,
                                double* state, double* workspace) const;
   void normalized_innovation(std::size_t sensor, const double* y, const Held& held,
-                             const double* state, double* innovation) const;
+                             const double* state, double* workspace) const;
+  void take_noise(std::size_t sensor, const double* y, double* workspace) const;
+  const double* noise_root(std::size_t sensor, const double* workspace) const;
   bool is_affine(std::size_t sensor, const Held& held) const;
   const double* output_rows(std::size_t sensor, const Held& held, const double* x,
                             double* workspace) const;
@@ -100,6 +102,10 @@ class HybridKalmanFilter : public PlantObserver {
   Eigen::Index where_nonlinear(Eigen::Index entries) const {
     return plant().is_affine() ? 0 : entries;
   }
+  /// `entries`, or none where the rows of all outputs are known beforehand.
+  Eigen::Index where_rows_vary(Eigen::Index entries) const {
+    return takes_covariances(matrices_) ? entries : where_nonlinear(entries);
+  }
   /// `entries`, or none where updates are not iterated.
   Eigen::Index where_iterated(Eigen::Index entries) const { return iterations_ > 1 ? entries : 0; }
 
@@ -116,8 +122,9 @@ class HybridKalmanFilter : public PlantObserver {
   VectorSlot S_ = scratch(plant().max_outputs() * plant().max_outputs());
   VectorSlot PC_ = scratch(n() * plant().max_outputs());
   // Of a plant that is not affine.
-  VectorSlot jacobian_ = scratch(where_nonlinear(n() * std::max(n(), plant().max_outputs())));
-  VectorSlot output_rows_ = scratch(where_nonlinear(n() * plant().max_outputs()));
+  VectorSlot jacobian_ = scratch(where_rows_vary(n() * std::max(n(), plant().max_outputs())));
+  VectorSlot output_rows_ = scratch(where_rows_vary(n() * plant().max_outputs()));
+  VectorSlot noise_root_ = scratch(where_rows_vary(plant().max_outputs() * plant().max_outputs()));
   VectorSlot differentiating_ = scratch(jacobians_.workspace_size());
   VectorSlot midpoint_ = scratch(where_nonlinear(n()));
   VectorSlot stepping_ = scratch(where_nonlinear(covariance_step_workspace(n())));

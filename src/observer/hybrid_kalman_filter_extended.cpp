@@ -14,12 +14,14 @@ bool HybridKalmanFilter::is_affine(std::size_t sensor, const Held& held) const {
 /// (L⁻¹ H)ᵀ with H = ∂h/∂x at x, R = L Lᵀ: n x m.
 const double* HybridKalmanFilter::output_rows(std::size_t sensor, const Held& held, const double* x,
                                               double* workspace) const {
-  if (is_affine(sensor, held)) return matrices_.outputs[held.mode][sensor].data();
+  if (matrices_.outputs[held.mode][sensor].size() > 0) {
+    return matrices_.outputs[held.mode][sensor].data();
+  }
   const Eigen::Index m = plant().sensors()[sensor].outputs();
   double* H = jacobian_.of(workspace);
   jacobians_.modes[held.mode].outputs[sensor].evaluate(x, held.u, H,
                                                        differentiating_.of(workspace));
-  solve_lower(matrices_.noise_roots[sensor].data(), m, m, H, n());
+  solve_lower(noise_root(sensor, workspace), m, m, H, n());
   double* rows = output_rows_.of(workspace);
   for (Eigen::Index j = 0; j < n(); ++j) {
     for (Eigen::Index i = 0; i < m; ++i) rows[i * n() + j] = H[j * m + i];
@@ -57,7 +59,7 @@ void HybridKalmanFilter::correct_iteratively(std::size_t sensor, const double* y
   P_before_.set(P, workspace);
   std::fill_n(moved, n(), 0.0);
   for (int iteration = 0; iteration < iterations_; ++iteration) {
-    normalized_innovation(sensor, y, held, state, innovation);
+    normalized_innovation(sensor, y, held, state, workspace);
     const double* rows = output_rows(sensor, held, state, workspace);
     for (Eigen::Index i = 0; i < m; ++i) innovation[i] += dot(rows + i * n(), moved, n());
     P_.set(P_before_.of(workspace), state);

@@ -27,7 +27,7 @@ void HybridKalmanFilter::jump_of_uncertain_stamp(const Held& held, std::size_t n
     const double* C = output_rows(i, held, state, workspace);
     double* rows = rows_.of(workspace);
     double* innovation = innovation_.of(workspace);
-    normalized_innovation(i, y_d, held, state, innovation);
+    normalized_innovation(i, y_d, held, state, workspace);
     for (Eigen::Index j = 0; j < m; ++j) {
       std::copy_n(C + j * n(), n(), rows + j * size);
       const double per_stamp_error = -dot(C + j * n(), before, n());

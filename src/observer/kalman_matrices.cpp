@@ -1,5 +1,6 @@
 #include "observer/kalman_matrices.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -7,6 +8,21 @@
 #include "linear_algebra/ordered_linear_algebra.h"
 
 namespace sampled_data_observers {
+
+bool takes_covariances(const KalmanMatrices& matrices) {
+  return std::any_of(matrices.R.begin(), matrices.R.end(),
+                     [](const Eigen::MatrixXd& R) { return R.size() == 0; });
+}
+
+void write_noise(const KalmanMatrices& matrices, std::size_t sensor, Eigen::Index outputs,
+                 const double* y, double* S) {
+  const Eigen::MatrixXd& R = matrices.R[sensor];
+  if (R.size() > 0) {
+    std::copy_n(R.data(), R.size(), S);
+  } else {
+    unpack_lower(y + outputs, outputs, S);
+  }
+}
 
 KalmanMatrices kalman_matrices(const KalmanCovariances& covariances, const Plant& plant) {
   const Eigen::Index n = plant.states();
@@ -22,6 +38,11 @@ KalmanMatrices kalman_matrices(const KalmanCovariances& covariances, const Plant
     throw std::invalid_argument("R: one matrix per sensor");
   }
   for (std::size_t i = 0; i < sensors.size(); ++i) {
+    if (covariances.R[i].size() == 0 && sensors[i].timing == SensorTiming::kSampled) {
+      result.R.emplace_back();
+      result.noise_roots.emplace_back();
+      continue;
+    }
     Eigen::MatrixXd root = checked_positive_definite("R of sensor '" + sensors[i].name + "'",
                                                      covariances.R[i], sensors[i].outputs());
     result.R.push_back(root);
@@ -33,7 +54,7 @@ KalmanMatrices kalman_matrices(const KalmanCovariances& covariances, const Plant
     std::vector<Eigen::MatrixXd>& outputs = result.outputs.emplace_back();
     for (std::size_t i = 0; i < sensors.size(); ++i) {
       const AffineMap* output = mode.outputs[i]->affine();
-      if (output == nullptr) {
+      if (output == nullptr || result.R[i].size() == 0) {
         outputs.emplace_back();
         continue;
       }

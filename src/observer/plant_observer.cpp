@@ -54,6 +54,7 @@ PlantObserver::PlantObserver(ObserverContext context, const std::vector<SensorTi
     std::vector<Eigen::MatrixXd>& corrections = least_corrections_.emplace_back();
     for (const auto& output : mode.outputs) corrections.push_back(least_correction(*output));
   }
+  covariance_sizes_.resize(all.size());
   facts().sensors = all.size();
   facts().max_event_size =
       std::max({plant_->inputs(), plant_->max_outputs(), plant_->outputs(SensorTiming::kAtJumps)});
@@ -86,6 +87,12 @@ VectorSlot PlantObserver::flowing(Eigen::Index entries) {
 VectorSlot PlantObserver::constants(Eigen::Index entries) {
   assert(!is_built());
   return state_layout().vector(entries);
+}
+
+void PlantObserver::take_covariance_with(std::size_t sensor) {
+  const Eigen::Index m = plant_->sensors()[sensor].outputs();
+  covariance_sizes_[sensor] = m * (m + 1) / 2;
+  facts().max_event_size = std::max(facts().max_event_size, m + covariance_sizes_[sensor]);
 }
 
 TimerSlot PlantObserver::timer() {
@@ -121,6 +128,10 @@ Eigen::Index PlantObserver::event_size(EventKind kind, std::size_t sensor) const
 bool PlantObserver::accepts(const Event& event) const {
   const Eigen::Index size = event_size(event.kind, static_cast<std::size_t>(event.sensor));
   const bool is_jump = event.kind == EventKind::kJump || event.kind == EventKind::kWithdrawal;
+  const bool is_sample = event.kind == EventKind::kSample && size >= 0;
+  const Eigen::Index covariance =
+      is_sample ? covariance_sizes_[static_cast<std::size_t>(event.sensor)] : 0;
+  if (event.covariance != covariance) return false;
   if (!is_jump) return size >= 0 && event.size == size;
   return size >= 0 && (event.size == 0 || event.size == size) &&
          event.mode.has_value() == plant_->switches();

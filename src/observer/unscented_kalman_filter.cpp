@@ -40,6 +40,9 @@ UnscentedKalmanFilter::UnscentedKalmanFilter(const ObserverContext& context,
   } else {
     points_flow_ = std::make_unique<const RungeKuttaFlow>(n(), plant().integration().step);
   }
+  for (std::size_t i = 0; i < sensors(); ++i) {
+    if (matrices_.R[i].size() == 0) take_covariance_with(i);
+  }
   build_flow();
 }
 
@@ -149,7 +152,7 @@ double UnscentedKalmanFilter::mahalanobis_distance(const Event& measured, const 
   measure(sensor, measured.values, now, of, workspace);
   const Eigen::Index m = measured.size;
   double* S = noise_.of(workspace);
-  std::copy_n(matrices_.R[sensor].data(), m * m, S);
+  write_noise(matrices_, sensor, m, measured.values, S);
   add_covariance_of_spread(spread_.of(workspace), of.size, m, S);
   if (!factor_cholesky(S, m)) return std::numeric_limits<double>::quiet_NaN();
   double* innovation = innovation_.of(workspace);
@@ -192,7 +195,7 @@ void UnscentedKalmanFilter::correct(std::size_t sensor, const double* y, const H
   double* spread = spread_.of(workspace);
   double* noise = noise_.of(workspace);
   double* innovation = innovation_.of(workspace);
-  std::copy_n(matrices_.R[sensor].data(), m * m, noise);
+  write_noise(matrices_, sensor, m, y, noise);
   const double* even = spread + size * m;
   add_symmetric_product(even, even, m, size, noise);
   if (!factor_cholesky(noise, m)) {  // not finite

@@ -153,7 +153,7 @@ std::vector<BagChannel> bind_channels(const ObserverConfig& config, const BagSet
     if (bound.is_recorded && !is_transform && found->second != channel.source.type) {
       throw ReplayError(channel.source.origin + ": " + channel.source.path + ": expected " +
                         channel.source.type + " on " + bound.topic + ", found " + found->second +
-                        " in the bag");
+                        " in the bag, which has" + listed(topics));
     }
     if (bound.is_recorded) bound.definition = bags.definition_of(bound.topic);
     bound.source = make_message_source(channel.source, transforms, bound.definition);

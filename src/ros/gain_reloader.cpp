@@ -29,10 +29,25 @@ GainReloader::GainReloader(ConfigNode tree, const ObserverConfig& config, Shared
       directory_(config.gains_directory),
       runtime_(runtime),
       tell_(std::move(tell)) {
+  for (const auto& source : config.sensors) {
+    covariances_.push_back(source ? source->covariance : std::nullopt);
+  }
   std::error_code fault;
   if (directory_.empty() || std::filesystem::is_directory(directory_, fault)) return;
   throw ConfigError(tree_.origin, "gains_directory", "a directory on this machine",
                     "'" + directory_ + "'");
+}
+
+/// Sources go on as they are.
+void GainReloader::require_same_covariances(const ObserverConfig& next,
+                                            const std::string& file) const {
+  for (std::size_t i = 0; i < covariances_.size(); ++i) {
+    if (next.sensors[i] && !(next.sensors[i]->covariance == covariances_[i])) {
+      throw ConfigError(file, "gains/R/" + next.plant->sensors()[i].name,
+                        "what messages have to do with R as it was when the observer began",
+                        "another");
+    }
+  }
 }
 
 std::string GainReloader::reload(const std::string& file) {
@@ -46,6 +61,7 @@ std::string GainReloader::reload(const std::string& file) {
   ConfigNode tree = replace_gains(tree_, read_yaml_file(confined_path(directory_, file)));
   const ObserverConfig next = read_observer_config(tree, load_plant_plugin);
   if (next.type != type_) throw ConfigError(file, "observer", type_, next.type);
+  require_same_covariances(next, file);
   runtime_.replace(std::make_unique<ObserverRuntime>(next));
   tell_(next);
   last_call_ = std::chrono::steady_clock::now();

@@ -77,11 +77,13 @@ void tell_of_publishers(const std::string& topic, const XmlRpc::XmlRpcValue& pub
 
 }  // namespace
 
-std::string describe_silent_topic(const ExpectedType& expected, const TopicsAndTypes& published) {
+std::string describe_silent_topic(const ExpectedType& expected, const TopicsAndTypes& published,
+                                  const std::vector<std::string>& own) {
   constexpr std::size_t kMostNamed = 10;
   std::vector<std::string> others;
   for (const auto& [name, type] : published) {
-    if (type == expected.type && name != expected.topic) others.push_back(name);
+    const bool is_own = std::find(own.begin(), own.end(), name) != own.end();
+    if (type == expected.type && name != expected.topic && !is_own) others.push_back(name);
   }
   if (others.empty()) return "";
   std::sort(others.begin(), others.end());
@@ -98,9 +100,11 @@ std::string describe_silent_topic(const ExpectedType& expected, const TopicsAndT
 }
 
 MasterWatch::MasterWatch(const ros::NodeHandle& handle, std::vector<std::string> services,
-                         std::vector<ExpectedType> topics, TypeReceiver take_type, NodeLog log)
+                         std::vector<ExpectedType> topics, std::vector<std::string> own_topics,
+                         TypeReceiver take_type, NodeLog log)
     : services_(std::move(services)),
       topics_(std::move(topics)),
+      own_topics_(std::move(own_topics)),
       take_type_(std::move(take_type)),
       server_("rosrpc://" + ros::network::getHost() + ":" +
               std::to_string(ros::ConnectionManager::instance()->getTCPPort())),
@@ -131,7 +135,7 @@ void MasterWatch::check_types() {
     take_type_(i, type);
     silent_[i] = type.empty() ? silent_[i] + 1 : 0;
     if (silent_[i] == kSilentChecks) {
-      const std::string hint = describe_silent_topic(topics_[i], published);
+      const std::string hint = describe_silent_topic(topics_[i], published, own_topics_);
       if (!hint.empty()) log_.warn("%s", hint.c_str());
     }
     if (type.empty() || type == topics_[i].type) {

@@ -15,6 +15,20 @@ constexpr std::uint32_t kControlThreads = 2;
 /// Of services that may take long: callers are told that they are busy meanwhile.
 constexpr std::uint32_t kQueryThreads = 2;
 
+/// By an observer, in full.
+std::vector<std::string> published_topics(const ros::NodeHandle& handle,
+                                          const ObserverConfig& config) {
+  std::vector<std::string> topics = {"estimate", "events"};
+  if (config.outputs) {
+    for (const auto& topic :
+         {config.outputs->odometry, config.outputs->pose, config.outputs->twist}) {
+      if (topic) topics.push_back(*topic);
+    }
+  }
+  for (std::string& topic : topics) topic = handle.resolveName(topic);
+  return topics;
+}
+
 }  // namespace
 
 ObserverNodelet::ObserverNodelet(std::string type)
@@ -86,7 +100,7 @@ void ObserverNodelet::start(const ConfigNode& tree, const ObserverConfig& config
     topics.push_back({handle.resolveName(channel.source.topic), channel.source.type});
   }
   master_watch_ = std::make_unique<MasterWatch>(
-      control, services_->names(), std::move(topics),
+      control, services_->names(), std::move(topics), published_topics(handle, config),
       [this](std::size_t channel, const std::string& type) {
         diagnostics_->note_published_type(channel, type);
       },

@@ -59,6 +59,8 @@ constexpr OutcomeText kTexts[kEventOutcomes] = {
      "its publisher is broken, or its messages are cut off"},
     {EventOutcome::kOutOfLimits, "a value lies outside of its source's limits",
      "see what its publisher sends, with rostopic echo, and compare scale, offset and limits"},
+    {EventOutcome::kNoCovariance, "the covariance in the message is not positive definite",
+     "see what its publisher sends, with rostopic echo, or give gains/R a floor"},
 };
 
 constexpr bool is_in_order() {

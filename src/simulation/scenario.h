@@ -32,6 +32,12 @@ struct Noise {
   std::shared_ptr<const VectorMap> formulas;
 };
 
+/// Of each output; 0 where it is not known.
+inline double variance_of(const Noise& noise) {
+  if (noise.kind == Noise::Kind::kUniform) return noise.size * noise.size / 3.0;
+  return noise.kind == Noise::Kind::kGaussian ? noise.size * noise.size : 0.0;
+}
+
 /// A sensor of the plant in a scenario.
 struct SensorScenario {
   /// Where observers read its measurements; empty where the jump events carry them.

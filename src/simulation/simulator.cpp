@@ -59,6 +59,7 @@ void Simulator::add_sensor(std::size_t sensor) {
                      stream(name + "/false_noise")};
   if (scenario.source) {
     added.channel = add_channel(SimulatedChannel::Kind::kMeasurement, *scenario.source);
+    channels_.back().variance = variance_of(scenario.noise);
   } else {
     values_in_jumps_ = true;
   }

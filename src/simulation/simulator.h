@@ -27,6 +27,8 @@ struct SimulatedChannel {
   std::size_t input_channel = 0;
   /// How observers read its messages; nothing for signals and the truth.
   std::optional<TopicSource> source = {};
+  /// Of the noise of each value; 0 where it is not known.
+  double variance = 0.0;
 };
 
 /// A message that a robot's sensors would send.

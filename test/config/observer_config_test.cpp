@@ -104,6 +104,24 @@ history: {duration: 0, maxevents: 3}
         "gains/L", "rate: expected", "history/duration: expected"}) {
     EXPECT_NE(std::string::npos, text.find(part)) << part << " | " << text;
   }
+  const std::string plant = fault(R"(
+observer: ConstantGainObserver
+plant: {states: [x], inputs: [u], A: [[0, 1]], B: [[1]], integration: {step: never}}
+sensors:
+  a: {C: [[1, 2]], source: {topic: a}}
+  b: {h: [y], source: {topic: b}}
+inputs: {w: {topic: b}}
+)");
+  for (const char* part : {"plant/A: expected", "plant/integration/step: expected",
+                           "sensors/a/C: expected", "sensors/b/h", "inputs"}) {
+    EXPECT_NE(std::string::npos, plant.find(part)) << part << " | " << plant;
+  }
+  const std::string ends = fault(replaced(
+      replaced(kGood, "wheel: {C: [[0, 1]],", "wheel: {C: [[0, 1]], gate: {innovation: [-1]},"),
+      "frame_id: map", "frame_id: map\noutputs: {position: {x: nowhere}}"));
+  for (const char* part : {"sensors/wheel/gate", "outputs/"}) {
+    EXPECT_NE(std::string::npos, ends.find(part)) << part << " | " << ends;
+  }
   const std::string keys = fault(replaced(kGood, "frame_id: map", "frameid: map\nstrt: 1\nrat: 2"));
   for (const char* part :
        {"the unknown key 'frameid'; is it a misspelling of 'frame_id'?",

@@ -80,7 +80,7 @@ TEST(SizeLimitsTest, SeveralModesShareTheLimit) {
       fault(text));
   EXPECT_EQ("test.yaml:2: plant/modes: expected at most 100 modes, found 101",
             fault("observer: ConstantGainObserver\nplant: {states: [x], modes: {" +
-                  listed(101, "", ": {A: [[-1]]}") + "}}\nsensors: {}\n"));
+                  listed(101, "", ": {A: [[-1]]}") + "}}\nsensors: {s: {C: [[1]]}}\n"));
 }
 
 TEST(SizeLimitsTest, TooManyNamesOfFormulasAreRefused) {

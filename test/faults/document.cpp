@@ -8,12 +8,12 @@ namespace {
 
 /// By code, as in EventStatus.
 constexpr std::array<const char*, 26> kOutcomes = {
-    "USED",         "USED_LATE",  "DUPLICATE",    "TOO_OLD",          "IN_FUTURE",
-    "NO_STAMP",     "WRONG_SIZE", "NOT_FINITE",   "WOULD_OVERFLOW",   "UNKNOWN_MODE",
-    "TOO_FREQUENT", "GATED",      "DISABLED",     "NO_TRANSFORM",     "NO_FIELD",
-    "OUT_OF_ORDER", "DROPPED",    "NOT_POSSIBLE", "REPEATED",         "JUMP_ALONE",
-    "TAKEN_BACK",   "WITHDRAWN",  "NO_SUCH_JUMP", "OTHER_DEFINITION", "MALFORMED",
-    "OUT_OF_LIMITS"};
+    "USED",          "USED_LATE",    "DUPLICATE",    "TOO_OLD",          "IN_FUTURE",
+    "NO_STAMP",      "WRONG_SIZE",   "NOT_FINITE",   "WOULD_OVERFLOW",   "UNKNOWN_MODE",
+    "TOO_FREQUENT",  "GATED",        "DISABLED",     "NO_TRANSFORM",     "NO_FIELD",
+    "OUT_OF_ORDER",  "DROPPED",      "NOT_POSSIBLE", "REPEATED",         "JUMP_ALONE",
+    "TAKEN_BACK",    "WITHDRAWN",    "NO_SUCH_JUMP", "OTHER_DEFINITION", "MALFORMED",
+    "OUT_OF_LIMITS", "NO_COVARIANCE"};
 
 std::string listed(const std::map<std::uint8_t, int>& statuses) {
   std::string text;

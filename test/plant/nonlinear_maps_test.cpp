@@ -11,7 +11,7 @@
 namespace sampled_data_observers {
 namespace {
 
-const ExpressionNames kNames{{"x1", "x2"}, {"u"}, {{"a", 0.5}}};
+const ExpressionNames kMapNames{{"x1", "x2"}, {"u"}, {{"a", 0.5}}};
 
 std::string fault(const ExpressionNames& names, const std::vector<NamedExpression>& definitions,
                   const std::string& formula) {
@@ -24,7 +24,7 @@ std::string fault(const ExpressionNames& names, const std::vector<NamedExpressio
 }
 
 TEST(ExpressionMapTest, EvaluatesFormulasOfStatesInputsAndConstants) {
-  const ExpressionMap map(kNames, {}, {{"f", "-2*sin(x1) - 3*x2 + u"}, {"g", "a*x1^2 + pi"}});
+  const ExpressionMap map(kMapNames, {}, {{"f", "-2*sin(x1) - 3*x2 + u"}, {"g", "a*x1^2 + pi"}});
   ASSERT_EQ(2, map.size());
   const double x[] = {0.7, -1.5};
   const double u[] = {4.0};
@@ -36,29 +36,29 @@ TEST(ExpressionMapTest, EvaluatesFormulasOfStatesInputsAndConstants) {
 
 TEST(AffineFormulaTest, FormulasThatAreAffineAreTheMapThatTheyAre) {
   const auto map =
-      affine_map_of(kNames, {"x2", "101325 - 11.9*x1", "-(x1 - 2*(a*x2 + u))/4 + 1.5e-1",
-                             "pi*+x1*2 - -u", "x1^1 + sin(2)*x2"});
+      affine_map_of(kMapNames, {"x2", "101325 - 11.9*x1", "-(x1 - 2*(a*x2 + u))/4 + 1.5e-1",
+                                "pi*+x1*2 - -u", "x1^1 + sin(2)*x2"});
   ASSERT_NE(nullptr, map);
   Eigen::MatrixXd M(5, 2);
   M << 0.0, 1.0, -11.9, 0.0, -0.25, 0.25, 2.0 * std::acos(-1.0), 0.0, 1.0, std::sin(2.0);
   EXPECT_TRUE(M.isApprox(map->M(), 1e-15));
   EXPECT_EQ(Eigen::Vector4d(0.0, 0.0, 0.5, 1.0), Eigen::VectorXd(map->N()).head(4));
   EXPECT_EQ(Eigen::Vector4d(0.0, 101325.0, 0.15, 0.0), map->c().head(4));
-  EXPECT_EQ(0, affine_map_of(kNames, {"x1"})->N().cols());
+  EXPECT_EQ(0, affine_map_of(kMapNames, {"x1"})->N().cols());
 }
 
 TEST(AffineFormulaTest, WhatIsNotOrCanNotBeToldIsNone) {
   for (const char* text :
        {"x1*x2", "1/x1", "sin(x1)", "x1^2", "x1 > 0 ? x1 : x2", "abs(x1)", "x1/0", "(x1", "x1)",
         "x1 x2", "1e", "y", "", "x1 +", "min(x1, x2)", "1..2*x1", "x1 && u"}) {
-    EXPECT_EQ(nullptr, affine_map_of(kNames, {"x1", text})) << text;
+    EXPECT_EQ(nullptr, affine_map_of(kMapNames, {"x1", text})) << text;
   }
   EXPECT_EQ(nullptr,
-            affine_map_of(kNames, {std::string(5000, '(') + "x1" + std::string(5000, ')')}));
+            affine_map_of(kMapNames, {std::string(5000, '(') + "x1" + std::string(5000, ')')}));
 }
 
 TEST(ExpressionMapTest, DefinitionsServeTheFormulasBehindThem) {
-  const ExpressionMap map(kNames, {{"s", "x1 + x2"}, {"q", "s*s"}}, {{"f", "q - s + u"}});
+  const ExpressionMap map(kMapNames, {{"s", "x1 + x2"}, {"q", "s*s"}}, {{"f", "q - s + u"}});
   const double x[] = {1.0, 2.0};
   const double u[] = {0.5};
   double out = 0.0;
@@ -67,7 +67,7 @@ TEST(ExpressionMapTest, DefinitionsServeTheFormulasBehindThem) {
 }
 
 TEST(ExpressionMapTest, WhatHasNoValueIsNotFinite) {
-  const ExpressionMap map(kNames, {}, {{"f", "sqrt(x1)"}, {"g", "1/x2"}, {"h", "ln(x1)"}});
+  const ExpressionMap map(kMapNames, {}, {{"f", "sqrt(x1)"}, {"g", "1/x2"}, {"h", "ln(x1)"}});
   const double x[] = {-1.0, 0.0};
   const double u[] = {0.0};
   double out[3];
@@ -76,21 +76,21 @@ TEST(ExpressionMapTest, WhatHasNoValueIsNotFinite) {
 }
 
 TEST(ExpressionMapTest, RefusesWhatItCanNotUse) {
-  EXPECT_EQ("", fault(kNames, {}, "x1 == 1 ? x2 : u"));
-  EXPECT_NE(std::string::npos, fault(kNames, {}, "x3 + 1").find("x3"));
-  EXPECT_NE(std::string::npos, fault(kNames, {}, "x3 + 1").find("it may use x1 x2 u a pi"));
-  EXPECT_NE("", fault(kNames, {}, "2*(x1"));
-  EXPECT_NE("", fault(kNames, {}, ""));
-  EXPECT_NE(std::string::npos, fault(kNames, {}, "x1 = 3").find("assigns"));
-  EXPECT_NE("", fault(kNames, {}, "x1, x2"));
-  EXPECT_NE("", fault(kNames, {{"later", "last"}, {"last", "x1"}}, "later"));
+  EXPECT_EQ("", fault(kMapNames, {}, "x1 == 1 ? x2 : u"));
+  EXPECT_NE(std::string::npos, fault(kMapNames, {}, "x3 + 1").find("x3"));
+  EXPECT_NE(std::string::npos, fault(kMapNames, {}, "x3 + 1").find("it may use x1 x2 u a pi"));
+  EXPECT_NE("", fault(kMapNames, {}, "2*(x1"));
+  EXPECT_NE("", fault(kMapNames, {}, ""));
+  EXPECT_NE(std::string::npos, fault(kMapNames, {}, "x1 = 3").find("assigns"));
+  EXPECT_NE("", fault(kMapNames, {}, "x1, x2"));
+  EXPECT_NE("", fault(kMapNames, {{"later", "last"}, {"last", "x1"}}, "later"));
   EXPECT_NE(std::string::npos, fault({{"x 1"}, {}, {}}, {}, "1").find("x 1"));
   EXPECT_NE("", fault({{"1x"}, {}, {}}, {}, "1"));
 }
 
 TEST(ExpressionMapTest, EvaluatingAllocatesNothing) {
   if (!test::allocations_are_counted()) GTEST_SKIP() << "a sanitizer owns the allocator";
-  const ExpressionMap map(kNames, {{"s", "x1 + x2"}}, {{"f", "x1 > 0 ? sin(s) : sqrt(x1) + u"}});
+  const ExpressionMap map(kMapNames, {{"s", "x1 + x2"}}, {{"f", "x1 > 0 ? sin(s) : sqrt(x1) + u"}});
   double x[] = {-1.0, 2.0};
   const double u[] = {0.5};
   double out = 0.0;

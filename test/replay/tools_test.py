@@ -286,6 +286,28 @@ class ToolsTest(FolderTest):
         for state, value in own["final_state"].items():
             self.assertAlmostEqual(value, read["final_state"][state], 6)
 
+    def test_simulated_messages_tell_a_kalman_filter_of_their_noise(self):
+        source = "{topic: odometry, type: nav_msgs/Odometry, fields: [pose.pose.position.x]}"
+        scenario = self.write("noisy.yaml", SCENARIO.replace("{topic: position}", source).replace(
+            "schedule: {period: 0.1}", "noise: {gaussian: 0.2}, schedule: {period: 0.01}"))
+        self.succeed("simulate", scenario, "-o", self.path("noisy.bag"))
+        gains = ("observer: HybridKalmanFilter\nsampling: {T1: 0.01, T2: 0.01}\n"
+                 "gains: {P0: [[2, 0], [0, 2]], R: %s}\n")
+        nis = [self.replayed([self.path("noisy.bag")], scenario, self.write("filter.yaml", gains % R))[
+            "innovations"]["position"]["nis"] for R in ("message", "[[0.04]]", "{position: {message: {scale: 4}}}")]
+        self.assertGreater(nis[0], 0.8)
+        self.assertLess(nis[0], 1.2)
+        self.assertAlmostEqual(nis[0], nis[1], 9)
+        self.assertAlmostEqual(nis[0] / 4, nis[2], 1)
+
+    def test_of_another_type_what_the_bag_has_is_listed(self):
+        self.simulate()
+        scenario = self.write("other.yaml", SCENARIO.replace(
+            "{topic: position}", "{topic: position, type: nav_msgs/Odom, fields: [pose.pose.position.x]}"))
+        text = self.fault("replay", self.path("run.bag"), scenario, self.observer)
+        self.assertIn("expected nav_msgs/Odom on /position, found sampled_data_observers/Measurement in the bag", text)
+        self.assertIn("/truth (sampled_data_observers/StateEstimate)", text)
+
     def wheel_type(self, definition):
         types = genpy.dynamic.generate_dynamic("my_msgs/Wheel", definition)
         return types["my_msgs/Wheel"]

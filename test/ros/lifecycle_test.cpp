@@ -231,7 +231,7 @@ TEST(MasterWatchTest, AfterShutdownNothingIsRegistered) {
   ros::NodeHandle handle;
   handle.setCallbackQueue(&queue);
   const MasterWatch watch(
-      handle, {service}, {}, [](std::size_t, const std::string&) {}, NodeLog("lifecycle_test"));
+      handle, {service}, {}, {}, [](std::size_t, const std::string&) {}, NodeLog("lifecycle_test"));
   XmlRpc::XmlRpcClient master(ros::master::getHost().c_str(),
                               static_cast<int>(ros::master::getPort()), "/");
   ros::shutdown();

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "sampled_data_observers/config/config_section.h"
+#include "sampled_data_observers/config/topic_config.h"
 #include "sampled_data_observers/observer/law_gains.h"
 #include "sampled_data_observers/plant/plant.h"
 
@@ -21,6 +23,14 @@ std::vector<Eigen::MatrixXd> read_gain_per_sensor(ConfigSection& gains, const st
 std::vector<Eigen::MatrixXd> read_square_per_sensor(ConfigSection& gains, const std::string& key,
                                                     const Plant& plant,
                                                     const std::vector<SensorTiming>& timings);
+
+/// R of each sensor that is sampled or measures at jumps, likewise: m_i x m_i; an empty one where
+/// it comes with the messages.
+std::vector<Eigen::MatrixXd> read_noise_covariances(ConfigSection& gains, const Plant& plant);
+
+/// How, for each of these sensors.
+std::vector<std::optional<MessageCovariance>> read_message_covariances(ConfigSection& gains,
+                                                                       const Plant& plant);
 
 /// The states that a SynchronizedObserver takes from continuous outputs, below `output_injection`:
 /// a map from names of states to names of sensors.

@@ -28,6 +28,20 @@ struct ValueCorrection {
   bool is_empty() const { return scale.size() == 0 && offset.size() == 0 && limits.empty(); }
 };
 
+/// How the covariance of values is taken from their messages: scaled, and with variances that are
+/// not less than a floor.
+struct MessageCovariance {
+  /// Of the covariance, > 0.
+  double scale = 1.0;
+  /// One per value, in the square of its unit, >= 0.
+  Eigen::VectorXd floor;
+
+  /// Whether both are taken in the same way.
+  bool operator==(const MessageCovariance& other) const {
+    return scale == other.scale && floor == other.floor;
+  }
+};
+
 /// Where the values of events come from.
 struct TopicSource {
   /// Name of the topic, relative or absolute.
@@ -55,6 +69,8 @@ struct TopicSource {
   Duration min_interval = 0;
   /// Where the messages are no jumps but show them: how to detect them.
   std::optional<DetectorConfig> detector;
+  /// Where the covariance of the values comes with them.
+  std::optional<MessageCovariance> covariance;
   /// Into which frame the data are transformed, if any.
   SourceFrames frames;
   /// Where the configuration says so, for messages about it: file and line, or parameters of a

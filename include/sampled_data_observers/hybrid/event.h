@@ -49,14 +49,19 @@ struct Event {
   Duration delay = 0;
   /// Of what was rejected: its kind.
   EventKind rejected = EventKind::kInput;
+  /// Of samples: how many numbers follow the values, the lower triangle of the covariance of their
+  /// noise, row by row; 0 where it does not come with them.
+  Eigen::Index covariance = 0;
 
   /// The values where they are: nothing is copied.
   Eigen::Map<const Eigen::VectorXd> vector() const { return {values, size}; }
+  /// The values, and the covariance that follows them.
+  Eigen::Map<const Eigen::VectorXd> numbers() const { return {values, size + covariance}; }
 };
 
 /// Total order of events: by stamp, then kind, sensor or kind rejected, index, number of values,
-/// mode or delay, and values in lexicographic order. Negative, zero or positive as for strcmp; zero
-/// means a duplicate.
+/// mode or delay, and values, with their covariance, in lexicographic order. Negative, zero or
+/// positive as for strcmp; zero means a duplicate.
 /// @pre all values and modes are finite
 int compare(const Event& a, const Event& b);
 

@@ -30,6 +30,7 @@ enum class Reading : std::uint8_t {
   kDropped,          ///< nothing: it was not read, since too many came
   kOtherDefinition,  ///< nothing: its publisher has another type, or another definition of it
   kMalformed,        ///< nothing: its bytes are no message of its type
+  kNoCovariance,     ///< nothing: the covariance in it is none
   kBeforeDatum,      ///< nothing: a fix from before the one that is the datum of the local plane
   kNoTransform  ///< nothing yet: the transform into a configured frame is not known; stamp is set
 };

@@ -163,6 +163,10 @@ class PlantObserver : public ObserverLaw {
   /// The time since the observer restarted it last [ns].
   TimerSlot timer();
 
+  /// To be called for sensors whose samples come with the covariance of their noise: it follows the
+  /// values, as in Event::covariance.
+  void take_covariance_with(std::size_t sensor);
+
   /// To be called at the end of every constructor that makes an observer: builds its flow. The
   /// state has its form then.
   void build_flow();
@@ -246,6 +250,8 @@ class PlantObserver : public ObserverLaw {
   Eigen::VectorXd initial_input_;
   std::array<std::vector<std::size_t>, 3> sensors_of_;
   std::vector<Eigen::Index> offsets_;
+  /// Of each sensor: how many numbers of a covariance follow the values of its samples.
+  std::vector<Eigen::Index> covariance_sizes_;
   /// For each mode and each sensor, what makes of an innovation the least change of x̂ that removes
   /// it; empty where the output is not affine.
   std::vector<std::vector<Eigen::MatrixXd>> least_corrections_;

@@ -38,11 +38,14 @@ class GainReloader {
   std::string reload(const std::string& file);
 
  private:
+  void require_same_covariances(const ObserverConfig& next, const std::string& file) const;
+
   OneAtATime calls_;
   std::chrono::steady_clock::time_point last_call_;
   ConfigNode tree_;
   const std::string type_;
   const std::string directory_;
+  std::vector<std::optional<MessageCovariance>> covariances_;  ///< of the sensors' sources
   SharedRuntime& runtime_;
   const std::function<void(const ObserverConfig&)> tell_;
 };

@@ -23,9 +23,10 @@ struct ExpectedType {
 /// there are none.
 /// @param expected   that topic
 /// @param published  topics and types, as the master has them
-std::string describe_silent_topic(
-    const ExpectedType& expected,
-    const std::vector<std::pair<std::string, std::string>>& published);
+/// @param own        those that the one who asks publishes itself: they are none of these
+std::string describe_silent_topic(const ExpectedType& expected,
+                                  const std::vector<std::pair<std::string, std::string>>& published,
+                                  const std::vector<std::string>& own);
 
 /// Looks every few seconds whether the ROS master still knows this nodelet. roscpp registers topics
 /// and services once only, so that after a restart of the master nobody would find them any more,
@@ -42,10 +43,12 @@ class MasterWatch {
   /// @param handle     its callback queue asks the master, and waits for its answer
   /// @param services   of this nodelet, at least one
   /// @param topics     that it subscribes to
+  /// @param own_topics that it publishes
   /// @param take_type  called for each of them, every time
   /// @param log        of the nodelet
   MasterWatch(const ros::NodeHandle& handle, std::vector<std::string> services,
-              std::vector<ExpectedType> topics, TypeReceiver take_type, NodeLog log);
+              std::vector<ExpectedType> topics, std::vector<std::string> own_topics,
+              TypeReceiver take_type, NodeLog log);
 
  private:
   void check();
@@ -54,6 +57,7 @@ class MasterWatch {
 
   const std::vector<std::string> services_;
   const std::vector<ExpectedType> topics_;
+  const std::vector<std::string> own_topics_;
   const TypeReceiver take_type_;
   /// Where services of this process are: roscpp no longer tells while it ends.
   const std::string server_;

@@ -32,11 +32,13 @@ enum class EventOutcome : std::uint8_t {
   kNoSuchJump = 22,    ///< a withdrawal taken in without effect, unless its jump comes yet
   kOtherDefinition = 23,  ///< of a publisher of another type, or another definition of it: no event
   kMalformed = 24,        ///< bytes that are no message of the type: no event
-  kOutOfLimits = 25       ///< a value lies outside of its source's limits
+  kOutOfLimits = 25,      ///< a value lies outside of its source's limits
+  kNoCovariance =
+      26  ///< the covariance in the message is not positive definite, so there is no event
 };
 
 /// How many outcomes there are: their codes lie below.
-constexpr std::size_t kEventOutcomes = static_cast<std::size_t>(EventOutcome::kOutOfLimits) + 1;
+constexpr std::size_t kEventOutcomes = static_cast<std::size_t>(EventOutcome::kNoCovariance) + 1;
 
 /// The outcome in a few words.
 const char* describe(EventOutcome outcome);

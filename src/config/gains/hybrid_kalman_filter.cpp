@@ -37,8 +37,7 @@ KalmanGains read_kalman_gains(ConfigSection& gains, const LawContext& context) {
   }
   KalmanCovariances& covariances = result.covariances;
   covariances.P0 = gains.square_matrix("P0", n);
-  covariances.R =
-      read_square_per_sensor(gains, "R", plant, {SensorTiming::kSampled, SensorTiming::kAtJumps});
+  covariances.R = read_noise_covariances(gains, plant);
   covariances.Q = matrix_or_zero("Q");
   covariances.Q_d = matrix_or_zero("Q_d");
   covariances.iterations = static_cast<int>(gains.count("iterations", 1, kMostIterations, 1));
