@@ -103,7 +103,8 @@ TEST(TensorGridTest, PointsOutsideAreTakenAsTheNearestNode) {
 
 TEST(TensorGridTest, RefusesWhatIsNoGrid) {
   EXPECT_THROW(TensorGrid(Nodes{}), std::invalid_argument);
-  EXPECT_THROW(TensorGrid(Nodes(4, {0.0, 1.0})), std::invalid_argument);
+  EXPECT_THROW(TensorGrid(Nodes(TensorGrid::kMaxDimensions + 1, {0.0, 1.0})),
+               std::invalid_argument);
   EXPECT_THROW(TensorGrid({{0.0, 1.0}, {0.0}}), std::invalid_argument);
   EXPECT_THROW(TensorGrid({{0.0, 1.0, 1.0}}), std::invalid_argument);
   EXPECT_THROW(TensorGrid({{0.0, kInfinity}}), std::invalid_argument);
