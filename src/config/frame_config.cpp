@@ -15,7 +15,7 @@ std::string read_frame(ConfigSection& section, const std::string& key) {
   return frame;
 }
 
-Duration read_timeout(ConfigSection& source) {
+Duration read_tf_timeout(ConfigSection& source) {
   return from_seconds(source.number_in("tf_timeout", 0.0, kLongestWait, 0.5));
 }
 
@@ -51,7 +51,7 @@ SourceFrames read_source_frames(ConfigSection& source) {
   if (!frames.any() && source.has("tf_timeout")) {
     throw source.error("tf_timeout", "a frame or body_frame beside it", "none");
   }
-  frames.timeout = read_timeout(source);
+  frames.timeout = read_tf_timeout(source);
   return frames;
 }
 
@@ -62,7 +62,7 @@ SourceFrames read_transform_frames(ConfigSection& source) {
   if (frames.frame == frames.child_frame) {
     throw source.error("child_frame", "another frame than " + frames.frame, "the same");
   }
-  frames.timeout = read_timeout(source);
+  frames.timeout = read_tf_timeout(source);
   return frames;
 }
 
