@@ -144,6 +144,37 @@ void FlowAndSample(benchmark::State& state) {
   }
 }
 
+/// 10 ms and a sample, by turns of each of `state.range(0)` sensors of six states.
+void FlowAndSampleInTurn(benchmark::State& state) {
+  constexpr Eigen::Index kStates = 6;
+  LinearPlantDescription plant;
+  plant.state_names.resize(kStates, "x");
+  plant.A = example_A(kStates);
+  plant.B = Eigen::MatrixXd::Zero(kStates, 0);
+  const int sensors = static_cast<int>(state.range(0));
+  for (int i = 0; i < sensors; ++i) {
+    plant.sensors.push_back(
+        {"s" + std::to_string(i), Eigen::MatrixXd::Identity(1, kStates), {false}});
+  }
+  const ConstantGainObserver law(
+      {make_linear_plant(plant), Eigen::VectorXd::Ones(kStates), Eigen::VectorXd::Zero(0)},
+      std::vector<Eigen::MatrixXd>(plant.sensors.size(),
+                                   Eigen::MatrixXd::Constant(kStates, 1, 0.1)));
+  Eigen::VectorXd x(law.state_size());
+  Eigen::VectorXd workspace(law.workspace_size());
+  law.initialize(x.data());
+  const double y = 1.0;
+  Event event{kStart, EventKind::kSample, 0, &y, 1};
+  const Allocations allocations(state);
+  for (auto _ : state) {
+    law.flow(10'000'000, x.data(), workspace.data());
+    law.reset(event, x.data(), workspace.data());
+    event.sensor = (event.sensor + 1) % sensors;
+    benchmark::DoNotOptimize(x.data());
+    benchmark::ClobberMemory();
+  }
+}
+
 /// Takes in one event with `state.range(1)` later ones behind it, then a new one at the end.
 void Rewind(benchmark::State& state) {
   const auto law = example_law(state.range(0));
@@ -236,6 +267,7 @@ BENCHMARK(BareSample)->Apply(Sizes);
 BENCHMARK(Sample)->Apply(Sizes);
 BENCHMARK(BareFlowAndSample)->Apply(Sizes);
 BENCHMARK(FlowAndSample)->Apply(Sizes);
+BENCHMARK(FlowAndSampleInTurn)->Arg(1)->Arg(4)->Arg(16)->Arg(64);
 BENCHMARK(Rewind)->Apply(SizesAndDepths);
 BENCHMARK(SharedStamp)->Arg(1)->Arg(10)->Arg(100)->Arg(1000);
 BENCHMARK(EightSteps)->Apply(Sizes);
