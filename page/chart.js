@@ -48,7 +48,8 @@ class Figure {
     this.canvas = element("canvas");
     this.plot = element("div", {className: "plot"}, this.canvas);
     this.plot.style.height = height + "px";
-    this.tools = element("span", {className: "tools"}, ...exportButtons(this));
+    this.tools = element("span", {className: "tools"});
+    this.plot.append(exportButtons(this));
     this.title = title;
     this.keys = [];  // layers with a key
     this.sheet = null;  // what is drawn on instead of the canvas, while it is exported

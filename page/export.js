@@ -122,8 +122,9 @@ function pictureOf(figure, kind) {
   return canvas.toDataURL("image/png");
 }
 
+/** Over the plot, so that they take no room while they are not seen. */
 function exportButtons(figure) {
-  return ["png", "svg"].map((kind) => {
+  const buttons = ["png", "svg"].map((kind) => {
     const button = element("button", {type: "button", textContent: kind.toUpperCase(), className: "export",
                                       title: "save what is shown as a picture"});
     button.addEventListener("click", () => {
@@ -132,4 +133,8 @@ function exportButtons(figure) {
     });
     return button;
   });
+  const made = element("span", {className: "exports"}, ...buttons);
+  // What begins here is no drag of the plot.
+  for (const kind of ["pointerdown", "dblclick"]) made.addEventListener(kind, (event) => event.stopPropagation());
+  return made;
 }
