@@ -165,7 +165,8 @@ RecordedMessage::OfChannel MessageStream::prepare(std::size_t channel,
   result.event.kind = bound.channel.kind;
   result.event.sensor = bound.channel.sensor;
   result.reading = bound.source->read(result.content, receipt, result.event);
-  result.values.assign(result.event.values, result.event.values + result.event.size);
+  const auto numbers = result.event.numbers();
+  result.values.assign(numbers.data(), numbers.data() + numbers.size());
   result.event.values = nullptr;
   return result;
 }

@@ -45,12 +45,13 @@ gains: {P0: {diagonal: [1, 1, 1, 1, 1]}, R: {pose: {diagonal: [1, 1]}}}
 
 
 class RobotsTest(FolderTest):
-    def errors(self, robot, seed):
+    def errors(self, robot, seed, observer=None):
         """Root mean squares of the states' errors, once the start is forgotten."""
-        observer = os.path.join(CONFIG, robot + ".yaml")
+        scenario = os.path.join(CONFIG, robot + "_scenario.yaml")
+        observer = observer or os.path.join(CONFIG, robot + ".yaml")
         bag, summary = self.path("robot.bag"), self.path("summary.json")
         for command in (
-                [TOOLS["simulate"], observer, observer.replace(".yaml", "_scenario.yaml"), "-o", bag,
+                [TOOLS["simulate"], observer, scenario, "-o", bag,
                  "--seed", str(seed)],
                 [TOOLS["replay"], bag, observer, "--truth", "truth", "--from", "5", "--json", summary]):
             subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
@@ -67,10 +68,19 @@ class RobotsTest(FolderTest):
             for state in states.split():
                 self.assertLess(errors[state], bound, state)
 
+    PLANAR = {"x y": 0.06, "yaw": 0.03, "vx w": 0.02, "vy": 0.01, "gyro_bias": 0.003}
+
     def test_on_the_plane(self):
-        for seed in 1, 2:
-            self.assert_within({"x y": 0.06, "yaw": 0.03, "vx w": 0.02, "vy": 0.01, "gyro_bias": 0.003},
-                               self.errors("planar_robot", seed))
+        self.assert_within(self.PLANAR, self.errors("planar_robot", 1))
+
+    def test_on_the_plane_with_the_covariances_of_messages(self):
+        with open(os.path.join(CONFIG, "planar_robot.yaml"), encoding="utf-8") as robot:
+            text = robot.read()
+        for old, new in (("      frame: map\n", ""),
+                         ("pose: {diagonal: [2.5e-3, 2.5e-3, 1e-3]}", "pose: message")):
+            self.assertIn(old, text)
+            text = text.replace(old, new)
+        self.assert_within(self.PLANAR, self.errors("planar_robot", 2, self.write("robot.yaml", text)))
 
     def test_in_space(self):
         self.assert_within({"x y z": 0.06, "roll pitch": 0.004, "yaw": 0.02, "vx vy vz": 0.01,
