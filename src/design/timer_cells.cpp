@@ -100,12 +100,12 @@ double cost_of(const Design& design, Objective objective, const ErrorAssumptions
   return 0.0;
 }
 
-/// Whether a function that falls at events, too, may prove a smaller final error: one whose fall in
-/// flow can count on T1 alone, where more of it is seen at events later than that.
+/// Whether a function that falls at events, too, may well prove a smaller final error: a fall in
+/// flow counts for T1 alone, which is little where the events may come much later.
 bool may_fall_at_events(const Theorem& theorem, const CertificateSubject& subject,
                         Objective objective) {
   return objective == Objective::kMinFinalError && theorem.takes_fall_at_events() &&
-         times_of_timers(subject).size() == 1 && 0.0 < subject.T1 && subject.T1 < subject.T2;
+         times_of_timers(subject).size() == 1 && 0.0 < subject.T1 && 2.0 * subject.T1 < subject.T2;
 }
 
 Design solve_refined(const Theorem& theorem, const CertificateSubject& subject, Objective objective,
