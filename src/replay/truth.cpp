@@ -40,7 +40,7 @@ Truth truth_from_states(const Plant& plant, const std::map<std::string, std::str
     sources.push_back(field);
   }
   truth.take = [sources](const rosbag::MessageInstance& instance) {
-    const auto message = instantiate<StateEstimate>(instance);
+    auto message = instantiate<StateEstimate>(instance);
     for (const std::string& source : sources) {
       if (place_of(source, *message) < message->state.size()) continue;
       throw BagMessageError(instance, "it has no state called '" + source + "'");
