@@ -1,10 +1,10 @@
 # page_literals(<variable> <function> <file>...): sets the variable to the name of a source with the function
-# sampled_data_observers::page_parts::<function>(), which returns the texts of files below page/, one after the other.
+# sampled_data_observers::page_parts::<function>(), which returns the texts of files below src/page/, one after the other.
 # So programs need no files beside them. A literal for each file: longer ones than 65536 characters need not be compiled.
 function(page_literals SOURCE FUNCTION)
   set(TEXTS)
   foreach(FILE ${ARGN})
-    set(PATH ${PROJECT_SOURCE_DIR}/page/${FILE})
+    set(PATH ${PROJECT_SOURCE_DIR}/src/page/${FILE})
     file(READ ${PATH} TEXT)
     string(APPEND TEXTS "  text += R\"PAGE(${TEXT})PAGE\";\n")
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PATH})

@@ -12,7 +12,7 @@
 
 namespace sampled_data_observers {
 
-/// All that the page of a report shows, as page/report reads it. Times are in seconds after
+/// All that the page of a report shows, as src/page/report reads it. Times are in seconds after
 /// "origin", a stamp in seconds. What does not exist is null or missing.
 ///
 /// Of a long run, estimates and what is compared are thinned (ThinnedSeries), and events that were

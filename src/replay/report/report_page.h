@@ -2,7 +2,7 @@
 
 #include <string>
 
-/// The files of page/report, which CMake puts into the program.
+/// The files of src/page/report, which CMake puts into the program.
 namespace sampled_data_observers::page_parts {
 
 /// What makes the page of report_data(), for html_page().
