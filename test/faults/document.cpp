@@ -7,7 +7,7 @@ namespace sampled_data_observers::test {
 namespace {
 
 /// By code, as in EventStatus.
-constexpr std::array<const char*, 26> kOutcomes = {
+constexpr std::array<const char*, 27> kOutcomes = {
     "USED",          "USED_LATE",    "DUPLICATE",    "TOO_OLD",          "IN_FUTURE",
     "NO_STAMP",      "WRONG_SIZE",   "NOT_FINITE",   "WOULD_OVERFLOW",   "UNKNOWN_MODE",
     "TOO_FREQUENT",  "GATED",        "DISABLED",     "NO_TRANSFORM",     "NO_FIELD",
