@@ -9,6 +9,7 @@
 #include "design/certify.h"
 #include "design/final_error.h"
 #include "design/plant_scaling.h"
+#include "design/rate_search.h"
 #include "design/request_error.h"
 #include "design/run_time_figures.h"
 #include "design/timer_cells.h"
@@ -199,6 +200,35 @@ Design analyze_on_grid(const AnalysisProblem& problem, const SynthesisOptions& o
   return found;
 }
 
+/// The design, with another proof of its gains where that gives a smaller final error.
+/// @param prove  of a problem
+template <class Prove>
+Design with_less_final_error(const Design& design, const ErrorAssumptions& assumptions,
+                             Prove prove) {
+  const Theorem& theorem = *design.certificate.theorem;
+  if (!has_final_error_level(theorem, design.certificate.subject)) return design;
+  const auto figure = [&](const Design& of) {
+    return final_error(theorem, of.certificate.subject, of.certificate.values, assumptions);
+  };
+  Design best = design;
+  try {
+    const Design analysis = prove(final_error_problem(design.certificate, assumptions));
+    best.attempts += analysis.attempts;
+    best.seconds += analysis.seconds;
+    if (figure(analysis) < figure(design)) {
+      best.certificate = analysis.certificate;
+      best.margin = analysis.margin;
+      best.proved_conditions = analysis.proved_conditions;
+      for (const NamedShape& shape : theorem.parameters(analysis.certificate.subject)) {
+        best.parameters[shape.name] = scalar_value(analysis.certificate.values, shape.name);
+      }
+    }
+  } catch (const DesignError&) {
+    // The proof at hand is the best.
+  }
+  return best;
+}
+
 }  // namespace
 
 std::vector<Objective> analysis_objectives(const Theorem& theorem,
@@ -231,30 +261,24 @@ Design analyze(const AnalysisProblem& problem, const SynthesisOptions& options) 
 
 Design prove_final_error(const Design& design, const ErrorAssumptions& assumptions,
                          const SynthesisOptions& options) {
-  const Theorem& theorem = *design.certificate.theorem;
-  if (!has_final_error_level(theorem, design.certificate.subject)) return design;
-  AnalysisProblem problem = final_error_problem(design.certificate, assumptions);
-  problem.accepts_slow = false;
-  const auto figure = [&](const Design& of) {
-    return final_error(theorem, problem.subject, of.certificate.values, assumptions);
-  };
-  Design best = design;
-  try {
-    const Design analysis = analyze(problem, options);
-    best.attempts += analysis.attempts;
-    best.seconds += analysis.seconds;
-    if (figure(analysis) < figure(design)) {
-      best.certificate = analysis.certificate;
-      best.margin = analysis.margin;
-      best.proved_conditions = analysis.proved_conditions;
-      for (const NamedShape& shape : theorem.parameters(analysis.certificate.subject)) {
-        best.parameters[shape.name] = scalar_value(analysis.certificate.values, shape.name);
-      }
-    }
-  } catch (const DesignError&) {
-    // The proof at hand is the best.
-  }
-  return best;
+  return with_less_final_error(design, assumptions, [&](AnalysisProblem problem) {
+    problem.accepts_slow = false;
+    return analyze(problem, options);
+  });
+}
+
+Design prove_final_error_near(const Design& design, const ErrorAssumptions& assumptions,
+                              const SynthesisOptions& options) {
+  return with_less_final_error(design, assumptions, [&](const AnalysisProblem& problem) {
+    const GivenGains method(*problem.theorem, problem.gains);
+    DesignProblem search;
+    search.subject = problem.subject;
+    search.objective = problem.objective;
+    search.accepts_less = true;
+    search.accepts_slow = false;
+    search.assumptions = assumptions;
+    return search_rate_near(design, method, search, options);
+  });
 }
 
 std::shared_ptr<const Design> own_proof_for_run_time(const Design& design,

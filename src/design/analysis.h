@@ -36,6 +36,11 @@ Design analyze(const AnalysisProblem& problem, const SynthesisOptions& options);
 Design prove_final_error(const Design& design, const ErrorAssumptions& assumptions,
                          const SynthesisOptions& options);
 
+/// The same for a Lyapunov function that depends on timers, of the same kind and on the same nodes:
+/// searched for from the rate of the design on.
+Design prove_final_error_near(const Design& design, const ErrorAssumptions& assumptions,
+                              const SynthesisOptions& options);
+
 /// The gains of a design with the proof by its own theorem that gives the least bound on their
 /// final error, for its N (without one, for no disturbance) and no performance output; null where
 /// that is not less than what the design's own proof gives by 1 %.

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "certificate/timer_dependent.h"
@@ -108,85 +110,123 @@ bool may_fall_at_events(const Theorem& theorem, const CertificateSubject& subjec
          times_of_timers(subject).size() == 1 && 0.0 < subject.T1 && 2.0 * subject.T1 < subject.T2;
 }
 
-Design solve_refined(const Theorem& theorem, const CertificateSubject& subject, Objective objective,
-                     const ErrorAssumptions& assumptions, const SolveOnGrid& solve) {
-  const bool has_grid = a_function(theorem, subject).has_value();
-  if (!has_grid || !subject.timer_nodes.empty()) return solve(subject, nullptr);
-  std::optional<Design> best;
-  double least = std::numeric_limits<double>::infinity();
-  std::size_t attempts = 0;
-  double seconds = 0.0;
-  CertificateSubject next =
-      with_cells(subject, times_of_timers(subject).size() > 1 ? kFirstCellsOfSeveral : kFirstCells);
-  while (true) {
-    const TensorGrid grid(next.timer_nodes);
-    Marks marks = all_marked(grid, true);
-    std::optional<DesignError> failure;
-    try {
-      Design found = solve(next, best ? &*best : nullptr);
-      found.attempts += attempts;
-      found.seconds += seconds;
-      attempts = found.attempts;
-      seconds = found.seconds;
-      const double value = cost_of(found, objective, assumptions);
-      const bool is_worthwhile = !best || value < least - (1.0 - kWorthwhile) * std::abs(least);
-      if (value < least || !best) {
-        const TensorGrid found_grid(found.certificate.subject.timer_nodes);
-        // Where a search has made T2 as short as T1, nodes are missing.
-        if (found_grid.size() == grid.size()) {
-          marks = active_intervals(found_grid, found.certificate);
-        }
-        best = std::move(found);
-        least = value;
-      }
-      best->attempts = attempts;
-      best->seconds = seconds;
-      if (!is_worthwhile) return *best;
-    } catch (const DesignError& error) {
-      if (best) return *best;
-      failure = error;
-    }
-    next = halved(next, grid, marks);
-    if (is_small_enough(*a_function(theorem, next), next.plant.modes.size())) continue;
-    if (failure) throw DesignError(*failure);
-    return *best;
+/// One kind of function on a growing grid.
+class RefinedSearch {
+ public:
+  RefinedSearch(const Theorem& theorem, CertificateSubject subject, Objective objective,
+                const ErrorAssumptions& assumptions, const SolveOnGrid& solve)
+      : theorem_(theorem),
+        next_(std::move(subject)),
+        objective_(objective),
+        assumptions_(assumptions),
+        solve_(solve),
+        refines_(a_function(theorem, next_) && next_.timer_nodes.empty()) {
+    if (!refines_) return;
+    const bool has_several = times_of_timers(next_).size() > 1;
+    next_ = with_cells(next_, has_several ? kFirstCellsOfSeveral : kFirstCells);
   }
-}
+
+  /// Solves on the next grid.
+  /// @throws DesignError  where it was the finest one, and none has a solution
+  void advance() {
+    std::exception_ptr failure;
+    const std::vector<std::vector<double>> nodes = next_.timer_nodes;
+    Marks marks = refines_ ? all_marked(TensorGrid(nodes), true) : Marks();
+    try {
+      is_done_ = !improve(solve_(next_, best_ ? &*best_ : nullptr), marks) || !refines_;
+    } catch (const DesignError&) {
+      is_done_ = best_ || !refines_;
+      failure = std::current_exception();
+    }
+    if (!is_done_) {
+      next_ = halved(next_, TensorGrid(nodes), marks);
+      is_done_ = !is_small_enough(*a_function(theorem_, next_), next_.plant.modes.size());
+    }
+    if (is_done_ && !best_) std::rethrow_exception(failure);
+  }
+
+  /// Whether a finer grid is not worth while.
+  bool is_done() const { return is_done_; }
+  const std::optional<Design>& best() const { return best_; }
+  /// Of the best one.
+  double cost() const { return cost_; }
+  std::size_t attempts() const { return attempts_; }
+  double seconds() const { return seconds_; }
+
+ private:
+  /// Returns whether the gain is worth a finer grid, and leaves in marks where.
+  bool improve(Design found, Marks& marks) {
+    attempts_ += found.attempts;
+    seconds_ += found.seconds;
+    const double cost = cost_of(found, objective_, assumptions_);
+    const bool is_worthwhile = !best_ || cost < cost_ - (1.0 - kWorthwhile) * std::abs(cost_);
+    if (best_ && !(cost < cost_)) return false;
+    if (refines_) {
+      const TensorGrid grid(found.certificate.subject.timer_nodes);
+      // Where a search has made T2 as short as T1, nodes are missing.
+      if (grid.size() == TensorGrid(next_.timer_nodes).size()) {
+        marks = active_intervals(grid, found.certificate);
+      }
+    }
+    best_ = std::move(found);
+    cost_ = cost;
+    return is_worthwhile;
+  }
+
+  const Theorem& theorem_;
+  CertificateSubject next_;
+  Objective objective_;
+  const ErrorAssumptions& assumptions_;
+  const SolveOnGrid& solve_;
+  bool refines_;
+  bool is_done_ = false;
+  std::optional<Design> best_;
+  double cost_ = std::numeric_limits<double>::infinity();
+  std::size_t attempts_ = 0;
+  double seconds_ = 0.0;
+};
 
 }  // namespace
 
 Design solve_on_refined_cells(const Theorem& theorem, const CertificateSubject& subject,
                               Objective objective, const ErrorAssumptions& assumptions,
                               bool has_rate, const SolveOnGrid& solve) {
-  const auto refined = [&](const CertificateSubject& own) {
-    return solve_refined(theorem, own, objective, assumptions, solve);
-  };
-  if (has_rate || subject.falls_at_events || !may_fall_at_events(theorem, subject, objective)) {
-    return refined(subject);
+  std::vector<CertificateSubject> kinds = {subject};
+  if (!has_rate && !subject.falls_at_events && may_fall_at_events(theorem, subject, objective)) {
+    kinds.push_back(subject);
+    kinds.back().falls_at_events = true;
   }
-  CertificateSubject falling = subject;
-  falling.falls_at_events = true;
-  std::optional<Design> best;
-  std::optional<DesignError> failure;
-  std::size_t attempts = 0;
-  double seconds = 0.0;
-  for (const CertificateSubject& own : {subject, falling}) {
-    try {
-      Design found = refined(own);
-      attempts += found.attempts;
-      seconds += found.seconds;
-      if (!best ||
-          cost_of(found, objective, assumptions) < cost_of(*best, objective, assumptions)) {
-        best = std::move(found);
+  std::vector<RefinedSearch> searches;
+  for (const CertificateSubject& kind : kinds) {
+    searches.emplace_back(theorem, kind, objective, assumptions, solve);
+  }
+  // Which kind is the better one, the first grid on which one has a solution tells.
+  RefinedSearch* best = nullptr;
+  std::exception_ptr failure;
+  while (best == nullptr) {
+    for (RefinedSearch& search : searches) {
+      if (search.is_done()) continue;
+      try {
+        search.advance();
+      } catch (const DesignError&) {
+        if (!failure) failure = std::current_exception();
+        continue;
       }
-    } catch (const DesignError& error) {
-      if (!failure) failure = error;
+      if (search.best() && (best == nullptr || search.cost() < best->cost())) best = &search;
     }
+    const bool is_over = std::all_of(searches.begin(), searches.end(),
+                                     [](const RefinedSearch& search) { return search.is_done(); });
+    if (best == nullptr && is_over) std::rethrow_exception(failure);
   }
-  if (!best) throw DesignError(*failure);
-  best->attempts = attempts;
-  best->seconds = seconds;
-  return *best;
+  while (!best->is_done()) best->advance();
+  Design design = *best->best();
+  design.attempts = 0;
+  design.seconds = 0.0;
+  for (const RefinedSearch& search : searches) {
+    design.attempts += search.attempts();
+    design.seconds += search.seconds();
+  }
+  return design;
 }
 
 }  // namespace sampled_data_observers

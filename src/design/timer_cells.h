@@ -14,7 +14,8 @@ using SolveOnGrid = std::function<Design(const CertificateSubject&, const Design
 /// them: from few cells on, those at which a condition is active are halved, until that gains less
 /// than 1 %, or the grid is so large that a program would take too long. Where the subject has
 /// timer_nodes, and for other theorems, it is solved once. For the least final error a function
-/// that falls at events is tried as well, unless the rate in flow is given (has_rate).
+/// that falls at events is tried as well, unless the rate in flow is given (has_rate); which of
+/// both is refined, the first grid tells.
 /// @throws DesignError  of the finest grid, where none has a solution
 Design solve_on_refined_cells(const Theorem& theorem, const CertificateSubject& subject,
                               Objective objective, const ErrorAssumptions& assumptions,
