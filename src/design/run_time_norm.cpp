@@ -14,7 +14,7 @@
 namespace sampled_data_observers {
 namespace {
 
-constexpr int kTimes = 25;
+constexpr int kTimesFollowed = 25;
 constexpr int kTries = 8000;
 constexpr double kFirstStep = 0.3;
 constexpr int kTriesOfRound = 1000;
@@ -29,8 +29,8 @@ class FollowedError {
     const Eigen::MatrixXd P = (values.at("P") + values.at("P").transpose()) / 2.0;
     const CertificateGain gain(C, P, scalar_value(values, "lambda"));
     std::vector<double> workspace(static_cast<std::size_t>(gain.workspace_size()));
-    for (int i = 0; i < kTimes; ++i) {
-      const double share = static_cast<double>(i) / (kTimes - 1);
+    for (int i = 0; i < kTimesFollowed; ++i) {
+      const double share = static_cast<double>(i) / (kTimesFollowed - 1);
       flows_.push_back(exponential_of(A * (share * subject.T2)));
       const double tau = subject.T1 + share * (subject.T2 - subject.T1);
       Eigen::MatrixXd K(A.rows(), C.rows());
