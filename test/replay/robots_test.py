@@ -29,19 +29,24 @@ OF_SENSORS = {
     "rejection_threshold": "odom0_pose odom0_twist odom1_pose odom1_twist pose0 twist0 imu0_pose imu0_twist "
                            "imu0_linear_acceleration"}
 
-# What an example of the document leaves to its reader.
-BESIDE = ["""
+# What an example of the document leaves to its reader, and the topic that replay then misses.
+BESIDE = [("""
+plant: {states: [x, y], A: [[0, 0], [0, 0]]}
+observer: HybridKalmanFilter
+frame_id: map
+gains: {P0: {diagonal: [1, 1]}, R: {gps: {diagonal: [1, 1]}}}
+""", "/fix"), ("""
 plant: {states: [x, y, w], flow: {x: "0", y: "0", w: "0*x"}}
 observer: HybridKalmanFilter
 frame_id: map
 sampling: {T1: 0.1, T2: 1}
 gains: {P0: {diagonal: [1, 1, 1]}, R: {odom0_pose: {diagonal: [1, 1]}, odom0_twist: {diagonal: [1]}}}
-""", """
+""", "/example/odom"), ("""
 observer: HybridKalmanFilter
 sensors: {pose: {h: [x, y], source: {topic: example/odom}}}
 sampling: {T1: 0.1, T2: 1}
 gains: {P0: {diagonal: [1, 1, 1, 1, 1]}, R: {pose: {diagonal: [1, 1]}}}
-"""]
+""", "/example/odom")]
 
 
 class RobotsTest(FolderTest):
@@ -115,13 +120,13 @@ class MigrationTest(FolderTest):
                        check=True, stdout=subprocess.DEVNULL)
         examples = re.findall(r"```yaml\n(.*?)```", self.text, re.DOTALL)
         self.assertEqual(len(BESIDE), len(examples))
-        for example, beside in zip(examples, BESIDE):
+        for example, (beside, topic) in zip(examples, BESIDE):
             # All that replay has against them is what it finds in the bag.
             found = subprocess.run(
                 [TOOLS["replay"], self.path("robot.bag"), self.write("example.yaml", example),
                  self.write("beside.yaml", beside)], check=False, stdout=subprocess.PIPE,
                 stderr=subprocess.STDOUT, universal_newlines=True)
-            self.assertIn("the bag has no topic /example/odom", found.stdout)
+            self.assertIn("the bag has no topic " + topic, found.stdout)
 
 
 if __name__ == "__main__":
