@@ -1,6 +1,7 @@
 #include "config/misspelling.h"
 
 #include <algorithm>
+#include <cctype>
 
 namespace sampled_data_observers {
 namespace {
@@ -35,12 +36,21 @@ bool differ_by_last_letter(const std::string& a, const std::string& b) {
   return a.size() == b.size() && std::equal(a.begin(), a.end() - 1, b.begin());
 }
 
+/// Of one letter the case may be meant: q and Q.
+bool differ_by_case(const std::string& a, const std::string& b) {
+  const auto is_same = [](unsigned char x, unsigned char y) {
+    return std::tolower(x) == std::tolower(y);
+  };
+  return a.size() > 1 && std::equal(a.begin(), a.end(), b.begin(), b.end(), is_same);
+}
+
 }  // namespace
 
 std::string misspelling_of(const std::string& word, const std::vector<std::string>& among) {
   if (word.empty() || word.size() > kLongestWord) return "";
   const std::size_t most = word.size() / kLettersPerMistake;
   for (const std::string& candidate : among) {
+    if (differ_by_case(word, candidate)) return candidate;
     if (candidate.size() > kLongestWord || differ_by_last_letter(word, candidate)) continue;
     if (mistakes_between(word, candidate) <= most) return candidate;
   }

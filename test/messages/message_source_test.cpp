@@ -40,6 +40,7 @@ TEST(MessageSourceTest, AnUnknownTypeIsRefusedWithWhatToDo) {
   expect_parts(fault_of_type("geometry_msgs/PoseStampt"),
                {"'geometry_msgs/PoseStampt'", "did you mean geometry_msgs/PoseStamped?",
                 "geometry_msgs has Accel, AccelStamped"});
+  expect_parts(fault_of_type("sensor_msgs/IMU"), {"did you mean sensor_msgs/Imu?"});
   for (const char* type : {"Float64", "std_msgs/", "/Float64", "std_msgs/Float/64", "a b/c"}) {
     expect_parts(fault_of_type(type), {"is no name of a type, package/Type"});
   }

@@ -44,9 +44,7 @@ Definitions definitions_of() {
            ros::message_traits::Definition<Messages>::value()}...};
 }
 
-}  // namespace
-
-const char* compiled_definition(const std::string& type) {
+const Definitions& compiled_definitions() {
   static const Definitions kDefinitions = definitions_of<
       StateEstimate, geometry_msgs::Accel, geometry_msgs::AccelStamped,
       geometry_msgs::AccelWithCovarianceStamped, geometry_msgs::Point, geometry_msgs::PointStamped,
@@ -61,8 +59,23 @@ const char* compiled_definition(const std::string& type) {
       sensor_msgs::NavSatFix, sensor_msgs::Range, std_msgs::Bool, std_msgs::Float32,
       std_msgs::Float64, std_msgs::Float64MultiArray, std_msgs::Header, std_msgs::Int32,
       std_msgs::Time, tf2_msgs::TFMessage>();
-  const auto found = kDefinitions.find(type);
-  return found == kDefinitions.end() ? nullptr : found->second;
+  return kDefinitions;
+}
+
+}  // namespace
+
+const char* compiled_definition(const std::string& type) {
+  const auto found = compiled_definitions().find(type);
+  return found == compiled_definitions().end() ? nullptr : found->second;
+}
+
+std::vector<std::string> compiled_types(const std::string& package) {
+  std::vector<std::string> types;
+  const std::string prefix = package + "/";
+  for (const auto& [type, definition] : compiled_definitions()) {
+    if (type.compare(0, prefix.size(), prefix) == 0) types.push_back(type.substr(prefix.size()));
+  }
+  return types;
 }
 
 }  // namespace sampled_data_observers

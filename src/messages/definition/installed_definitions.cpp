@@ -52,18 +52,18 @@ std::string dashed(std::string name) {
 
 [[noreturn]] void refuse(const TypeName& type, const fs::path& folder) {
   const std::vector<std::string> names = types_of_folder(folder);
+  const std::string meant =
+      misspelling_of(type.name, names.empty() ? compiled_types(type.package) : names);
+  const std::string hint =
+      meant.empty() ? "" : " (did you mean " + type.package + "/" + meant + "?)";
   if (names.empty()) {
-    throw DefinitionError("is not installed: " + folder.parent_path().string() +
+    throw DefinitionError("is not installed" + hint + ": " + folder.parent_path().string() +
                           " has no .msg files (in Debian they are in ros-" + dashed(type.package) +
                           ")");
   }
   std::string known;
   for (const std::string& name : names) known += (known.empty() ? "" : ", ") + name;
-  const std::string meant = misspelling_of(type.name, names);
-  throw DefinitionError(
-      "does not exist" +
-      (meant.empty() ? "" : " (did you mean " + type.package + "/" + meant + "?)") + ": " +
-      type.package + " has " + known);
+  throw DefinitionError("does not exist" + hint + ": " + type.package + " has " + known);
 }
 
 /// The text of one type alone.

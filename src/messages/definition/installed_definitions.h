@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "messages/definition/message_definition.h"
 
@@ -15,5 +16,8 @@ std::shared_ptr<const MessageDefinition> installed_definition(const std::string&
 
 /// The text that this was compiled with, for the usual types; null for others.
 const char* compiled_definition(const std::string& type);
+
+/// The types of a package that have such a text, without its name.
+std::vector<std::string> compiled_types(const std::string& package);
 
 }  // namespace sampled_data_observers
