@@ -1,5 +1,7 @@
 #include "sampled_data_observers/hybrid/event.h"
 
+#include <cstring>
+
 namespace sampled_data_observers {
 namespace {
 
@@ -12,6 +14,21 @@ int three_way(T a, T b) {
 int place_of(EventKind kind) {
   return kind == EventKind::kWithdrawal ? 2 * static_cast<int>(EventKind::kJump) - 1
                                         : 2 * static_cast<int>(kind);
+}
+
+/// By the finalizer of splitmix64: each bit of what is added changes half of the others.
+std::uint64_t mixed(std::uint64_t sum, std::uint64_t added) {
+  std::uint64_t z = (sum ^ added) + 0x9e3779b97f4a7c15U;
+  z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9U;
+  z = (z ^ (z >> 27U)) * 0x94d049bb133111ebU;
+  return z ^ (z >> 31U);
+}
+
+std::uint64_t bits_of(double value) {
+  const double one_zero = value + 0.0;  // -0 is no other value than 0
+  std::uint64_t bits = 0;
+  std::memcpy(&bits, &one_zero, sizeof bits);
+  return bits;
 }
 
 }  // namespace
@@ -30,6 +47,22 @@ int compare(const Event& a, const Event& b) {
     if (const int order = three_way(a.values[i], b.values[i])) return order;
   }
   return 0;
+}
+
+std::uint64_t digest(const Event& event) {
+  std::uint64_t sum = mixed(0, static_cast<std::uint64_t>(event.stamp));
+  for (const auto number :
+       {static_cast<std::uint64_t>(event.kind), static_cast<std::uint64_t>(event.sensor),
+        static_cast<std::uint64_t>(event.rejected), static_cast<std::uint64_t>(event.index),
+        static_cast<std::uint64_t>(event.size), static_cast<std::uint64_t>(event.covariance),
+        static_cast<std::uint64_t>(event.delay), std::uint64_t{event.mode ? 1U : 0U},
+        bits_of(event.mode.value_or(0.0))}) {
+    sum = mixed(sum, number);
+  }
+  for (Eigen::Index i = 0; i < event.size + event.covariance; ++i) {
+    sum = mixed(sum, bits_of(event.values[i]));
+  }
+  return sum;
 }
 
 bool withdraws(const Event& withdrawal, const Event& jump) {

@@ -303,6 +303,7 @@ void Timeline::apply(std::size_t position) {
   current.counts = slot(position - 1).counts;
   column(position) = column(position - 1);
   if (event.kind != EventKind::kRejected) ++current.counts.events;
+  current.counts.digest += digest(event);
   current.effect = reset(position);
   if (!took_effect(current.effect)) return;
   if (const auto family = family_of(event)) column(position)(*family) = event.stamp;

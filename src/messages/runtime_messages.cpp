@@ -27,6 +27,7 @@ void write_estimate(const Estimate& estimate, const PublishedBound& bound,
                                   ? to_seconds(estimate.stamp - *estimate.counts.last_sample)
                                   : kNone;
   message.events = estimate.counts.events;
+  message.events_digest = estimate.counts.digest;
   message.samples = estimate.counts.samples;
   message.jumps = estimate.counts.jumps;
   const double* whole = estimate.state.data();

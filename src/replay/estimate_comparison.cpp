@@ -31,7 +31,7 @@ Estimates read(const std::string& path, const std::string& topic, bool& repeated
 }
 
 bool rest_on_same_events(const StateEstimate& a, const StateEstimate& b) {
-  return a.events == b.events && a.samples == b.samples && a.jumps == b.jumps;
+  return a.events == b.events && a.events_digest == b.events_digest;
 }
 
 /// NaN is as good as NaN: there is no bound.

@@ -44,7 +44,7 @@ int run(int argc, char** argv) {
   sampled_data_observers::CommandLine tool(
       "compare_estimates",
       "Compares the estimates of two bags, say of a live run and of its replay. Where both rest on "
-      "the same number of events they must be identical, bit for bit.",
+      "the same events they must be identical, bit for bit.",
       "Exit status: 0 they agree, 1 they do not, agree on too few or can't be read, else wrong "
       "usage.");
   Arguments arguments;

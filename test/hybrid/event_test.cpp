@@ -56,6 +56,7 @@ TEST(EventTest, AreOrderedByStampKindSensorSizeModeOrDelayAndValues) {
     for (std::size_t j = 0; j < events.size(); ++j) {
       const int order = compare(events[i], events[j]);
       EXPECT_EQ((i > j) - (i < j), (order > 0) - (order < 0)) << i << " and " << j;
+      EXPECT_EQ(i == j, digest(events[i]) == digest(events[j])) << i << " and " << j;
     }
   }
 }
@@ -66,6 +67,14 @@ TEST(EventTest, WhenItsResetTakesEffectIsNoPartOfAJump) {
   Event late = early;
   late.release = 7;
   EXPECT_EQ(0, compare(early, late));
+  EXPECT_EQ(digest(early), digest(late));
+}
+
+TEST(EventTest, DuplicatesHaveOneDigestWhateverTheSignOfZero) {
+  const OwnedEvent positive{5, EventKind::kSample, 0, {0.0, 1.0}};
+  const OwnedEvent negative{5, EventKind::kSample, 0, {-0.0, 1.0}};
+  EXPECT_EQ(0, compare(positive.view(), negative.view()));
+  EXPECT_EQ(digest(positive.view()), digest(negative.view()));
 }
 
 }  // namespace

@@ -24,6 +24,7 @@ struct Snapshot {
   std::uint64_t events = 0;
   std::uint64_t samples = 0;
   std::uint64_t jumps = 0;
+  std::uint64_t digest = 0;
 };
 
 Snapshot snapshot(const Timeline& timeline, const HybridSystem& system, Stamp stamp) {
@@ -35,12 +36,13 @@ Snapshot snapshot(const Timeline& timeline, const HybridSystem& system, Stamp st
   result.events = counts.events;
   result.samples = counts.samples;
   result.jumps = counts.jumps;
+  result.digest = counts.digest;
   return result;
 }
 
 bool operator==(const Snapshot& a, const Snapshot& b) {
   return a.query == b.query && a.events == b.events && a.samples == b.samples &&
-         a.jumps == b.jumps && a.state.size() == b.state.size() &&
+         a.jumps == b.jumps && a.digest == b.digest && a.state.size() == b.state.size() &&
          std::memcmp(a.state.data(), b.state.data(), a.state.size() * sizeof(double)) == 0;
 }
 

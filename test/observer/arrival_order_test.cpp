@@ -283,6 +283,7 @@ class ArrivalOrderTest : public ::testing::TestWithParam<std::string> {
           expected.counts.events != found.counts.events ||
           expected.counts.samples != found.counts.samples ||
           expected.counts.jumps != found.counts.jumps ||
+          expected.counts.digest != found.counts.digest ||
           expected.counts.last_sample != found.counts.last_sample) {
         return false;
       }

@@ -573,6 +573,17 @@ class ToolsTest(FolderTest):
         self.assertIn("publish_delay above the latency", text)
         self.succeed("compare_estimates", *bags, "--at-least", "1")
 
+    def test_as_many_events_that_are_others_are_not_the_same(self):
+        self.observer = self.write("observer.yaml", OBSERVER.replace("DELAY", "0.06"))
+        bags = []
+        for position in ("1", "2"):
+            self.scenario = self.write("scenario.yaml", SCENARIO.replace("p: 1", "p: " + position).replace("[0.03, 0.05]", "[0.03, 0.03]"))
+            self.simulate()
+            bags.append(self.path("from_%s.bag" % position))
+            self.succeed("replay", *self.replay("-o", bags[-1]))
+        text = self.fault("compare_estimates", *bags)
+        self.assertIn("they agree, but on too few: expected 50 % of all", text)
+
 
 if __name__ == "__main__":
     for name in ("simulate", "replay", "compare_estimates"):

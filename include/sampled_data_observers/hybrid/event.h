@@ -65,6 +65,10 @@ struct Event {
 /// @pre all values and modes are finite
 int compare(const Event& a, const Event& b);
 
+/// A number by which events are told apart, of all that compare() looks at: equal for duplicates,
+/// and for others as good as never.
+std::uint64_t digest(const Event& event);
+
 /// Whether a withdrawal is about a jump: that of its stamp and its number, or, where nobody counts,
 /// each of its stamp into its mode.
 bool withdraws(const Event& withdrawal, const Event& jump);

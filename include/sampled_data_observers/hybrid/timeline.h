@@ -21,6 +21,9 @@ struct EventCounts {
   std::uint64_t samples = 0;
   /// Jumps that took effect.
   std::uint64_t jumps = 0;
+  /// The sum of the digests of all events, of rejected ones too: by which it is told whether two
+  /// states rest on the same ones, in whatever order they came.
+  std::uint64_t digest = 0;
   /// Stamp of the newest sample among them.
   std::optional<Stamp> last_sample;
 };
