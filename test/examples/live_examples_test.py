@@ -163,6 +163,16 @@ class LiveExamplesTest(unittest.TestCase):
         self.assertRegex(text, r"\nz1 +[0-9.]+ ")
         self.assertNotIn("died", text.replace("all processes on machine have died, roslaunch will exit", ""))
 
+    def test_a_faulty_configuration_ends_the_launch(self):
+        faulty = self.path("faulty", "observer.yaml")
+        with open(faulty, "w", encoding="utf-8") as file:
+            file.write("no_such_key: 1\n")
+        port = free_port()
+        command = ["roslaunch", "--port", str(port), os.path.join(ROOT, "launch", "robot.launch"), "robot:=" + ROBOT,
+                   "simulated:=true", "speed:=10", "config:=" + faulty]
+        with RosProcess(command, port) as process:
+            process.wait(30)
+
     def test_a_robot_of_config_live_as_replayed(self):
         self.launched[ROBOT].result()
         self.compare(ROBOT, 60, [os.path.join(ROOT, "config", ROBOT + end)
