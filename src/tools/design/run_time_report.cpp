@@ -60,6 +60,15 @@ void note_what_is_of_little_use(const Certificate& certificate, const RunTimeFig
   }
 }
 
+/// Whether events have no shortest interval: the figures are then about such that come after T2.
+bool may_follow_at_once(const CertificateSubject& subject) {
+  if (subject.dwell_time) return false;
+  const auto& times = subject.sensor_times;
+  if (times.empty()) return !(subject.T1 > 0.0);
+  return std::any_of(times.begin(), times.end(),
+                     [](const SamplingTimes& sensor) { return !(sensor.T1 > 0.0); });
+}
+
 }  // namespace
 
 void print_assumptions(const DeclaredAssumptions& declared, const DesignProblem& problem,
@@ -104,6 +113,9 @@ void print_run_time_figures(const Design& main, const ErrorAssumptions& assumpti
   std::printf("  in the end, for |noise| <= %.6g", bounded.noise);
   if (bounded.disturbance > 0.0) std::printf(" and |disturbance| <= %.6g", bounded.disturbance);
   std::printf(": %.6g\n", figures.final_error);
+  if (bounded.noise > 0.0 && may_follow_at_once(certificate.subject)) {
+    std::printf("    of events T2 apart: T1 is 0, and of denser ones noise may leave more\n");
+  }
   if (certificate.subject.error_weights.size() > 0) {
     std::printf(
         "  the same, weighted by design/weights: %.6g\n",
