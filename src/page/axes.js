@@ -25,7 +25,7 @@ function linearTicks(low, high, count) {
   return ticks.map((value) => ({value, label: label(value)}));
 }
 
-/** Ticks at powers of ten; their exponents low to high. Where there are few, at 2 and 5 times too. */
+/** Ticks at powers of ten; their exponents low to high. Where there are few, at 2 and 5 times too, or at round numbers. */
 function logTicks(low, high, count) {
   const first = Math.ceil(low - 1e-9);
   const last = Math.floor(high + 1e-9);
@@ -39,7 +39,8 @@ function logTicks(low, high, count) {
         }
       }
     }
-    return ticks;
+    if (ticks.length >= 2) return ticks;
+    return linearTicks(10 ** low, 10 ** high, count).filter(({value}) => value > 0).map(({value, label}) => ({value: Math.log10(value), label}));
   }
   const step = Math.max(1, Math.ceil((last - first) / Math.max(1, count)));
   const ticks = [];

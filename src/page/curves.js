@@ -16,8 +16,14 @@ function rangeOf(chart) {
     low = Math.min(low, x);
     high = Math.max(high, x);
   }
-  const room = chart.fills ? 0 : 0.02 * (high - low || Math.abs(high) || 1);
+  const isFilled = chart.fills && !chart.curves.some((curve) => curve.points);  // half of a point at an end would be cut
+  const room = isFilled ? 0 : 0.02 * (high - low || Math.abs(high) || 1);
   return new TimeRange(low - room, high + room);
+}
+
+/** Whether a logarithmic axis would show all of it. */
+function mayBeLogarithmic(chart) {
+  return chart.curves.every((curve) => curve.y.every((y) => y === null || y >= 0));
 }
 
 function layersOf(chart) {
@@ -54,7 +60,7 @@ function chartSections() {
     if (!groups.has(heading)) groups.set(heading, {note: chart.note ?? "", charts: []});
     if (!ranges.has(chart.x_label)) ranges.set(chart.x_label, rangeOf(chart));
     groups.get(heading).charts.push(new Chart(plain(chart.y_label), {
-      range: ranges.get(chart.x_label), layers: layersOf(chart), log: chart.logarithmic, hasLog: true,
+      range: ranges.get(chart.x_label), layers: layersOf(chart), log: chart.logarithmic, hasLog: mayBeLogarithmic(chart),
       xLabel: plain(chart.x_label), height: chart.height ?? 380}));
   });
   let number = 0;

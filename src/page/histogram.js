@@ -3,8 +3,9 @@ class Histogram extends Figure {
   /** @param bins {low, high, counts}: counts from low to high */
   constructor(title, {bins, marks = [], xLabel, height = 210, fill = "estimate"}) {
     super(title, height);
-    Object.assign(this, {bins, marks, xLabel, fill});
-    for (const mark of marks) this.addKey({kind: "level", ...mark});
+    Object.assign(this, {bins, xLabel, fill});
+    this.marks = marks.map((mark) => ({kind: "level", ...mark}));
+    for (const mark of this.marks) this.addKey(mark);
     this.caption.append(this.tools);
   }
 
@@ -12,7 +13,8 @@ class Histogram extends Figure {
     const {context, width, height} = this.prepare();
     if (width < MARGIN.left + 40) return;
     const {low, high, counts} = this.bins;
-    const all = [low, high, ...this.marks.map((mark) => mark.value)];
+    const shown = this.marks.filter((mark) => !mark.isHidden);
+    const all = [low, high, ...shown.map((mark) => mark.value)];
     const room = 0.04 * (Math.max(...all) - Math.min(...all));
     const view = {from: Math.min(...all) - room, to: Math.max(...all) + room,
                   low: 0, high: 1.08 * Math.max(1, ...counts), log: false,
@@ -33,7 +35,7 @@ class Histogram extends Figure {
     context.globalAlpha = 1;
     context.setLineDash([6, 4]);
     context.lineWidth = 1.6;
-    for (const mark of this.marks) {
+    for (const mark of shown) {
       const x = view.x(mark.value);
       context.strokeStyle = colour(mark.colour);
       context.beginPath();

@@ -15,7 +15,7 @@ data.figures.forEach((figure, i) => {
   const ranges = new Map();
   const charts = figure.charts.map((chart) => {
     if (!ranges.has(chart.x_label)) ranges.set(chart.x_label, rangeOf(chart));
-    return new Chart(chart.y_label, {range: ranges.get(chart.x_label), layers: layersOf(chart), log: chart.logarithmic ?? false, hasLog: true,
+    return new Chart(chart.y_label, {range: ranges.get(chart.x_label), layers: layersOf(chart), log: chart.logarithmic ?? false, hasLog: mayBeLogarithmic(chart),
                                      xLabel: chart.x_label, height: chart.height ?? 190}).figure;
   });
   sides.append(element("div", {className: "stack"}, ...charts), said(figure));
