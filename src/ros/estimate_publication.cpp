@@ -75,12 +75,21 @@ EstimatePublication::EstimatePublication(const ros::NodeHandle& handle, SharedRu
                                          std::unique_ptr<EstimateOutputs> outputs)
     : handle_(handle), runtime_(runtime), outputs_(std::move(outputs)) {
   StateEstimate prototype;
+  bool is_bounded = false;
   {
     const SharedRuntime::Access access = runtime_.access();
-    write(*access, access->estimator().make_estimate(), prototype);
+    const Estimate estimate = access->estimator().make_estimate();
+    write(*access, estimate, prototype);
+    is_bounded = estimate.law->has_bound();
   }
   messages_ = std::make_unique<MessagePool<StateEstimate>>(prototype, kEstimatesHeld);
   publisher_ = handle_.advertise<StateEstimate>("estimate", kQueueLength);
+  if (is_bounded) {
+    ErrorEllipsoid ellipsoid;
+    ellipsoid.header.frame_id = prototype.header.frame_id;
+    ellipsoid.names = prototype.names;
+    ellipsoid_.emplace(handle_, ellipsoid);
+  }
   if (!ros::Time::isSimTime()) return;
   const bool once = false;
   const bool started = false;
@@ -168,6 +177,7 @@ EstimatePublication::Step EstimatePublication::advance(const SharedRuntime::Acce
   if (estimate != nullptr) {
     write(*access, *estimate, message);
     if (outputs_) outputs_->take(*access, *estimate);
+    if (ellipsoid_) ellipsoid_->take(*access, *estimate);
     runtime_.statistics().record_estimate(*estimate->law, *estimate, access->bound(*estimate),
                                           access->lateness(estimate->stamp, now));
     step.is_written = true;
@@ -180,6 +190,7 @@ EstimatePublication::Step EstimatePublication::advance(const SharedRuntime::Acce
 void EstimatePublication::publish(const boost::shared_ptr<StateEstimate>& message) {
   publisher_.publish(message);
   if (outputs_) outputs_->publish();
+  if (ellipsoid_) ellipsoid_->publish();
   ++ticks_;
 }
 

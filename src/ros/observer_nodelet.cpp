@@ -19,6 +19,7 @@ constexpr std::uint32_t kQueryThreads = 2;
 std::vector<std::string> published_topics(const ros::NodeHandle& handle,
                                           const ObserverConfig& config) {
   std::vector<std::string> topics = {"estimate", "events"};
+  if (config.law->has_bound()) topics.emplace_back("error_ellipsoid");
   if (config.outputs) {
     for (const auto& topic :
          {config.outputs->odometry, config.outputs->pose, config.outputs->twist}) {

@@ -10,7 +10,8 @@ import threading
 import unittest
 
 import genpy
-from sampled_data_observers.msg import EventStatus, StateEstimate
+import numpy
+from sampled_data_observers.msg import ErrorEllipsoid, EventStatus, StateEstimate
 
 TOOLS = os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..", "src", "tools")
 
@@ -143,6 +144,44 @@ class MarkersTest(unittest.TestCase):
         self.assertEqual((box.scale.x, box.scale.y, ball.scale.z), (0.5, 0.5, 0.5))
         self.assertEqual((box.pose.position.x, box.pose.position.y, box.pose.position.z), (1, 2, 0.5))
         self.assertEqual({marker.action for marker in self.markers.guaranteed(self.see(2, [1, 2], bound=math.inf))}, {box.DELETE})
+
+    def see_ellipsoid(self, t, Q, names=("p", "q", "r")):
+        message = ErrorEllipsoid(names=list(names), matrix=numpy.ravel(Q).tolist())
+        message.header.stamp = genpy.Time.from_sec(t)
+        self.markers.add_ellipsoid(message)
+        return self.markers.guaranteed_ellipsoid()
+
+    def matrix_of(self, marker):
+        """Of the ellipsoid that a marker draws."""
+        q = marker.pose.orientation
+        v, w = numpy.array([q.x, q.y, q.z]), q.w
+        R = (w * w - v @ v) * numpy.eye(3) + 2 * numpy.outer(v, v) + 2 * w * numpy.cross(numpy.eye(3), v)
+        numpy.testing.assert_allclose(R @ R.T, numpy.eye(3), atol=1e-14)
+        return R @ numpy.diag([marker.scale.x / 2, marker.scale.y / 2, marker.scale.z / 2]) ** 2 @ R.T
+
+    def test_the_ellipsoid_is_that_of_the_position_and_holds_it(self):
+        random = numpy.random.RandomState(1)
+        for k in range(200):
+            self.markers.settings = {"position": [["p", "q", "r"], ["r", "p", 0.5], ["q", None, "p"]][k % 3], "yaw": None, "sensors": {}}
+            self.markers.add_estimate(estimate(k, [1, 2, 3], 1, names=("p", "q", "r")))
+            root = random.randn(3, 3) @ numpy.diag(10.0 ** random.uniform(-3, 3, 3)) if k > 5 else numpy.eye(3)
+            Q = root @ root.T
+            marker = self.see_ellipsoid(k, Q)
+            self.assertEqual(marker.action, marker.ADD)
+            selection = numpy.array([[float(name == axis) for name in "pqr"] for axis in self.markers.settings["position"]])
+            wanted, drawn = selection @ Q @ selection.T, self.matrix_of(marker)
+            size = numpy.trace(drawn)
+            self.assertGreaterEqual(numpy.linalg.eigvalsh(drawn - wanted).min(), 0.0)
+            numpy.testing.assert_allclose(drawn, wanted, atol=1e-11 * size + estimate_markers.LEAST_SPREAD ** 2)
+
+    def test_the_ellipsoid_stands_around_the_estimate_of_its_stamp(self):
+        self.see(1, [1, 2], 1)
+        self.see(2, [3, 4], 1)
+        marker = self.see_ellipsoid(1, numpy.eye(2), names=("p", "q"))
+        self.assertEqual((marker.pose.position.x, marker.pose.position.y, marker.pose.position.z), (1, 2, 0.5))
+        self.assertEqual(self.see_ellipsoid(7, 9 * numpy.eye(2), names=("p", "q")).pose, marker.pose)  # of which no estimate is known
+        nothing = self.see_ellipsoid(2, numpy.diag([math.inf, math.inf]), names=("p", "q"))
+        self.assertEqual(nothing.action, nothing.DELETE)
 
     def test_the_path_has_a_gap_at_jumps_and_samples_lie_where_they_were_measured(self):
         for t, (x, jumps) in enumerate(((0, 0), (1, 0), (5, 1), (6, 1)), 1):

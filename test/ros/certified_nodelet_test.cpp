@@ -5,6 +5,7 @@
 #include <nodelet/loader.h>
 #include <ros/ros.h>
 #include <rosgraph_msgs/Log.h>
+#include <sampled_data_observers/ErrorEllipsoid.h>
 
 #include <algorithm>
 #include <cmath>
@@ -77,10 +78,15 @@ TEST_F(CertifiedNodeletTest, PublishesTheBoundWhileTheAssumptionsHold) {
       "pose", 1000, [&](const geometry_msgs::PoseWithCovarianceStamped::ConstPtr& pose) {
         squares[pose->header.stamp] = pose->pose.covariance[0];
       });
+  std::map<ros::Time, ErrorEllipsoid> ellipsoids;
+  const ros::Subscriber ellipsoid = handle_.subscribe<ErrorEllipsoid>(
+      "error_ellipsoid", 1000, [&](const ErrorEllipsoid::ConstPtr& message) {
+        ellipsoids[message->header.stamp] = *message;
+      });
   ros::Publisher publisher = handle_.advertise<Measurement>("position", 100);
   ASSERT_TRUE(test::spin_until([&] {
     return publisher.getNumSubscribers() > 0 && subscriber.getNumPublishers() > 0 &&
-           poses.getNumPublishers() > 0;
+           poses.getNumPublishers() > 0 && ellipsoid.getNumPublishers() > 0;
   }));
   const ros::Time start = ros::Time::now() - ros::Duration(1.5);
   const ros::Time last = start + ros::Duration(1.35);
@@ -102,6 +108,14 @@ TEST_F(CertifiedNodeletTest, PublishesTheBoundWhileTheAssumptionsHold) {
       for (const double bound : estimate.error_bounds) EXPECT_LE(bound, estimate.error_bound);
       EXPECT_NEAR(1.0, std::sqrt(squares.at(estimate.header.stamp)) / estimate.error_bounds[0],
                   1e-6);
+      const ErrorEllipsoid& set = ellipsoids.at(estimate.header.stamp);
+      EXPECT_EQ(estimate.names, set.names);
+      EXPECT_EQ("world", set.header.frame_id);
+      ASSERT_EQ(4u, set.matrix.size());
+      EXPECT_DOUBLE_EQ(squares.at(estimate.header.stamp), set.matrix[0]);
+      EXPECT_EQ(set.matrix[1], set.matrix[2]);
+      EXPECT_GT(set.matrix[0] * set.matrix[3], set.matrix[1] * set.matrix[2]);
+      EXPECT_NEAR(1.0, std::sqrt(set.matrix[3]) / estimate.error_bounds[1], 1e-6);
       ++in_time;
     } else if (estimate.header.stamp > last + ros::Duration(0.3)) {
       // Then the error may grow as the plant does, and the bound with it.

@@ -7,10 +7,12 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "sampled_data_observers/messages/message_pool.h"
 #include "sampled_data_observers/real_time/deadline_thread.h"
+#include "sampled_data_observers/ros/ellipsoid_output.h"
 #include "sampled_data_observers/ros/estimate_outputs.h"
 #include "sampled_data_observers/ros/node_log.h"
 #include "sampled_data_observers/ros/shared_runtime.h"
@@ -68,6 +70,8 @@ class EstimatePublication {
   std::unique_ptr<MessagePool<StateEstimate>> messages_;
   ros::Publisher publisher_;
   std::unique_ptr<EstimateOutputs> outputs_;
+  /// Where there is a guaranteed bound.
+  std::optional<EllipsoidOutput> ellipsoid_;
   ros::Timer timer_;
   std::uint64_t ticks_ = 0;
   std::uint64_t ticks_per_second_ = 1;
