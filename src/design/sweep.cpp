@@ -8,6 +8,7 @@
 #include <set>
 
 #include "design/packing.h"
+#include "design/rank_tasks.h"
 #include "design/request_error.h"
 #include "design/synthesis.h"
 #include "design/workers.h"
@@ -20,15 +21,22 @@ struct Task {
   double T2 = 0.0;
 };
 
-std::vector<Task> tasks_of(const SweepRequest& request, const SweepOptions& options) {
+std::vector<Task> tasks_of(const SweepRequest& request) {
   std::vector<Task> tasks;
   for (const double T2 : request.T2) {
-    for (const DesignMethod* method : request.methods) {
-      if (options.is_done && options.is_done(method->name(), T2)) continue;
-      tasks.push_back({method, T2});
-    }
+    for (const DesignMethod* method : request.methods) tasks.push_back({method, T2});
   }
   return tasks;
+}
+
+/// The numbers of those that are not done.
+std::vector<std::size_t> remaining(const std::vector<Task>& tasks, const SweepOptions& options) {
+  std::vector<std::size_t> numbers;
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    const bool is_done = options.is_done && options.is_done(tasks[i].method->name(), tasks[i].T2);
+    if (!is_done) numbers.push_back(i);
+  }
+  return numbers;
 }
 
 CertificateSubject subject_at(const SweepRequest& request, double T2) {
@@ -220,16 +228,19 @@ void require_sense(const SweepRequest& request) {
 }
 
 std::size_t remaining_points(const SweepRequest& request, const SweepOptions& options) {
-  return tasks_of(request, options).size();
+  return remaining(tasks_of(request), options).size();
 }
 
 std::size_t run_sweep(const SweepRequest& request, const SweepOptions& options) {
   require_sense(request);
-  const std::vector<Task> tasks = tasks_of(request, options);
-  if (tasks.empty()) return 0;
+  const std::vector<Task> tasks = tasks_of(request);
+  const bool leads = options.ranks == nullptr || options.ranks->rank() == 0;
+  const std::vector<std::size_t> numbers =
+      leads ? remaining(tasks, options) : std::vector<std::size_t>();
+  const std::size_t points = leads ? numbers.size() : tasks.size();
   // Points side by side; where there are more processors, attempts within a point as well.
   SynthesisOptions within;
-  within.jobs = std::max(1U, options.jobs / static_cast<unsigned>(tasks.size()));
+  within.jobs = points == 0 ? 1U : std::max(1U, options.jobs / static_cast<unsigned>(points));
   within.time_limit = options.time_limit;
   WorkerOptions workers;
   workers.jobs = options.jobs;
@@ -243,8 +254,18 @@ std::size_t run_sweep(const SweepRequest& request, const SweepOptions& options) 
       ++lost;
     }
   };
-  run_in_workers(
-      tasks.size(), [&](std::size_t i) { return solve(tasks[i], request, within); }, workers);
+  const auto task = [&](std::size_t i) { return solve(tasks[i], request, within); };
+  std::size_t given = 0;
+  const NextTask next = [&] {
+    return given < numbers.size() ? std::optional(numbers[given++]) : std::nullopt;
+  };
+  if (options.ranks == nullptr) {
+    run_tasks(next, task, workers);
+  } else if (leads) {
+    lead_tasks(*options.ranks, options.request, next, task, workers);
+  } else {
+    follow_tasks(*options.ranks, options.request, task, workers);
+  }
   return lost;
 }
 

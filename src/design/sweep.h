@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "design/design_search.h"
+#include "ranks/ranks.h"
 
 namespace sampled_data_observers {
 
@@ -63,11 +64,16 @@ struct SweepOptions {
   std::function<void(const SweepPoint& point, const Design* design)> on_point;
   /// See WorkerOptions.
   std::function<bool()> is_cancelled;
+  /// Those that share the points, or null: rank 0 asks is_done and calls on_point for all.
+  Ranks* ranks = nullptr;
+  /// What is asked for, by which rank 0 knows that all others were asked for the same.
+  std::string request;
 };
 
-/// Finds the points of a request that are not done, `jobs` of them at a time.
+/// Finds the points of a request that are not done, `jobs` of them at a time on each rank.
 /// @return how many were lost because their process died
-/// @throws DesignError as require_sense(), Cancelled when told so
+/// @throws DesignError as require_sense(), Cancelled when told so; std::runtime_error where a rank
+/// was asked for something else
 std::size_t run_sweep(const SweepRequest& request, const SweepOptions& options);
 
 /// Number of points of a request that are not done.

@@ -35,23 +35,6 @@ std::string listed(const Eigen::MatrixXd& matrix) {
   return text;
 }
 
-/// The line that says what was asked for: in words, and a fingerprint of all that matters.
-std::string header_of(const SweepRequest& request, const std::string& plant_hash) {
-  std::ostringstream words;
-  words << to_string(request.objective) << " for T1 = " << shortest_decimal(request.subject.T1)
-        << " s, T2 = " << shortest_decimal(request.T2.front()) << " ... "
-        << shortest_decimal(request.T2.back()) << " s (" << request.T2.size() << " points), by";
-  for (const DesignMethod* method : request.methods) words << ' ' << method->name();
-  for (const auto& [name, value] : request.given) {
-    words << ", " << name << " = " << shortest_decimal(value);
-  }
-  std::string all = words.str() + plant_hash + listed(request.subject.plant.N) +
-                    listed(request.subject.plant.C_p);
-  for (const double T2 : request.T2) all += ' ' + shortest_decimal(T2);
-  const boost::uuids::name_generator_sha1 generator(boost::uuids::ns::url());
-  return "# " + to_string(generator(all)) + ": " + words.str() + ", plant " + plant_hash;
-}
-
 std::vector<std::string> parameters_of(const SweepRequest& request) {
   std::set<std::string> names;
   CertificateSubject subject = request.subject;
@@ -90,6 +73,22 @@ std::string text_of(const std::string& path) {
 
 }  // namespace
 
+std::string request_line(const SweepRequest& request, const std::string& plant_hash) {
+  std::ostringstream words;
+  words << to_string(request.objective) << " for T1 = " << shortest_decimal(request.subject.T1)
+        << " s, T2 = " << shortest_decimal(request.T2.front()) << " ... "
+        << shortest_decimal(request.T2.back()) << " s (" << request.T2.size() << " points), by";
+  for (const DesignMethod* method : request.methods) words << ' ' << method->name();
+  for (const auto& [name, value] : request.given) {
+    words << ", " << name << " = " << shortest_decimal(value);
+  }
+  std::string all = words.str() + plant_hash + listed(request.subject.plant.N) +
+                    listed(request.subject.plant.C_p);
+  for (const double T2 : request.T2) all += ' ' + shortest_decimal(T2);
+  const boost::uuids::name_generator_sha1 generator(boost::uuids::ns::url());
+  return "# " + to_string(generator(all)) + ": " + words.str() + ", plant " + plant_hash;
+}
+
 SweepFolder::SweepFolder(std::string path, const SweepRequest& request,
                          const std::string& plant_hash)
     : path_(std::move(path)), objective_(request.objective), parameters_(parameters_of(request)) {
@@ -101,7 +100,7 @@ SweepFolder::SweepFolder(std::string path, const SweepRequest& request,
   if (file_ < 0) throw OutputError(name, errno);
   try {
     if (!lock(file_)) throw SweepFolderError(path_ + ": another sweep is writing to this folder");
-    read_points(header_of(request, plant_hash));
+    read_points(request_line(request, plant_hash));
   } catch (...) {
     ::close(file_);
     throw;

@@ -15,6 +15,9 @@ class SweepFolderError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The line that says what was asked for: in words, and a fingerprint of all that matters.
+std::string request_line(const SweepRequest& request, const std::string& plant_hash);
+
 /// Where a sweep keeps its results, so that it can go on after an interruption:
 ///   points.csv   each finished point, as it came; its first line says what was asked for
 ///   curve.csv    the curves (see best_curves()), in the same order whatever came first

@@ -24,9 +24,6 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kNoWorker = static_cast<std::size_t>(-1);
 
-/// How long a wait may take that can be cancelled [s].
-constexpr double kPatience = 0.2;
-
 /// What precedes a result in the pipe.
 struct Header {
   std::uint64_t size = 0;
@@ -166,38 +163,39 @@ class IgnoredBrokenPipes {
 
 class Pool {
  public:
-  Pool(std::size_t count, const std::function<std::string(std::size_t)>& task,
+  Pool(const NextTask& next, const std::function<std::string(std::size_t)>& task,
        const WorkerOptions& options)
-      : task_(task), options_(options), outcomes_(count) {}
+      : next_(next), task_(task), options_(options) {}
 
-  std::vector<WorkerOutcome> run() {
+  void run() {
     const IgnoredBrokenPipes ignored;
-    const std::size_t jobs = std::min<std::size_t>(std::max(1U, options_.jobs), outcomes_.size());
-    workers_.resize(jobs);
-    for (auto& worker : workers_) give_next(worker);
-    while (done_ < outcomes_.size()) {
+    while (workers_.size() < std::max(1U, options_.jobs) && has_next_) {
+      give_next(workers_.emplace_back());
+    }
+    while (std::any_of(workers_.begin(), workers_.end(), [](const auto& one) { return !!one; })) {
       if (options_.is_cancelled && options_.is_cancelled()) throw Cancelled();
       wait();
     }
-    return std::move(outcomes_);
   }
 
  private:
   void give_next(std::unique_ptr<Worker>& worker) {
-    if (next_ == outcomes_.size()) {
+    const std::optional<std::size_t> task = has_next_ ? next_() : std::nullopt;
+    if (!task) {
+      has_next_ = false;
       worker.reset();
       return;
     }
     if (!worker) worker = std::make_unique<Worker>(task_);
     // Where it died meanwhile, the end of its pipe tells.
-    worker->start(next_++);
+    worker->start(*task);
   }
 
   void wait() {
     std::vector<pollfd> waiting;
     std::vector<std::size_t> positions;
-    double remaining =
-        options_.is_cancelled ? std::min(kPatience, options_.time_limit) : options_.time_limit;
+    double remaining = options_.is_cancelled ? std::min(options_.patience, options_.time_limit)
+                                             : options_.time_limit;
     for (std::size_t i = 0; i < workers_.size(); ++i) {
       if (!workers_[i]) continue;
       waiting.push_back({workers_[i]->from(), POLLIN, 0});
@@ -213,40 +211,51 @@ class Pool {
         WorkerOutcome outcome;
         outcome.status = WorkerOutcome::Status::kTimedOut;
         outcome.seconds = worker->seconds();
-        take(worker, std::move(outcome));
+        take(worker, outcome);
       } else if (waiting[k].revents != 0) {
         take(worker, worker->finish());
       }
     }
   }
 
-  void take(std::unique_ptr<Worker>& worker, WorkerOutcome outcome) {
+  void take(std::unique_ptr<Worker>& worker, const WorkerOutcome& outcome) {
     const std::size_t task = worker->task();
     const bool ended = outcome.status == WorkerOutcome::Status::kTimedOut ||
                        outcome.status == WorkerOutcome::Status::kCrashed;
     if (ended) worker.reset();
-    outcomes_[task] = std::move(outcome);
-    ++done_;
-    if (options_.on_outcome) options_.on_outcome(task, outcomes_[task]);
+    if (options_.on_outcome) options_.on_outcome(task, outcome);
     give_next(worker);
   }
 
+  const NextTask& next_;
   const std::function<std::string(std::size_t)>& task_;
   const WorkerOptions& options_;
-  std::vector<WorkerOutcome> outcomes_;
   std::vector<std::unique_ptr<Worker>> workers_;
-  std::size_t next_ = 0;
-  std::size_t done_ = 0;
+  bool has_next_ = true;
 };
 
 }  // namespace
 
 unsigned default_jobs() { return std::max(1U, std::thread::hardware_concurrency()); }
 
+void run_tasks(const NextTask& next, const std::function<std::string(std::size_t)>& task,
+               const WorkerOptions& options) {
+  Pool(next, task, options).run();
+}
+
 std::vector<WorkerOutcome> run_in_workers(std::size_t count,
                                           const std::function<std::string(std::size_t)>& task,
                                           const WorkerOptions& options) {
-  return Pool(count, task, options).run();
+  std::vector<WorkerOutcome> outcomes(count);
+  std::size_t given = 0;
+  const auto next = [&] { return given < count ? std::optional(given++) : std::nullopt; };
+  WorkerOptions collecting = options;
+  collecting.on_outcome = [&](std::size_t i, const WorkerOutcome& outcome) {
+    outcomes[i] = outcome;
+    if (options.on_outcome) options.on_outcome(i, outcome);
+  };
+  run_tasks(next, task, collecting);
+  return outcomes;
 }
 
 }  // namespace sampled_data_observers

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -23,9 +24,13 @@ struct WorkerOptions {
   double time_limit = 10.0;
   /// Called in the calling process after each task, with its number.
   std::function<void(std::size_t task, const WorkerOutcome& outcome)> on_outcome;
-  /// Asked several times a second; once it says yes, all workers are ended.
+  /// Asked at least as often as `patience` says [s]; once it says yes, all workers are ended.
   std::function<bool()> is_cancelled;
+  double patience = 0.2;
 };
+
+/// The number of the next task; nothing from when on there is none left.
+using NextTask = std::function<std::optional<std::size_t>()>;
 
 /// Tasks were given up because the caller said so.
 class Cancelled : public std::runtime_error {
@@ -45,5 +50,9 @@ unsigned default_jobs();
 std::vector<WorkerOutcome> run_in_workers(std::size_t count,
                                           const std::function<std::string(std::size_t)>& task,
                                           const WorkerOptions& options);
+
+/// The same for tasks that are known one by one; on_outcome tells what became of each.
+void run_tasks(const NextTask& next, const std::function<std::string(std::size_t)>& task,
+               const WorkerOptions& options);
 
 }  // namespace sampled_data_observers

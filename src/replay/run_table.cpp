@@ -31,7 +31,6 @@ std::optional<double> largest_share(const ReplaySummary& summary) {
   return share;
 }
 
-/// What is told of each run: errors where there is a truth, else the last estimate.
 std::vector<std::pair<std::string, std::optional<double>>> numbers_of(
     const ReplaySummary& summary) {
   std::vector<std::pair<std::string, std::optional<double>>> numbers = {
@@ -70,20 +69,20 @@ Spread spread_of(const Values& values) {
 /// The runs of one gain file.
 struct Group {
   std::string gains;
-  std::vector<const NamedRun*> runs;
+  std::vector<const RunRow*> runs;
   std::vector<Column> columns;
 };
 
 /// In the order of the runs. A run without any estimate has no last one.
-std::vector<Group> groups_of(const std::vector<NamedRun>& runs) {
+std::vector<Group> groups_of(const std::vector<RunRow>& runs) {
   std::vector<Group> groups;
-  for (const NamedRun& run : runs) {
+  for (const RunRow& run : runs) {
     if (groups.empty() || groups.back().gains != run.gains) groups.push_back({run.gains, {}, {}});
     groups.back().runs.push_back(&run);
   }
   for (Group& group : groups) {
     for (std::size_t i = 0; i < group.runs.size(); ++i) {
-      for (const auto& [name, value] : numbers_of(group.runs[i]->summary)) {
+      for (const auto& [name, value] : group.runs[i]->numbers) {
         const auto same = [&, &name = name](const Column& column) { return column.name == name; };
         auto column = std::find_if(group.columns.begin(), group.columns.end(), same);
         if (column == group.columns.end()) {
@@ -129,9 +128,9 @@ class Rows {
   std::vector<int> widths_;
 };
 
-std::string note_on(const ReplaySummary& summary) {
-  if (summary.is_guarantee_broken()) return "GUARANTEE BROKEN";
-  return summary.diverged.empty() ? "" : "DIVERGED";
+std::string note_on(const RunRow& run) {
+  if (run.is_guarantee_broken) return "GUARANTEE BROKEN";
+  return run.has_diverged ? "DIVERGED" : "";
 }
 
 void print_group(const Group& group, bool has_seeds, std::ostream& out) {
@@ -142,7 +141,7 @@ void print_group(const Group& group, bool has_seeds, std::ostream& out) {
     for (std::size_t c = 0; c < group.columns.size(); ++c) {
       rows.cell(c, in_short(group.columns[c].values[i]));
     }
-    rows.end(note_on(group.runs[i]->summary));
+    rows.end(note_on(*group.runs[i]));
   }
   if (!has_seeds) return;
   std::vector<Spread> spreads;
@@ -161,10 +160,71 @@ nlohmann::json json_number(const std::optional<double>& value) {
   return value ? nlohmann::json(*value) : nlohmann::json();
 }
 
+std::optional<double> number_of(const nlohmann::json& json) {
+  return json.is_null() ? std::nullopt : std::optional(json.get<double>());
+}
+
+/// As CBOR, which keeps all bits of a number.
+std::string packed(const std::vector<RunRow>& rows) {
+  nlohmann::json json = nlohmann::json::array();
+  for (const RunRow& row : rows) {
+    nlohmann::json numbers = nlohmann::json::array();
+    for (const auto& [name, value] : row.numbers) {
+      numbers.push_back(nlohmann::json::array({name, json_number(value)}));
+    }
+    json.push_back(
+        nlohmann::json::array({row.gains, row.seed, row.bag, row.bag_seconds, row.wall_seconds,
+                               numbers, row.is_guarantee_broken, row.has_diverged, row.summary}));
+  }
+  const std::vector<std::uint8_t> bytes = nlohmann::json::to_cbor(json);
+  return {bytes.begin(), bytes.end()};
+}
+
+std::vector<RunRow> unpacked(const std::string& bytes) {
+  std::vector<RunRow> rows;
+  for (const nlohmann::json& json : nlohmann::json::from_cbor(bytes)) {
+    RunRow& row = rows.emplace_back();
+    json.at(0).get_to(row.gains);
+    json.at(1).get_to(row.seed);
+    json.at(2).get_to(row.bag);
+    json.at(3).get_to(row.bag_seconds);
+    json.at(4).get_to(row.wall_seconds);
+    for (const nlohmann::json& number : json.at(5)) {
+      row.numbers.emplace_back(number.at(0).get<std::string>(), number_of(number.at(1)));
+    }
+    json.at(6).get_to(row.is_guarantee_broken);
+    json.at(7).get_to(row.has_diverged);
+    row.summary = json.at(8);
+  }
+  return rows;
+}
+
 }  // namespace
 
-void print_runs(const std::vector<NamedRun>& runs, bool has_seeds, std::ostream& out) {
-  const ReplaySummary& first = runs.front().summary;
+RunRow row_of(const std::string& gains, std::uint64_t seed, const ReplaySummary& summary) {
+  RunRow row;
+  row.gains = gains;
+  row.seed = seed;
+  row.bag = summary.bag;
+  row.bag_seconds = summary.bag_seconds;
+  row.wall_seconds = summary.wall_seconds;
+  row.numbers = numbers_of(summary);
+  row.is_guarantee_broken = summary.is_guarantee_broken();
+  row.has_diverged = !summary.diverged.empty();
+  row.summary = json_of(summary);
+  return row;
+}
+
+std::vector<RunRow> gathered_rows(Ranks& ranks, const std::vector<RunRow>& own) {
+  std::vector<RunRow> all;
+  for (const std::string& bytes : gathered(ranks, packed(own))) {
+    for (RunRow& row : unpacked(bytes)) all.push_back(std::move(row));
+  }
+  return all;
+}
+
+void print_runs(const std::vector<RunRow>& runs, bool has_seeds, std::ostream& out) {
+  const RunRow& first = runs.front();
   out << runs.size() << " runs on " << first.bag << " (" << in_short(first.bag_seconds)
       << " s of it in " << in_short(first.wall_seconds) << " s)\n";
   for (const Group& group : groups_of(runs)) {
@@ -173,10 +233,10 @@ void print_runs(const std::vector<NamedRun>& runs, bool has_seeds, std::ostream&
   }
 }
 
-void write_runs(const std::vector<NamedRun>& runs, bool has_seeds, const std::string& path) {
+void write_runs(const std::vector<RunRow>& runs, bool has_seeds, const std::string& path) {
   nlohmann::json json = {{"runs", nlohmann::json::array()}, {"gains", nlohmann::json::array()}};
-  for (const NamedRun& run : runs) {
-    nlohmann::json entry = json_of(run.summary);
+  for (const RunRow& run : runs) {
+    nlohmann::json entry = run.summary;
     if (!run.gains.empty()) entry["gains"] = run.gains;
     if (has_seeds) entry["seed"] = run.seed;
     json["runs"].push_back(std::move(entry));

@@ -9,7 +9,9 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "console/command_line.h"
@@ -20,6 +22,7 @@
 #include "console/usage_error.h"
 #include "files/output_file.h"
 #include "messages/plant_plugins.h"
+#include "ranks/ranks.h"
 #include "replay/plot.h"
 #include "replay/report/beside_run.h"
 #include "replay/report/report_data.h"
@@ -161,20 +164,23 @@ std::vector<Beside> configurations_beside(const Arguments& arguments) {
   return all;
 }
 
-/// The replay that was made, and those with the seeds that follow.
+/// With the seeds of this rank's share; the run with the first seed may have been made.
 std::vector<sdo::SeedRun> runs_of_seeds(const Arguments& arguments, sdo::ReplayOptions options,
-                                        const sdo::ObserverConfig& config,
-                                        const sdo::ReplaySummary& summary,
-                                        const sdo::RunRecord& record) {
-  const std::uint64_t count = arguments.seeds.value_or(1);
-  if (count < 2) return {};
+                                        const sdo::ObserverConfig& config, const sdo::Ranks* ranks,
+                                        const std::optional<sdo::SeedRun>& first = std::nullopt) {
   options.output.clear();
-  std::vector<sdo::SeedRun> runs = {sdo::seed_run(options.thinning->seed, summary, record)};
-  while (runs.size() < count) {
-    ++options.thinning->seed;
-    sdo::RunRecord other;
-    const sdo::ReplaySummary of_seed = sdo::replay(config, options, &other);
-    runs.push_back(sdo::seed_run(options.thinning->seed, of_seed, other));
+  const std::uint64_t first_seed = options.thinning->seed;
+  std::vector<sdo::SeedRun> runs;
+  const auto [begin, end] = sdo::share_of(ranks, *arguments.seeds);
+  for (std::size_t i = begin; i < end; ++i) {
+    if (i == 0 && first) {
+      runs.push_back(*first);
+      continue;
+    }
+    options.thinning->seed = first_seed + i;
+    sdo::RunRecord record;
+    const sdo::ReplaySummary summary = sdo::replay(config, options, &record);
+    runs.push_back(sdo::seed_run(options.thinning->seed, summary, record));
   }
   return runs;
 }
@@ -203,10 +209,10 @@ void print_warnings(const sdo::ObserverConfig& config) {
 }
 
 /// Several runs at once.
-int replay_runs(const Arguments& arguments, const sdo::ReplayOptions& options) {
+int replay_runs(const Arguments& arguments, const sdo::ReplayOptions& options, sdo::Ranks* ranks) {
   std::vector<std::string> gains = arguments.gains;
   if (gains.empty()) gains.emplace_back();
-  std::vector<sdo::NamedRun> runs;
+  std::vector<std::string> gains_of_case;
   std::vector<sdo::ReplayCase> cases;
   const std::uint64_t first = arguments.seed.value_or(0);
   for (const std::string& file : gains) {
@@ -214,33 +220,51 @@ int replay_runs(const Arguments& arguments, const sdo::ReplayOptions& options) {
         file.empty() ? arguments.config : sdo::with_gains(arguments.config, file);
     for (std::uint64_t seed = first; seed < first + arguments.seeds.value_or(1); ++seed) {
       cases.push_back({config, seed});
-      runs.push_back({file, seed, {}});
+      gains_of_case.push_back(file);
     }
   }
+  const auto [begin, end] = sdo::share_of(ranks, cases.size());
+  const std::vector<sdo::ReplayCase> own(cases.begin() + static_cast<std::ptrdiff_t>(begin),
+                                         cases.begin() + static_cast<std::ptrdiff_t>(end));
   std::set<std::vector<std::string>> warned;
   const auto load = [&](const std::vector<std::string>& files) {
     sdo::ObserverConfig config = sdo::read_observer_config(files, sdo::load_plant_plugin);
     if (warned.insert(files).second) print_warnings(config);
     return config;
   };
-  std::vector<sdo::ReplaySummary> summaries = sdo::replay_all(cases, options, load);
-  bool is_broken = false;
-  bool has_diverged = false;
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    runs[i].summary = std::move(summaries[i]);
-    is_broken = is_broken || runs[i].summary.is_guarantee_broken();
-    has_diverged = has_diverged || !runs[i].summary.diverged.empty();
+  std::vector<sdo::RunRow> rows;
+  if (!own.empty()) {
+    const std::vector<sdo::ReplaySummary> summaries = sdo::replay_all(own, options, load);
+    for (std::size_t i = begin; i < end; ++i) {
+      rows.push_back(sdo::row_of(gains_of_case[i], cases[i].seed, summaries[i - begin]));
+    }
+  }
+  if (ranks != nullptr) {
+    rows = sdo::gathered_rows(*ranks, rows);
+    ranks->finish();
+    if (ranks->rank() > 0) return 0;
   }
   const bool has_seeds = arguments.seeds.has_value();
-  sdo::print_runs(runs, has_seeds, std::cout);
-  if (!arguments.json.empty()) sdo::write_runs(runs, has_seeds, arguments.json);
-  if (is_broken) return kGuaranteeBroken;
-  return has_diverged ? kDiverged : 0;
+  sdo::print_runs(rows, has_seeds, std::cout);
+  if (!arguments.json.empty()) sdo::write_runs(rows, has_seeds, arguments.json);
+  const auto any = [&](bool sdo::RunRow::*fault) {
+    return std::any_of(rows.begin(), rows.end(),
+                       [&](const sdo::RunRow& row) { return row.*fault; });
+  };
+  if (any(&sdo::RunRow::is_guarantee_broken)) return kGuaranteeBroken;
+  return any(&sdo::RunRow::has_diverged) ? kDiverged : 0;
 }
 
-int replay(const Arguments& arguments) {
-  const sdo::ReplayOptions options = options_of(arguments);
-  if (arguments.has_runs()) return replay_runs(arguments, options);
+/// A report or tables of one run, with other seeds: on all ranks but the first.
+int replay_seeds(const Arguments& arguments, const sdo::ReplayOptions& options, sdo::Ranks& ranks) {
+  const sdo::ObserverConfig config =
+      sdo::read_observer_config(arguments.config, sdo::load_plant_plugin);
+  sdo::gathered_runs(ranks, runs_of_seeds(arguments, options, config, &ranks));
+  ranks.finish();
+  return 0;
+}
+
+int replay_one(const Arguments& arguments, const sdo::ReplayOptions& options, sdo::Ranks* ranks) {
   const sdo::ObserverConfig config =
       sdo::read_observer_config(arguments.config, sdo::load_plant_plugin);
   print_warnings(config);
@@ -253,8 +277,15 @@ int replay(const Arguments& arguments) {
   if (!arguments.plot.empty()) sdo::draw_plot(summary, arguments.plot);
   bool is_broken = summary.is_guarantee_broken();
   if (arguments.needs_record()) {
-    const std::vector<sdo::SeedRun> seeds =
-        runs_of_seeds(arguments, options, config, summary, record);
+    std::vector<sdo::SeedRun> seeds;
+    if (arguments.seeds.value_or(1) > 1) {
+      seeds = runs_of_seeds(arguments, options, config, ranks,
+                            sdo::seed_run(options.thinning->seed, summary, record));
+      if (ranks != nullptr) {
+        seeds = sdo::gathered_runs(*ranks, seeds);
+        ranks->finish();
+      }
+    }
     write_record(arguments, options, config, summary, record, beside, seeds);
     if (!seeds.empty()) std::cout << sdo::finding_over(seeds).text << "\n";
     is_broken = is_broken || std::any_of(seeds.begin(), seeds.end(), [](const sdo::SeedRun& run) {
@@ -263,6 +294,26 @@ int replay(const Arguments& arguments) {
   }
   if (is_broken) return kGuaranteeBroken;
   return summary.diverged.empty() ? 0 : kDiverged;
+}
+
+int replay(const Arguments& arguments) {
+  const sdo::ReplayOptions options = options_of(arguments);
+  sdo::Ranks* const ranks = sdo::command_ranks();
+  if (ranks != nullptr && !arguments.has_runs() && arguments.seeds.value_or(1) < 2) {
+    throw std::runtime_error("mpirun is for --seeds and --gains, whose runs it splits");
+  }
+  int status = 0;
+  const auto work = [&] {
+    if (arguments.has_runs()) {
+      status = replay_runs(arguments, options, ranks);
+    } else if (ranks != nullptr && ranks->rank() > 0) {
+      status = replay_seeds(arguments, options, *ranks);
+    } else {
+      status = replay_one(arguments, options, ranks);
+    }
+  };
+  sdo::name_rank_in_faults(ranks, work);
+  return status;
 }
 
 void declare(Arguments& arguments, sdo::CommandLine& tool) {

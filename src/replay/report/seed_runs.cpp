@@ -13,6 +13,34 @@ nlohmann::json json_of(const std::optional<double>& value) {
   return value ? nlohmann::json(*value) : nlohmann::json();
 }
 
+std::optional<double> number_of(const nlohmann::json& json) {
+  return json.is_null() ? std::nullopt : std::optional(json.get<double>());
+}
+
+/// As CBOR, which keeps all bits of a number.
+std::string packed(const std::vector<SeedRun>& runs) {
+  nlohmann::json json = nlohmann::json::array();
+  for (const SeedRun& run : runs) {
+    json.push_back(nlohmann::json::array({run.seed, run.stamps, run.norms, json_of(run.rmse),
+                                          json_of(run.largest), json_of(run.bound_share),
+                                          run.is_guarantee_broken}));
+  }
+  const std::vector<std::uint8_t> bytes = nlohmann::json::to_cbor(json);
+  return {bytes.begin(), bytes.end()};
+}
+
+SeedRun unpacked(const nlohmann::json& json) {
+  SeedRun run;
+  json.at(0).get_to(run.seed);
+  json.at(1).get_to(run.stamps);
+  json.at(2).get_to(run.norms);
+  run.rmse = number_of(json.at(3));
+  run.largest = number_of(json.at(4));
+  run.bound_share = number_of(json.at(5));
+  json.at(6).get_to(run.is_guarantee_broken);
+  return run;
+}
+
 /// Of an odd number the middle one, of an even one the lower of both.
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
@@ -43,6 +71,16 @@ SeedRun seed_run(std::uint64_t seed, const ReplaySummary& summary, const RunReco
   }
   run.is_guarantee_broken = summary.is_guarantee_broken();
   return run;
+}
+
+std::vector<SeedRun> gathered_runs(Ranks& ranks, const std::vector<SeedRun>& own) {
+  std::vector<SeedRun> all;
+  for (const std::string& bytes : gathered(ranks, packed(own))) {
+    for (const nlohmann::json& run : nlohmann::json::from_cbor(bytes)) {
+      all.push_back(unpacked(run));
+    }
+  }
+  return all;
 }
 
 SeedBand seed_band(const std::vector<SeedRun>& runs) {

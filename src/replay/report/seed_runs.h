@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "ranks/ranks.h"
 #include "replay/report/packed_array.h"
 #include "replay/report/report_verdict.h"
 #include "replay/report/run_record.h"
@@ -25,6 +26,9 @@ struct SeedRun {
 };
 
 SeedRun seed_run(std::uint64_t seed, const ReplaySummary& summary, const RunRecord& record);
+
+/// On rank 0 the runs of all ranks, in their order, elsewhere none.
+std::vector<SeedRun> gathered_runs(Ranks& ranks, const std::vector<SeedRun>& own);
 
 /// The least, the median and the largest norm of the errors over all seeds.
 struct SeedBand {

@@ -5,44 +5,31 @@
 #include <cmath>
 #include <csignal>
 #include <cstdio>
-#include <map>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "config/design_config.h"
-#include "console/json_text.h"
 #include "console/option_checks.h"
 #include "console/output_checks.h"
-#include "console/plot_program.h"
 #include "console/progress_bar.h"
-#include "design/paragraphs.h"
 #include "design/sweep_folder.h"
 #include "design/workers.h"
 #include "files/csv.h"
 #include "messages/plant_plugins.h"
+#include "ranks/ranks.h"
 #include "tools/design/claims.h"
 #include "tools/design/commands.h"
-#include "tools/design/design_page.h"
 #include "tools/design/gain_files.h"
+#include "tools/design/sweep_results.h"
 
 namespace sampled_data_observers {
 namespace {
 
 /// Where the plant file has one time between samples only, T2 begins at this part of it.
 constexpr double kShortest = 0.1;
-/// From this ratio of values on, they are drawn on a logarithmic axis.
-constexpr double kLogarithmicFrom = 8.0;
-
-/// Formats of the curves.
-constexpr std::array<const char*, 2> kPictures = {"png", "svg"};
-
-/// Of the page, in the folder.
-constexpr char kPage[] = "/report.html";
 
 struct SweepArguments {
   std::vector<std::string> files;
@@ -53,7 +40,7 @@ struct SweepArguments {
   std::optional<double> T1;                 // [s]
   std::size_t points = 20;
   std::vector<std::string> assignments;
-  unsigned jobs = default_jobs();
+  std::optional<unsigned> jobs;
   double time_limit = 20.0;
 };
 
@@ -121,134 +108,13 @@ SweepRequest request_of(const SweepArguments& arguments, const DesignConfig& con
   return request;
 }
 
-/// Points that have a design, which another one with a longer T2 beats.
-nlohmann::json candidates_beside(const std::vector<CurvePoint>& curves,
-                                 const std::vector<SweepPoint>& points, const std::string& method) {
-  nlohmann::json x = nlohmann::json::array();
-  nlohmann::json y = nlohmann::json::array();
-  for (const CurvePoint& curve : curves) {
-    if (curve.method != method || curve.design.T2 == curve.T2) continue;
-    for (const SweepPoint& point : points) {
-      if (point.method != method || point.T2 != curve.T2 || !point.value) continue;
-      x.push_back(point.T2);
-      y.push_back(*point.value);
-    }
-  }
-  return {{"x", x}, {"y", y}};
-}
-
-nlohmann::json chart_of(const SweepRequest& request, const std::vector<CurvePoint>& curves,
-                        const std::vector<SweepPoint>& points, const SweepArguments& arguments) {
-  nlohmann::json json;
-  json["title"] = arguments.files.front();
-  for (const auto& [name, value] : request.given) {
-    json["title"] =
-        json["title"].get<std::string>() + ", " + name + " = " + shortest_decimal(value);
-  }
-  json["x_label"] = "$T_2$, longest time between samples [s]";
-  json["y_label"] = drawn_quantity(*request.methods.front(), request.subject, request.objective);
-  json["curves"] = nlohmann::json::array();
-  double least = std::numeric_limits<double>::infinity();
-  double largest = 0.0;
-  for (const DesignMethod* method : request.methods) {
-    nlohmann::json x = nlohmann::json::array();
-    nlohmann::json y = nlohmann::json::array();
-    nlohmann::json crosses = nlohmann::json::array();
-    for (const CurvePoint& point : curves) {
-      if (point.method != method->name()) continue;
-      if (point.design.value) {
-        x.push_back(point.T2);
-        y.push_back(*point.design.value);
-        least = std::min(least, *point.design.value);
-        largest = std::max(largest, *point.design.value);
-      } else {
-        crosses.push_back(point.T2);
-      }
-    }
-    json["curves"].push_back({{"label", method->name()},
-                              {"x", x},
-                              {"y", y},
-                              {"crosses", crosses},
-                              {"candidates", candidates_beside(curves, points, method->name())}});
-  }
-  json["logarithmic"] = largest > kLogarithmicFrom * least;
-  return json;
-}
-
-/// Every point, with what it was made with or why there is no design.
-PageTable candidates_of(const std::vector<SweepPoint>& points) {
-  PageTable table;
-  table.title = "Candidates";
-  table.note = "The best design of each method for each longest time between samples.";
-  table.heads = {"method", "T2 [s]",   "value",
-                 "with",   "took [s]", "gain file, or why there is none"};
-  table.texts = {0, 3, 5};
-  for (const SweepPoint& point : points) {
-    std::string parameters;
-    for (const auto& [name, value] : point.parameters) {
-      parameters += (parameters.empty() ? "" : ", ") + name + " = " + brief(value);
-    }
-    table.rows.push_back({point.method, shortest_decimal(point.T2),
-                          point.value ? brief(*point.value) : "", parameters, brief(point.seconds),
-                          point.value ? SweepFolder::gain_file(point) : point.message});
-  }
-  std::sort(table.rows.begin(), table.rows.end(), [](const auto& first, const auto& second) {
-    return std::make_pair(first[0], std::stod(first[1])) <
-           std::make_pair(second[0], std::stod(second[1]));
-  });
-  return table;
-}
-
-void draw(const SweepRequest& request, const std::vector<CurvePoint>& curves,
-          const std::vector<SweepPoint>& points, const SweepArguments& arguments) {
-  nlohmann::json json = chart_of(request, curves, points, arguments);
-  for (const char* ending : kPictures) {
-    run_plot_program("plot_curves", json_text(json), arguments.output + "/curve." + ending);
-  }
-  DesignPage page;
-  page.title = "Sweep of " + json["title"].get<std::string>();
-  page.subtitle = std::string("Objective ") + to_string(request.objective) +
-                  ", T1 = " + shortest_decimal(request.subject.T1) + " s.";
-  json["marks"] = true;
-  json["heading"] = "Frontier";
-  json["note"] =
-      "The best design of each method for each longest time between samples. A design for a longer "
-      "one serves for a shorter one, too.";
-  page.charts.push_back(std::move(json));
-  page.tables.push_back(candidates_of(points));
-  write_page(page, arguments.output + kPage);
-}
-
-void print_summary(const SweepRequest& request, const std::vector<CurvePoint>& curves) {
-  std::printf("%-34s %8s  %12s  %s\n", "method", "designs", "largest T2",
-              request.objective == Objective::kMinGamma ? "gain at least and largest T2"
-                                                        : "rate at least and largest T2");
-  for (const DesignMethod* method : request.methods) {
-    std::vector<const CurvePoint*> designs;
-    std::size_t points = 0;
-    for (const CurvePoint& point : curves) {
-      if (point.method != method->name()) continue;
-      ++points;
-      if (point.design.value) designs.push_back(&point);
-    }
-    const std::string count = std::to_string(designs.size()) + "/" + std::to_string(points);
-    if (designs.empty()) {
-      std::printf("%-34s %8s\n", method->name().c_str(), count.c_str());
-      continue;
-    }
-    std::printf("%-34s %8s  %10.6g s  %.4g ... %.4g\n", method->name().c_str(), count.c_str(),
-                designs.back()->T2, *designs.front()->design.value, *designs.back()->design.value);
-  }
-}
-
 void refuse_overwriting(const SweepArguments& arguments, const SweepRequest& request) {
   std::vector<GivenFile> outputs;
   const auto add = [&](const std::string& name) {
     outputs.push_back({"--output", arguments.output + "/" + name});
   };
   for (const std::string& name : SweepFolder::tables()) add(name);
-  for (const char* ending : kPictures) add(std::string("curve.") + ending);
-  outputs.push_back({"--output", arguments.output + kPage});
+  for (const std::string& name : names_of_pictures()) add(name);
   for (const DesignMethod* method : request.methods) {
     SweepPoint point;
     point.method = method->name();
@@ -288,7 +154,37 @@ void forget_lost_designs(const SweepArguments& arguments, SweepFolder& folder) {
   }
 }
 
+SweepOptions options_of(const SweepArguments& arguments, Ranks* ranks) {
+  SweepOptions options;
+  // mpirun starts as many ranks as there are processors.
+  options.jobs = arguments.jobs.value_or(ranks == nullptr ? default_jobs() : 1);
+  options.time_limit = arguments.time_limit;
+  options.is_cancelled = [] { return interrupted != 0; };
+  options.ranks = ranks;
+  return options;
+}
+
+/// On all ranks but the first, which keeps and shows the results.
+void take_part_in_sweep(const SweepArguments& arguments, Ranks& ranks) {
+  const DesignConfig config = read_design_config(arguments.files, load_plant_plugin);
+  const SweepRequest request = request_of(arguments, config);
+  note_interruptions();
+  SweepOptions options = options_of(arguments, &ranks);
+  options.request = request_line(request, config.plant_hash);
+  try {
+    run_sweep(request, options);
+  } catch (const Cancelled&) {
+    throw ExitStatus{kInterrupted};
+  }
+  ranks.finish();
+}
+
 void sweep_command(const SweepArguments& arguments, const std::string& command_line) {
+  Ranks* const ranks = command_ranks();
+  if (ranks != nullptr && ranks->rank() > 0) {
+    name_rank_in_faults(ranks, [&] { take_part_in_sweep(arguments, *ranks); });
+    return;
+  }
   const DesignConfig config = read_design_config(arguments.files, load_plant_plugin);
   const SweepRequest request = request_of(arguments, config);
   refuse_overwriting(arguments, request);
@@ -297,11 +193,9 @@ void sweep_command(const SweepArguments& arguments, const std::string& command_l
   const GainFileOrigin origin = origin_of(arguments.output + "/gains/design.yaml",
                                           arguments.files.front(), config.plant_hash, command_line);
   note_interruptions();
-  SweepOptions options;
-  options.jobs = arguments.jobs;
-  options.time_limit = arguments.time_limit;
+  SweepOptions options = options_of(arguments, ranks);
+  options.request = request_line(request, config.plant_hash);
   options.is_done = [&](const std::string& method, double T2) { return folder.has(method, T2); };
-  options.is_cancelled = [] { return interrupted != 0; };
   std::size_t lost = 0;
   try {
     ProgressBar progress("sweep", remaining_points(request, options));
@@ -318,9 +212,10 @@ void sweep_command(const SweepArguments& arguments, const std::string& command_l
                  arguments.output.c_str());
     throw ExitStatus{kInterrupted};
   }
+  if (ranks != nullptr) ranks->finish();
   folder.write_curve();
   const std::vector<CurvePoint> curves = best_curves(folder.points(), request.objective);
-  draw(request, curves, folder.points(), arguments);
+  draw_sweep(request, curves, folder.points(), arguments.files.front(), arguments.output);
   print_summary(request, curves);
   std::printf("written to %s: curve.csv, curve.png, curve.svg, report.html, points.csv, gains/\n",
               arguments.output.c_str());
@@ -369,7 +264,9 @@ void add_sweep(CommandLine& tool, const std::string& command_line) {
       .check(whole_number_between(1, 100000));
   command.option("--set NAME=NUMBER...", arguments->assignments,
                  "Fix a parameter of the methods; may be given several times");
-  command.option("--jobs NUMBER", arguments->jobs, "Points at a time, as many as processors")
+  command
+      .option("--jobs NUMBER", arguments->jobs,
+              "Points at a time (default: as many as processors, by mpirun one on each rank)")
       .check(whole_number_at_least(1));
   command.option("--time-limit SECONDS", arguments->time_limit, "For one attempt [s]")
       .check(number_at_least(0));
