@@ -82,6 +82,17 @@ class DesignTool : public testing::Test {
     return text;
   }
 
+  /// A plant and its gains, of which many tests ask something: designed once.
+  void write_designed_oscillator() const {
+    write("plant.yaml", oscillator());
+    static const std::string kGains = [this] {
+      const ToolRun made = synthesize(path("plant.yaml"));
+      EXPECT_EQ(made.status, 0) << made.output;
+      return read("gains.yaml");
+    }();
+    write("gains.yaml", kGains);
+  }
+
   /// A gain file for x' = −x/8 and y = x, of which M(0) is singular where δ = 2.25.
   std::string write_scalar_claim(const std::string& delta) const {
     const std::string plant = write("scalar.yaml",
@@ -155,8 +166,7 @@ TEST_F(DesignTool, TakesTheMethodThatServesTheObjectiveBest) {
 }
 
 TEST_F(DesignTool, MakesAGainFileThatVerifiesAndProves) {
-  const ToolRun made = synthesize(write("plant.yaml", oscillator()));
-  ASSERT_EQ(made.status, 0) << made.output;
+  write_designed_oscillator();
   const ToolRun verified = run("verify " + path("gains.yaml"));
   EXPECT_EQ(verified.status, 0) << verified.output;
   EXPECT_TRUE(verified.says("holds"));
@@ -176,7 +186,7 @@ TEST_F(DesignTool, TellsOfManyConditionsOfAKindByOne) {
 }
 
 TEST_F(DesignTool, RecordsAProofInTheGainFile) {
-  ASSERT_EQ(synthesize(write("plant.yaml", oscillator())).status, 0);
+  write_designed_oscillator();
   const std::string made = read("gains.yaml");
   const std::string key = "proof_hash: ";
   const auto hash = [&](const std::string& text) {
@@ -228,7 +238,7 @@ TEST_F(DesignTool, WritesAProofOfItsOwnForTheBoundAtRunTime) {
 }
 
 TEST_F(DesignTool, DisprovesAGainFileWithAnotherGain) {
-  ASSERT_EQ(synthesize(write("plant.yaml", oscillator())).status, 0);
+  write_designed_oscillator();
   std::string gains = read("gains.yaml");
   const std::size_t at = gains.find("L: [[") + 5;
   gains.replace(at, gains.find(']', at) - at, "-100");

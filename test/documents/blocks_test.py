@@ -34,6 +34,7 @@ class Blocks(unittest.TestCase):
         self.assertFalse(agree('  v    0.0684   -', 'w  0.0684 -'))
         self.assertTrue(agree('in … s, 3 times', 'in 0.0031 s, 3 times'))
         self.assertFalse(agree('in … s, 3 times', 'in 0.0031 s, 4 times'))
+        self.assertFalse(agree('655 used', '656 used'))
 
 
 if __name__ == '__main__':

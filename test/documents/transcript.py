@@ -1,16 +1,18 @@
 """Runs a page as a reader would: writes the files that it shows, runs its commands, and compares what they print."""
+import http.client
 import os
 import re
 import signal
 import subprocess
+import threading
 import time
+import xmlrpc.client
 
+from courses import EXIT_STATUS, is_left_out
 from pages import ROOT
 
 LIVE = re.compile(r'\b(roslaunch|rostopic|rosservice)\b')
-NOT_FOLLOWED = re.compile(r'\b(scripts/demo|scripts/test)\b')  # the gate itself
-ASK_FOR = 12  # s, until a topic or a service must have answered
-KEEP_UP = 8  # s that a launch must last, or end by itself without a fault
+PATIENCE = 240  # s, until an observer must publish, and a topic or a service must have answered, however busy the machine is
 NUMBER = re.compile(r'-?\d+(?:\.\d+)?(?:e[+-]?\d+)?')
 TOLERANCE = 0.03  # relative: solvers and compilers differ in last digits, and so do designs
 
@@ -28,6 +30,17 @@ def steps_of(page):
     return steps
 
 
+def parts_of(block):
+    """Pairs (whether it takes a ROS master, commands): such commands one by one, the others together."""
+    parts = []
+    for command in block.replace('\\\n', ' ').split('\n'):
+        is_live = bool(LIVE.search(command))
+        if is_live or not parts or parts[-1][0]:
+            parts.append((is_live, ''))
+        parts[-1] = is_live, parts[-1][1] + command + '\n'
+    return [part for part in parts if part[1].strip()]
+
+
 def file_before(page, number):
     """The file that a block shows: the last name in the paragraph before it, where that ends with a colon."""
     paragraph = []
@@ -41,7 +54,7 @@ def file_before(page, number):
 
 
 def missing_lines(expected, output):
-    """Lines of an expected text that are not in an output: `…` stands for anything, numbers may differ a little."""
+    """Lines of an expected text that are not in an output: `…` stands for anything, numbers that are not whole may differ a little."""
     found = output.split('\n')
     return [line for line in expected.strip('\n').split('\n') if line.strip() and not any(agree(line, other) for other in found)]
 
@@ -53,83 +66,133 @@ def agree(expected, line):
     match = re.fullmatch(pattern.replace(r'\ ', r'\s+'), line.strip())
     if not match:
         return False
-    numbers = [float(number) for number in NUMBER.findall(expected)]
-    return all(abs(float(actual) - number) <= TOLERANCE * abs(number) for actual, number in zip(match.groups(), numbers))
+    return all(actual == number or not number.isdigit() and abs(float(actual) - float(number)) <= TOLERANCE * abs(float(number))
+               for actual, number in zip(match.groups(), NUMBER.findall(expected)))
 
 
 class Reader:
-    """Follows pages in a scratch folder that looks like the clone."""
+    """Follows pages in a scratch folder that looks like the clone, in the environment of the installed package."""
 
     def __init__(self, folder, port):
         self.folder = folder
-        self.environment = dict(os.environ, ROS_MASTER_URI=f'http://localhost:{port}', ROS_HOSTNAME='localhost',
+        self.master = f'http://localhost:{port}'
+        self.environment = dict(os.environ, ROS_MASTER_URI=self.master, ROS_HOSTNAME='localhost', BROWSER='true',
                                 ROS_HOME=os.path.join(folder, 'ros'))
         self.launched = None
         self.seconds = {}
         for name in ('scripts', 'config', 'doc', 'bench', 'test'):
             os.symlink(os.path.join(ROOT, name), os.path.join(folder, name))
 
+    def write_files(self, page):
+        """Writes the files that a page shows, without following it."""
+        for _, kind, text in steps_of(page):
+            if kind not in ('bash', 'text'):
+                self.write(kind, text)
+
+    def write(self, name, text):
+        """Writes a file into the scratch folder."""
+        path = os.path.join(self.folder, name)
+        os.makedirs(os.path.dirname(path), exist_ok=True)
+        with open(path, 'w', encoding='utf-8') as file:
+            file.write(text)
+
     def follow(self, page):
         """The faults of a page."""
         faults, output, setup = [], '', ''
         for number, kind, text in steps_of(page):
             where = f'{page.path}:{number}'
+            began = time.monotonic()
             if kind == 'text':
                 faults += [f'{where}: not printed: {line}' for line in missing_lines(text, output)]
             elif kind != 'bash':
-                path = os.path.join(self.folder, kind)
-                os.makedirs(os.path.dirname(path), exist_ok=True)
-                with open(path, 'w', encoding='utf-8') as file:
-                    file.write(text)
-            elif LIVE.search(text):
-                faults += [f'{where}: {fault}' for fault in self.follow_live(text)]
-            elif not NOT_FOLLOWED.search(text):
-                began = time.monotonic()
-                status, output = self.run(setup + text)
-                self.seconds[where] = time.monotonic() - began
-                setup += ''.join(line + '\n' for line in text.split('\n') if re.match(r'source |\w+=', line))
-                if status:
-                    faults.append(f'{where}: ended with status {status}:\n{text}{output[-2000:]}')
-        self.end_launch()
+                self.write(kind, text)
+            elif not is_left_out(text):
+                for is_live, commands in parts_of(text):
+                    if is_live:
+                        found = self.follow_live(commands, setup)
+                    else:
+                        output, found = self.run(setup + commands)
+                        setup += ''.join(line + '\n' for line in commands.split('\n') if re.match(r'source |\w+=', line))
+                    faults += [f'{where}: {fault}' for fault in found]
+            self.seconds[where] = time.monotonic() - began
+        return faults + [f'{page.path}: {fault}' for fault in self.end_launch()]
+
+    def follow_live(self, command, setup):
+        """The faults of a command that takes a ROS master: a launch goes on beside what follows, until the next one."""
+        if 'roslaunch' not in command:
+            return self.ask(command)
+        faults = self.end_launch()
+        with open(os.path.join(self.folder, 'launched'), 'w', encoding='utf-8') as log:
+            self.launched = self.start(setup + command, stdout=log, stderr=subprocess.STDOUT)
+        is_beside_robot = re.search(r'observer\.launch|robot\.launch(?!.*simulated:=true)', command)
+        wanted = {'estimate'} if is_beside_robot else {'estimate', 'truth'}
+        deadline = time.monotonic() + PATIENCE
+        while self.launched.poll() is None and wanted - self.published():
+            if time.monotonic() > deadline:
+                return faults + [f'nobody publishes {" and ".join(sorted(wanted - self.published()))} after {command}\n{self.printed()}']
+            time.sleep(0.2)
         return faults
 
-    def follow_live(self, text):
-        """The faults of a block of commands that take a ROS master: a launch goes on beside what follows, until the next one."""
-        for command in text.replace('\\\n', ' ').split('\n'):
-            if 'roslaunch' in command:
-                self.end_launch()
-                self.launched = subprocess.Popen(['bash', '-c', command], cwd=self.folder, env=self.environment, text=True,
-                                                 stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
-                                                 start_new_session=True)
-                try:
-                    if self.launched.wait(KEEP_UP):
-                        yield f'ended with status {self.launched.returncode}: {command}\n{self.launched.stdout.read()[-2000:]}'
-                except subprocess.TimeoutExpired:
-                    pass
-            elif command.strip():
-                _, output = self.run(f'timeout {ASK_FOR} {command.split("  #")[0]} | head -n 5')
-                if 'ERROR' in output or not output.strip():
-                    yield f'no answer to {command}\n{output}'
+    def ask(self, command):
+        """No fault, as soon as a topic or a service has answered."""
+        deadline = time.monotonic() + PATIENCE
+        while time.monotonic() < deadline:
+            process = self.start(command.split('  #')[0], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
+            given_up = threading.Timer(deadline - time.monotonic(), lambda: end(process, signal.SIGKILL))
+            given_up.start()
+            answer = process.stdout.readline()
+            given_up.cancel()
+            end(process, signal.SIGKILL)
+            if answer.strip():
+                return []
+            time.sleep(0.5)
+        return [f'no answer to {command}']
+
+    def published(self):
+        """The last parts of the names of topics that the launch publishes."""
+        try:
+            _, _, (published, _, _) = xmlrpc.client.ServerProxy(self.master).getSystemState('/reader')
+        except (OSError, http.client.HTTPException, xmlrpc.client.Error):
+            return set()
+        return {topic.split('/')[-1] for topic, _ in published}
+
+    def printed(self):
+        """The end of what a launch printed."""
+        with open(os.path.join(self.folder, 'launched'), encoding='utf-8') as log:
+            return log.read()[-2000:]
 
     def end_launch(self):
-        """Ends what the last launch started."""
-        if self.launched and self.launched.poll() is None:
-            os.killpg(self.launched.pid, signal.SIGINT)
-            try:
-                self.launched.communicate(timeout=30)
-            except subprocess.TimeoutExpired:
-                os.killpg(self.launched.pid, signal.SIGKILL)
-        self.launched = None
+        """Ends what the last launch started; faults, where it ended with one before."""
+        launched, self.launched = self.launched, None
+        if launched is None:
+            return []
+        if launched.poll() is not None:
+            return [f'a launch ended with status {launched.returncode}:\n{self.printed()}'] if launched.returncode else []
+        os.killpg(launched.pid, signal.SIGINT)
+        try:
+            launched.wait(PATIENCE)
+        except subprocess.TimeoutExpired:
+            end(launched, signal.SIGKILL)
+        return []
 
     def run(self, script):
-        """Exit status and output of a block of commands; any that fails ends it."""
-        script = f'set -eo pipefail\nset +u\n{script}'
-        process = subprocess.Popen(['bash', '-c', script], cwd=self.folder, env=self.environment, text=True,
-                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
-                                   start_new_session=True)
-        try:
-            output, _ = process.communicate(timeout=300)
-        except subprocess.TimeoutExpired:
-            os.killpg(process.pid, signal.SIGKILL)
-            output, _ = process.communicate()
-        return process.returncode, output
+        """Output and faults of a block of commands; any that fails ends it."""
+        process = self.start(script, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        output, _ = process.communicate()
+        expected = next((status for pattern, status in EXIT_STATUS.items() if re.search(pattern, script)), 0)
+        return output, [] if process.returncode == expected else [
+            f'ended with status {process.returncode}:\n{script}{output[-2000:]}']
+
+    def start(self, script, **streams):
+        """A process of a shell in the environment of the installed package, with a group of its own."""
+        return subprocess.Popen([os.path.join(ROOT, 'scripts', 'run'), 'bash', '-c', f'set -eo pipefail\n{script}'], cwd=self.folder,
+                                env=self.environment, text=True, stdin=subprocess.DEVNULL, start_new_session=True, **streams)
+
+
+def end(process, by):
+    """Ends a process and what it started, by a signal."""
+    try:
+        os.killpg(process.pid, by)
+    except ProcessLookupError:
+        pass
+    process.wait()

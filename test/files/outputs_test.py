@@ -63,7 +63,8 @@ class OutputsTest(FolderTest):
                 *options]
 
     def synthesize(self, *options):
-        return ["design", "synthesize", self.plant, "--method", "ferrante2019_proposition2",
+        """A method of which the proof is the one for the run time, too: no second one has to be found."""
+        return ["design", "synthesize", self.plant, "--method", "timer_dependent_constant_gain",
                 "--objective", "feasible", *options]
 
     def read(self, name):
