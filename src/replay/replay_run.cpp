@@ -39,13 +39,7 @@ ReplayRun::ReplayRun(const ObserverConfig& config, const ReplayOptions& options,
   comparison_.emplace(truth_.quantities, config.plant);
   tell_jumps_apart();
   choose_samples(stamps);
-  std::vector<Quantity> plotted = truth_.quantities;
-  if (plotted.empty()) {
-    for (const std::string& state : config.law->estimate_names()) {
-      plotted.push_back(*state_quantity(*config.plant, state));
-    }
-  }
-  recorder_.emplace(config, std::move(plotted));
+  recorder_.emplace(config);
   if (record != nullptr) run_.emplace(config, truth_.quantities, *record);
   for (const BagChannel& bound : channels_) {
     if (!bound.is_recorded) recorder_->add_missing_topic(bound.channel.name, bound.topic);
@@ -193,8 +187,7 @@ void ReplayRun::publish_due_at(Stamp now) {
   while (const Estimate* estimate = runtime_.next_due(now)) {
     write(runtime_, *estimate, estimate_message_);
     final_is_held_ = estimate->held;
-    recorder_->add_estimate(*estimate, runtime_.bound(*estimate).loss,
-                            estimate_message_.error_bounds);
+    recorder_->add_estimate(*estimate, runtime_.bound(*estimate).loss);
     if (run_) run_->add_estimate(*estimate, estimate_message_);
     if (output_) {
       output_->write(resolved("estimate"), to_ros_time(estimate->stamp + config_.publish_delay),
@@ -209,7 +202,6 @@ void ReplayRun::take_truth(Stamp stamp, const std::vector<double>& values) {
     return;
   }
   if (!first_truth_) first_truth_ = stamp;
-  recorder_->add_truth(stamp, values);
   const double elapsed = to_seconds(stamp - *first_truth_);
   const bool is_counted = elapsed >= options_.from && elapsed <= options_.to;
   if (!is_counted && !run_) return;

@@ -16,22 +16,6 @@
 
 namespace sampled_data_observers {
 
-/// One curve or cloud of a picture: times [s since the first truth, or estimate] and values.
-struct Series {
-  std::vector<double> times;
-  std::vector<double> values;
-};
-
-/// What a picture shows of one quantity.
-struct QuantityPlot {
-  std::string name;
-  Series truth;
-  Series samples;
-  Series estimate;
-  /// The guaranteed bound on its error where it is finite, at those of the estimate's times.
-  Series bound;
-};
-
 /// The times between the used samples of a sensor, or of several, each by itself [s].
 struct SampleIntervals {
   std::size_t count = 0;
@@ -171,12 +155,6 @@ struct ReplaySummary {
 
   double bag_seconds = 0.0;
   double wall_seconds = 0.0;
-
-  std::vector<QuantityPlot> plots;
-  /// Of the samples used, as in the plots.
-  std::vector<double> sample_times;
-  /// Of the jumps used and not taken back, likewise.
-  std::vector<double> jump_times;
 };
 
 /// The summary as a table for people.

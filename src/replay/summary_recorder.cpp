@@ -1,23 +1,17 @@
 #include "replay/summary_recorder.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "sampled_data_observers/observer/plant_observer.h"
 
 namespace sampled_data_observers {
 
-SummaryRecorder::SummaryRecorder(const ObserverConfig& config, std::vector<Quantity> plotted)
-    : config_(config),
-      plotted_(std::move(plotted)),
-      used_stamps_(config.sensors.size()),
-      input_stamps_(config.inputs.size()) {
+SummaryRecorder::SummaryRecorder(const ObserverConfig& config)
+    : config_(config), used_stamps_(config.sensors.size()), input_stamps_(config.inputs.size()) {
   for (const Sensor& sensor : config.plant->sensors()) {
     summary_.innovations.push_back({sensor.name, static_cast<std::size_t>(sensor.outputs()), {}});
   }
-  for (const Quantity& quantity : plotted_)
-    summary_.plots.push_back({quantity.name, {}, {}, {}, {}});
 }
 
 void SummaryRecorder::add_missing_topic(const std::string& name, const std::string& topic) {
@@ -37,20 +31,6 @@ void SummaryRecorder::add_event(const EventChannel& channel, const Event& event,
   if (is_compared && report.innovations != nullptr) {
     summary_.innovations[static_cast<std::size_t>(event.sensor)].of.add(report.innovations,
                                                                         event.size, report.nis);
-  }
-  if (!report.used()) return;
-  if (event.kind == EventKind::kSample) plot_sample(static_cast<std::size_t>(event.sensor), event);
-  if (event.kind == EventKind::kJump) {
-    Event jump = event;
-    jump.values = nullptr;
-    jump.size = 0;
-    plotted_jumps_.push_back(jump);
-  }
-  if (event.kind == EventKind::kWithdrawal) {
-    const auto is_taken_back = [&](const Event& jump) { return withdraws(event, jump); };
-    plotted_jumps_.erase(
-        std::remove_if(plotted_jumps_.begin(), plotted_jumps_.end(), is_taken_back),
-        plotted_jumps_.end());
   }
 }
 
@@ -130,21 +110,13 @@ void SummaryRecorder::summarize_latencies() {
   }
 }
 
-void SummaryRecorder::add_estimate(const Estimate& estimate, BoundLoss loss,
-                                   const std::vector<double>& state_bounds) {
+void SummaryRecorder::add_estimate(const Estimate& estimate, BoundLoss loss) {
   ++summary_.estimates;
   last_estimate_ = estimate.stamp;
   if (estimate.law->observer().is_input_stale(estimate.state.data())) {
     if (summary_.input_stale++ == 0) summary_.input_stale_since = to_seconds(estimate.stamp);
   }
   note_bound(estimate.stamp, loss);
-  for (std::size_t i = 0; i < summary_.plots.size(); ++i) {
-    plot(summary_.plots[i].estimate, estimate.stamp, plotted_[i].value(estimate.state.data()));
-    if (state_bounds.empty()) continue;
-    const Eigen::Map<const Eigen::VectorXd> bounds(state_bounds.data(), plotted_[i].row.size());
-    const double bound = bound_on(plotted_[i], bounds);
-    if (std::isfinite(bound)) plot(summary_.plots[i].bound, estimate.stamp, bound);
-  }
 }
 
 /// That events may still come says the least, and is so from the first estimate on. Near a jump the
@@ -158,40 +130,10 @@ void SummaryRecorder::note_bound(Stamp stamp, BoundLoss loss) {
   summary_.bound_loss = describe(loss);
 }
 
-void SummaryRecorder::add_truth(Stamp stamp, const std::vector<double>& values) {
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    plot(summary_.plots[i].truth, stamp, values[i]);
-  }
-}
-
-void SummaryRecorder::plot_sample(std::size_t sensor, const Event& event) {
-  summary_.sample_times.push_back(plot_time(event.stamp));
-  for (std::size_t i = 0; i < summary_.plots.size(); ++i) {
-    for (Eigen::Index output = 0; output < event.size; ++output) {
-      if (measures(*config_.plant, sensor, output, plotted_[i])) {
-        plot(summary_.plots[i].samples, event.stamp, event.values[output]);
-      }
-    }
-  }
-}
-
-double SummaryRecorder::plot_time(Stamp stamp) {
-  if (!plot_origin_) plot_origin_ = stamp;
-  return to_seconds(stamp - *plot_origin_);
-}
-
-void SummaryRecorder::plot(Series& series, Stamp stamp, double value) {
-  series.times.push_back(plot_time(stamp));
-  series.values.push_back(value);
-}
-
 ReplaySummary SummaryRecorder::summary() {
   summarize_sensors();
   summarize_inputs();
   summarize_latencies();
-  for (const Event& jump : plotted_jumps_) {
-    summary_.jump_times.push_back(plot_time(jump.stamp));
-  }
   return std::move(summary_);
 }
 

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "replay/comparison.h"
 #include "replay/summary.h"
 #include "sampled_data_observers/config/event_channels.h"
 #include "sampled_data_observers/config/observer_config.h"
@@ -14,12 +13,11 @@
 namespace sampled_data_observers {
 
 /// What a replay says of its events and estimates: how many there were, the times between samples,
-/// when the bound was lost, and the curves of its picture.
+/// and when the bound was lost.
 class SummaryRecorder {
  public:
-  /// @param config   outlives it
-  /// @param plotted  what the picture shows
-  SummaryRecorder(const ObserverConfig& config, std::vector<Quantity> plotted);
+  /// @param config  outlives it
+  explicit SummaryRecorder(const ObserverConfig& config);
 
   void add_missing_topic(const std::string& name, const std::string& topic);
   void add_withheld_sample() { ++summary_.samples_withheld; }
@@ -27,11 +25,7 @@ class SummaryRecorder {
   /// @param latency  time of its arrival minus its stamp [ns]
   void add_event(const EventChannel& channel, const Event& event, const EventReport& report,
                  const std::string& reason, Duration latency);
-  /// @param state_bounds  one for each state; empty where there are none
-  void add_estimate(const Estimate& estimate, BoundLoss loss,
-                    const std::vector<double>& state_bounds);
-  /// @param values  one for each quantity that is plotted
-  void add_truth(Stamp stamp, const std::vector<double>& values);
+  void add_estimate(const Estimate& estimate, BoundLoss loss);
 
   /// All that was added. The rest is for who knows it to fill in.
   ReplaySummary summary();
@@ -42,13 +36,8 @@ class SummaryRecorder {
   void summarize_inputs();
   void summarize_latencies();
   void note_bound(Stamp stamp, BoundLoss loss);
-  void plot_sample(std::size_t sensor, const Event& event);
-  void plot(Series& series, Stamp stamp, double value);
-  double plot_time(Stamp stamp);
 
   const ObserverConfig& config_;
-  std::vector<Quantity> plotted_;
-  std::optional<Stamp> plot_origin_;
   std::vector<std::vector<Stamp>> used_stamps_;   ///< of the samples of each sensor
   std::vector<std::vector<Stamp>> input_stamps_;  ///< likewise of each source of inputs
   /// Of each source of events.
@@ -58,7 +47,6 @@ class SummaryRecorder {
   };
   std::map<std::string, Latencies> latencies_;
   Stamp last_estimate_ = 0;
-  std::vector<Event> plotted_jumps_;  ///< used and not taken back, without their values
   std::optional<BoundLoss> bound_loss_;
   ReplaySummary summary_;
 };

@@ -16,14 +16,15 @@
 
 #include "console/command_line.h"
 #include "console/html_page.h"
+#include "console/json_text.h"
 #include "console/option_checks.h"
 #include "console/output_checks.h"
+#include "console/plot_program.h"
 #include "console/tool_main.h"
 #include "console/usage_error.h"
 #include "files/output_file.h"
 #include "messages/plant_plugins.h"
 #include "ranks/ranks.h"
-#include "replay/plot.h"
 #include "replay/report/beside_run.h"
 #include "replay/report/report_data.h"
 #include "replay/report/report_page.h"
@@ -56,9 +57,11 @@ struct Arguments {
   std::vector<std::string> gains;
   std::optional<std::uint64_t> seeds;
 
-  bool needs_record() const { return !report.empty() || !tables.empty(); }
+  /// Whether what is written shows other gains and seeds, too.
+  bool shows_runs() const { return !report.empty() || !tables.empty(); }
+  bool needs_record() const { return shows_runs() || !plot.empty(); }
   /// Whether a table of runs is asked for; a report shows seeds itself.
-  bool has_runs() const { return !gains.empty() || (seeds && !needs_record()); }
+  bool has_runs() const { return !gains.empty() || (seeds && !shows_runs()); }
 };
 
 std::map<std::string, std::string> parse_fields(const std::vector<std::string>& assignments) {
@@ -123,7 +126,7 @@ sdo::ReplayOptions options_of(const Arguments& arguments) {
   options.to = arguments.to.value_or(options.to);
   if (options.from > options.to) throw sdo::UsageError("--from", "must not be later than --to");
   if (!arguments.beside.empty() &&
-      (!arguments.needs_record() || (options.truth_topic.empty() && !options.thinning))) {
+      (!arguments.shows_runs() || (options.truth_topic.empty() && !options.thinning))) {
     throw sdo::UsageError("--beside", "needs --report or --csv, and a truth, by --truth or --thin");
   }
   if (arguments.has_runs() &&
@@ -197,9 +200,13 @@ void write_record(const Arguments& arguments, sdo::ReplayOptions options,
     run.summary = sdo::replay(other.config, options, &run.record);
   }
   if (!arguments.tables.empty()) sdo::write_tables(arguments.tables, config, record, runs, seeds);
-  if (arguments.report.empty()) return;
+  if (arguments.report.empty() && arguments.plot.empty()) return;
   const nlohmann::json data =
       sdo::report_data(config, arguments.config, summary, record, runs, seeds);
+  if (!arguments.plot.empty()) {
+    sdo::run_plot_program("plot_replay", sdo::json_text(data), arguments.plot);
+  }
+  if (arguments.report.empty()) return;
   sdo::write_output(arguments.report, sdo::html_page(data, sdo::page_parts::report()));
 }
 
@@ -274,7 +281,6 @@ int replay_one(const Arguments& arguments, const sdo::ReplayOptions& options, sd
       sdo::replay(config, options, arguments.needs_record() ? &record : nullptr);
   sdo::print_table(summary, std::cout);
   if (!arguments.json.empty()) sdo::write_json(summary, arguments.json);
-  if (!arguments.plot.empty()) sdo::draw_plot(summary, arguments.plot);
   bool is_broken = summary.is_guarantee_broken();
   if (arguments.needs_record()) {
     std::vector<sdo::SeedRun> seeds;
