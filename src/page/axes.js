@@ -10,9 +10,9 @@ function shortNumber(value, digits = 4) {
   return text.replace("e+", "e").replace(/\.?0+e/, "e").replaceAll("-", "−");
 }
 
-/** Ticks at round numbers, about so many. */
-function linearTicks(low, high, count) {
-  const raw = (high - low) / Math.max(1, count);
+/** Ticks at round numbers, about so many, and not closer than `least`. */
+function linearTicks(low, high, count, least = 0) {
+  const raw = Math.max(least, (high - low) / Math.max(1, count));
   const power = 10 ** Math.floor(Math.log10(raw));
   const step = power * [1, 2, 5, 10].find((factor) => factor * power >= raw * 0.999);
   const ticks = [];

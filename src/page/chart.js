@@ -122,7 +122,7 @@ function drawAxes(context, view, xLabel) {
   context.textAlign = "right";
   context.textBaseline = "middle";
   const rows = (bottom - top) / 38;
-  for (const tick of view.log ? logTicks(view.low, view.high, rows) : linearTicks(view.low, view.high, rows)) {
+  for (const tick of view.log ? logTicks(view.low, view.high, rows) : linearTicks(view.low, view.high, rows, view.isWhole ? 1 : 0)) {
     const y = Math.round(bottom - (tick.value - view.low) / (view.high - view.low) * (bottom - top)) + 0.5;
     context.moveTo(left, y);
     context.lineTo(right, y);
@@ -147,11 +147,12 @@ function drawAxes(context, view, xLabel) {
 
 /** Layers over time, or over another quantity, on the axes of a TimeRange. */
 class Chart extends Figure {
-  constructor(title, {range, layers, height = 210, log = false, hasLog = false, xLabel = "time [s]"}) {
+  constructor(title, {range, layers, height = 210, log = false, hasLog = false, isWhole = false, xLabel = "time [s]"}) {
     super(title, height);
     this.range = range;
     this.layers = layers;
     this.log = log;
+    this.isWhole = isWhole;  // numbers of something
     this.xLabel = xLabel;
     this.ownLimits = null;  // of the values, where they were chosen
     this.overlay = element("canvas");
@@ -203,7 +204,7 @@ class Chart extends Figure {
     if (width < MARGIN.left + 40) return;
     const [from, to] = this.range.shown;
     const [low, high] = this.limits(from, to);
-    const view = {from, to, low, high, log: this.log, left: MARGIN.left, right: width - MARGIN.right,
+    const view = {from, to, low, high, log: this.log, isWhole: this.isWhole, left: MARGIN.left, right: width - MARGIN.right,
                   top: MARGIN.top, bottom: height - MARGIN.bottom};
     const perTime = (view.right - view.left) / (to - from);
     const perValue = (view.bottom - view.top) / (high - low);

@@ -1,6 +1,7 @@
 // A figure as a picture of its own: what is shown, with its title and its keys above.
 
-const HEAD = 34;  // pixels above the plot
+const HEAD = 34;  // pixels above the plot, for title and keys in one row
+const ROW = 18;   // pixels for each further row of keys
 
 /** Writes down as SVG what is drawn with the part of a canvas' context that figures use. */
 class SvgContext {
@@ -78,28 +79,44 @@ class SvgContext {
   }
 }
 
-/** Draws a figure with title and keys on a context. */
-function drawSheet(figure, context, width, height) {
+const SWATCH = 17;
+const GAP = 14;
+
+/** Where the title and the shown keys of a figure stand, in rows that are no wider than the plot, and how high these are. */
+function headOf(figure, context, width) {
+  const entries = [{text: figure.title, layer: null},
+                   ...figure.keys.filter((each) => !each.isHidden).map((layer) => ({text: layer.label, layer}))];
+  let x = 12;
+  let row = 0;
+  for (const entry of entries) {
+    const length = (entry.layer ? SWATCH : 0) + context.measureText(entry.text).width;
+    if (x > 12 && x + length > width - 12) {
+      x = 12;
+      ++row;
+    }
+    Object.assign(entry, {x, y: HEAD / 2 + row * ROW});
+    x += length + GAP;
+  }
+  return {entries, height: HEAD + row * ROW};
+}
+
+/** Draws a figure below its head on a context. */
+function drawSheet(figure, context, width, height, head) {
   context.fillStyle = colour("panel");
-  context.fillRect(0, 0, width, height + HEAD);
+  context.fillRect(0, 0, width, height + head.height);
   context.textAlign = "left";
   context.textBaseline = "middle";
-  let x = 12;
-  const write = (text, name) => {
-    context.fillStyle = colour(name);
-    context.fillText(text, x, HEAD / 2);
-    x += context.measureText(text).width + 14;
-  };
-  write(figure.title, "text");
-  for (const layer of figure.keys.filter((each) => !each.isHidden)) {
-    context.fillStyle = colour(layer.colour);
-    context.globalAlpha = ["band", "interval"].includes(layer.kind) ? 0.35 : 1;
-    context.fillRect(x, HEAD / 2 - 4, 12, 8);
-    context.globalAlpha = 1;
-    x += 17;
-    write(layer.label, "muted");
+  for (const {text, layer, x, y} of head.entries) {
+    if (layer) {
+      context.fillStyle = colour(layer.colour);
+      context.globalAlpha = ["band", "interval"].includes(layer.kind) ? 0.35 : 1;
+      context.fillRect(x, y - 4, 12, 8);
+      context.globalAlpha = 1;
+    }
+    context.fillStyle = colour(layer ? "muted" : "text");
+    context.fillText(text, x + (layer ? SWATCH : 0), y);
   }
-  context.translate(0, HEAD);
+  context.translate(0, head.height);
   figure.sheet = {context, width, height};
   figure.draw();
   figure.sheet = null;
@@ -111,14 +128,18 @@ function pictureOf(figure, kind) {
   const font = "12px system-ui, 'DejaVu Sans', sans-serif";
   if (kind === "svg") {
     const context = new SvgContext(font);
-    drawSheet(figure, context, width, height);
-    return "data:image/svg+xml;charset=utf-8," + encodeURIComponent(context.text(width, height + HEAD));
+    const head = headOf(figure, context, width);
+    drawSheet(figure, context, width, height, head);
+    return "data:image/svg+xml;charset=utf-8," + encodeURIComponent(context.text(width, height + head.height));
   }
-  const canvas = element("canvas", {width: 2 * width, height: 2 * (height + HEAD)});
+  const canvas = element("canvas");
   const context = canvas.getContext("2d");
+  context.font = font;
+  const head = headOf(figure, context, width);
+  Object.assign(canvas, {width: 2 * width, height: 2 * (height + head.height)});  // which resets the context
   context.scale(2, 2);
   context.font = font;
-  drawSheet(figure, context, width, height);
+  drawSheet(figure, context, width, height, head);
   return canvas.toDataURL("image/png");
 }
 

@@ -17,7 +17,7 @@ class Histogram extends Figure {
     const all = [low, high, ...shown.map((mark) => mark.value)];
     const room = 0.04 * (Math.max(...all) - Math.min(...all));
     const view = {from: Math.min(...all) - room, to: Math.max(...all) + room,
-                  low: 0, high: 1.08 * Math.max(1, ...counts), log: false,
+                  low: 0, high: 1.08 * Math.max(1, ...counts), log: false, isWhole: true,
                   left: MARGIN.left, right: width - MARGIN.right, top: MARGIN.top, bottom: height - MARGIN.bottom};
     view.x = (value) => view.left + (value - view.from) / (view.to - view.from) * (view.right - view.left);
     view.y = (count) => view.bottom - count / view.high * (view.bottom - view.top);

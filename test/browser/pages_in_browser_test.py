@@ -175,22 +175,33 @@ class ReportTest(PageTest):
         titles = self.browser.run("checks.figures()")
         for title in ("From above", "Jumps j", "(t, j, x), drag to turn", "camera: NIS"):
             self.assertIn(title, titles)
-        saved = self.browser.run("""(async () => {
-          const saved = [];
-          HTMLAnchorElement.prototype.click = function () { saved.push([this.download.split(".")[1], this.href]); };
-          document.querySelectorAll("#states figure:first-child .export").forEach((button) => button.click());
-          const sizes = [];
-          for (const [kind, address] of saved) {
-            const image = new Image();
-            image.src = address;
-            await image.decode();
-            sizes.push([kind, image.naturalWidth > 500]);
-          }
-          return sizes;
-        })()""")
-        self.assertEqual(saved, [["png", True], ["svg", True]])
+        self.saves_pictures()
         self.browser.run("document.querySelector('#toolbar button:last-child').click()")
         self.assertTrue(self.browser.run("document.documentElement.classList.contains('dark')"))
+
+
+    def saves_pictures(self):
+        """Of a chart with many keys and little width, which go on in a second row."""
+        self.show("file://" + self.path("report.html"), 1000)
+        saved = self.browser.run("""(async () => {
+          const saved = {};
+          HTMLAnchorElement.prototype.click = function () { saved[this.download.split(".")[1]] = this.href; };
+          document.querySelectorAll("#states figure:first-child .export").forEach((button) => button.click());
+          const image = new Image();
+          image.src = saved.png;
+          await image.decode();
+          document.body.innerHTML = decodeURIComponent(saved.svg.split(",").slice(1).join(","));
+          const texts = [...document.querySelectorAll("svg text")].map((text) => [text.textContent, text.getBBox()]);
+          const {width, height} = document.querySelector("svg").viewBox.baseVal;
+          return {png: [image.naturalWidth, image.naturalHeight], svg: [width, height], texts: texts.map(([text]) => text),
+                  cut: texts.filter(([, box]) => box.x < 0 || box.x + box.width > width).map(([text]) => text)};
+        })()""")
+        self.assertEqual(saved["png"], [2 * length for length in saved["svg"]])
+        self.assertGreater(saved["svg"][1], 210 + 34)
+        self.assertEqual(saved["cut"], [])
+        for text in ("x [m]", "jumps", "3\u03c3", "truth", "samples used", "used late", "gated", "estimate", "time [s]"):
+            self.assertIn(text, saved["texts"])
+        self.show("file://" + self.path("report.html"))
 
 
 class DesignTest(PageTest):

@@ -270,7 +270,7 @@ function delaysSection() {
   const late = [];
   rewound.forEach((count, i) => { if (count > 0) late.push(i); });
   if (late.length > 0) {
-    charts.push(new Chart("Events applied again", {range: run.range, layers: [
+    charts.push(new Chart("Events applied again", {range: run.range, isWhole: true, layers: [
       pointsLayer(arrival, rewound, late, {label: "by an event that came late", colour: "late", marker: "diamond"})]}));
   } else {
     const all = layers.flatMap((layer) => Array.from(layer.values));

@@ -72,5 +72,5 @@ function hybridSection() {
     drawSoon(space);
   });
   space.tools.append(choice);
-  grid(made, [new Chart("Jumps j", {range: run.range, layers, height: 460}), space]);
+  grid(made, [new Chart("Jumps j", {range: run.range, layers, isWhole: true, height: 460}), space]);
 }
