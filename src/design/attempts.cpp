@@ -10,9 +10,9 @@
 
 #include "design/certify.h"
 #include "design/final_error.h"
-#include "design/packing.h"
 #include "design/plant_scaling.h"
 #include "design/rigorous_check.h"
+#include "design/work_limit.h"
 #include "linear_algebra/matrix_functions.h"
 
 namespace sampled_data_observers {
@@ -192,71 +192,34 @@ struct AttemptInUnits {
   CertificateSubject subject_in_units;
 };
 
-std::string packed(const DesignCandidate& candidate) {
-  Packer packer;
-  packer.add(candidate.values);
-  packer.add(candidate.margin);
-  packer.add(candidate.cost);
-  packer.add(candidate.solver);
-  packer.add(candidate.message);
-  packer.add(static_cast<std::int64_t>(candidate.proved_conditions));
-  packer.add(candidate.gain_bound);
-  return packer.bytes();
-}
-
-DesignCandidate unpacked(const WorkerOutcome& outcome) {
-  DesignCandidate candidate;
-  switch (outcome.status) {
-    case WorkerOutcome::Status::kDone: {
-      Unpacker unpacker(outcome.result);
-      candidate.values = unpacker.matrices();
-      candidate.margin = unpacker.number();
-      candidate.cost = unpacker.number();
-      candidate.solver = unpacker.text();
-      candidate.message = unpacker.text();
-      candidate.proved_conditions = static_cast<std::size_t>(unpacker.integer());
-      candidate.gain_bound = unpacker.number();
-      break;
-    }
-    case WorkerOutcome::Status::kThrew:
-      candidate.message = outcome.result;
-      break;
-    case WorkerOutcome::Status::kTimedOut:
-      candidate.message = "solver and proof took longer than the time limit";
-      break;
-    case WorkerOutcome::Status::kCrashed:
-      candidate.message = "the solver's process died";
-      break;
-  }
-  return candidate;
+/// @param candidate  of which the outcome is
+void say_how_it_ended(const ThreadOutcome& outcome, DesignCandidate& candidate) {
+  if (outcome.status == ThreadOutcome::Status::kDone) return;
+  candidate = DesignCandidate();
+  candidate.message =
+      outcome.status == ThreadOutcome::Status::kTimedOut ? OutOfTime().what() : outcome.message;
 }
 
 /// What an attempt for each choice will cost: 0 where the method can't tell, infinite where there
 /// is no solution, as the message of its candidate says.
 std::vector<double> estimated_costs(const DesignMethod& method, const CertificateSubject& subject,
                                     const std::vector<Parameters>& choices, Objective objective,
-                                    GainBound gain_bound, const WorkerOptions& workers,
+                                    GainBound gain_bound, const ThreadOptions& threads,
                                     std::vector<DesignCandidate>& candidates) {
-  const auto outcomes = run_in_workers(
+  std::vector<double> costs(choices.size(), std::numeric_limits<double>::infinity());
+  const auto outcomes = run_in_threads(
       choices.size(),
       [&](std::size_t i) {
         const AttemptInUnits units(method, subject, choices[i], objective, gain_bound);
         const auto estimate = method.estimate(units.subject_in_units, units.in_units, objective);
-        Packer packer;
-        packer.add(estimate ? estimate->cost : 0.0);
-        packer.add(estimate ? estimate->message : std::string());
-        return packer.bytes();
+        costs[i] = estimate ? estimate->cost : 0.0;
+        if (estimate) candidates[i].message = estimate->message;
       },
-      workers);
-  std::vector<double> costs;
+      threads);
   for (std::size_t i = 0; i < choices.size(); ++i) {
-    if (outcomes[i].status == WorkerOutcome::Status::kDone) {
-      Unpacker unpacker(outcomes[i].result);
-      costs.push_back(unpacker.number());
-      candidates[i].message = unpacker.text();
-    } else {
-      costs.push_back(std::numeric_limits<double>::infinity());
-      candidates[i] = unpacked(outcomes[i]);
+    say_how_it_ended(outcomes[i], candidates[i]);
+    if (outcomes[i].status != ThreadOutcome::Status::kDone) {
+      costs[i] = std::numeric_limits<double>::infinity();
     }
   }
   return costs;
@@ -296,23 +259,25 @@ std::vector<DesignCandidate> proved_attempts(const DesignMethod& method,
                                              const CertificateSubject& subject,
                                              const std::vector<Parameters>& choices,
                                              Objective objective, GainBound gain_bound,
-                                             const WorkerOptions& workers) {
+                                             const ThreadOptions& threads) {
   std::vector<DesignCandidate> candidates(choices.size());
   const auto try_all = [&](const std::vector<std::size_t>& numbers) {
-    WorkerOptions options = workers;
-    if (choices.size() > 1) options.on_outcome = nullptr;  // each was told of already
-    const auto outcomes = run_in_workers(
+    ThreadOptions options = threads;
+    if (choices.size() > 1) options.on_done = nullptr;  // each was told of already
+    const auto outcomes = run_in_threads(
         numbers.size(),
         [&](std::size_t i) {
-          return packed(
-              proved_attempt(method, subject, choices[numbers[i]], objective, gain_bound));
+          candidates[numbers[i]] =
+              proved_attempt(method, subject, choices[numbers[i]], objective, gain_bound);
         },
         options);
-    for (std::size_t i = 0; i < numbers.size(); ++i) candidates[numbers[i]] = unpacked(outcomes[i]);
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      say_how_it_ended(outcomes[i], candidates[numbers[i]]);
+    }
   };
   std::vector<double> costs(choices.size(), 0.0);
   if (choices.size() > 1) {
-    costs = estimated_costs(method, subject, choices, objective, gain_bound, workers, candidates);
+    costs = estimated_costs(method, subject, choices, objective, gain_bound, threads, candidates);
   }
   std::vector<std::size_t> waiting;
   for (std::size_t i = 0; i < choices.size(); ++i) waiting.push_back(i);

@@ -23,7 +23,6 @@ DesignCandidate judged(const Theorem& theorem, const CertificateSubject& subject
 /// kUnaskedGammaInflation.
 ///
 /// @param fixed  gains and parameters of the theorem; multipliers among them are left as they are
-/// To be called in a worker process.
 DesignCandidate certify_here(const Theorem& theorem, const CertificateSubject& subject,
                              const NamedMatrices& fixed, Objective objective);
 

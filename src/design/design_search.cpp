@@ -16,7 +16,7 @@
 #include "design/plant_scaling.h"
 #include "design/request_error.h"
 #include "design/require_detectable.h"
-#include "design/workers.h"
+#include "design/threads.h"
 
 namespace sampled_data_observers {
 namespace {
@@ -204,11 +204,11 @@ class DesignSearch {
   std::vector<double> attempt_all(const CertificateSubject& subject, const Choices& choices,
                                   const std::vector<Parameters>& open, Objective objective,
                                   BestOf& best) {
-    WorkerOptions workers;
-    workers.jobs = options_.jobs;
-    workers.time_limit = options_.time_limit;
+    ThreadOptions threads;
+    threads.jobs = options_.jobs;
+    threads.time_limit = options_.time_limit;
     std::size_t finished = attempts_;
-    workers.on_outcome = [&](std::size_t, const WorkerOutcome&) {
+    threads.on_done = [&] {
       if (options_.on_progress) options_.on_progress(method_.name(), ++finished);
     };
     std::vector<Parameters> whole = open;
@@ -218,7 +218,7 @@ class DesignSearch {
     const std::vector<DesignCandidate> candidates = proved_attempts(
         method_, subject, whole, objective,
         problem_.given.count("gain_bound") > 0 ? GainBound::kGiven : GainBound::kOfScaledPlant,
-        workers);
+        threads);
     attempts_ += candidates.size();
     std::vector<double> costs;
     for (std::size_t i = 0; i < candidates.size(); ++i) {

@@ -12,7 +12,7 @@ namespace sampled_data_observers {
 
 struct SynthesisOptions {
   unsigned jobs = 1;
-  /// For one attempt [s]; a longer one is lost, with its process.
+  /// For one attempt [s]; a longer one is lost.
   double time_limit = 20.0;
   /// Called now and then with what is being done, for a progress display.
   std::function<void(const std::string& what, std::size_t attempts)> on_progress;

@@ -11,6 +11,7 @@
 #include "design/conic_step.h"
 #include "design/schur_complement.h"
 #include "design/sdp_data.h"
+#include "design/work_limit.h"
 
 namespace sampled_data_observers {
 namespace {
@@ -58,6 +59,7 @@ class InteriorPoint {
     int without_progress = 0;
     int short_steps = 0;
     for (iterations_ = 0; iterations_ < options_.max_iterations; ++iterations_) {
+      require_time_left();
       if (!invert()) return stopped("a matrix became singular");
       measure();
       if (!std::isfinite(mu_)) return stopped("numbers overflowed");

@@ -35,6 +35,7 @@ struct InteriorPointResult {
 /// Monteiro (HKM) with the predictor and corrector of Mehrotra (1992), as in Todd, Toh and Tütüncü
 /// (1998). No state is shared: several may run at a time. The number of iterations, and so the
 /// time, is bounded.
+/// @throws OutOfTime (work_limit.h)
 InteriorPointResult solve_by_interior_point(const StandardForm& form,
                                             const InteriorPointOptions& options);
 

@@ -10,6 +10,7 @@
 #include "certificate/evaluate_expression.h"
 #include "design/ball_matrix.h"
 #include "design/taylor_matrix.h"
+#include "design/work_limit.h"
 #include "linear_algebra/matrix_functions.h"
 
 namespace sampled_data_observers {
@@ -231,6 +232,7 @@ class Prover {
   }
 
   Finding look_at(const Interval& interval) {
+    require_time_left();
     ++proof_.intervals;
     for (const slong precision : kPrecisions) {
       TaylorAlgebra algebra(values_, interval.centre(), condition_.tau ? interval.radius() : 0.0,

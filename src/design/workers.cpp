@@ -11,8 +11,10 @@
 #include <chrono>
 #include <csignal>
 #include <cstdint>
+#include <ctime>
 #include <exception>
 #include <memory>
+#include <mutex>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -84,6 +86,9 @@ bool read_all(int fd, void* data, std::size_t size) {
 class Worker {
  public:
   explicit Worker(const std::function<std::string(std::size_t)>& task) {
+    // What others start meanwhile would hold the ends of these pipes open.
+    static std::mutex starting;
+    std::unique_lock<std::mutex> lock(starting);
     int down[2];
     int up[2];
     if (::pipe2(down, O_CLOEXEC) != 0) fail("pipe");
@@ -92,6 +97,7 @@ class Worker {
     pid_ = ::fork();
     if (pid_ < 0) fail("fork");
     if (pid_ == 0) {
+      lock.unlock();
       ::close(down[1]);
       ::close(up[0]);
       serve(parent, down[0], up[1], task);
@@ -149,16 +155,28 @@ class Worker {
   Clock::time_point since_;
 };
 
-/// A worker that died must give an error on writing, not a signal.
-class IgnoredBrokenPipes {
+/// A worker that died must give an error on writing, not a signal, in this thread.
+class BlockedBrokenPipes {
  public:
-  IgnoredBrokenPipes() : before_(std::signal(SIGPIPE, SIG_IGN)) {}
-  IgnoredBrokenPipes(const IgnoredBrokenPipes&) = delete;
-  IgnoredBrokenPipes& operator=(const IgnoredBrokenPipes&) = delete;
-  ~IgnoredBrokenPipes() { std::signal(SIGPIPE, before_); }
+  BlockedBrokenPipes() {
+    ::sigemptyset(&broken_);
+    ::sigaddset(&broken_, SIGPIPE);
+    ::pthread_sigmask(SIG_BLOCK, &broken_, &before_);
+  }
+  BlockedBrokenPipes(const BlockedBrokenPipes&) = delete;
+  BlockedBrokenPipes& operator=(const BlockedBrokenPipes&) = delete;
+  ~BlockedBrokenPipes() {
+    const timespec now{};
+    if (::sigismember(&before_, SIGPIPE) == 0) {
+      while (::sigtimedwait(&broken_, nullptr, &now) > 0) {
+      }
+    }
+    ::pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+  }
 
  private:
-  void (*before_)(int);
+  sigset_t broken_;
+  sigset_t before_;
 };
 
 class Pool {
@@ -168,7 +186,7 @@ class Pool {
       : next_(next), task_(task), options_(options) {}
 
   void run() {
-    const IgnoredBrokenPipes ignored;
+    const BlockedBrokenPipes blocked;
     while (workers_.size() < std::max(1U, options_.jobs) && has_next_) {
       give_next(workers_.emplace_back());
     }

@@ -44,8 +44,9 @@ unsigned default_jobs();
 /// Runs task(0), …, task(count - 1) in forked processes, `jobs` at a time, and gives their outcomes
 /// in this order. A task that hangs, crashes or throws costs its own outcome only. In a worker,
 /// standard output is closed and the working directory is /. A task may itself run others in
-/// workers. All end with the calling process, however that ends.
-/// @pre the calling process has one thread
+/// workers. All end with the thread that calls, however that ends.
+/// @pre where the calling process has other threads, the task takes no lock that one of them may
+/// hold, but those of the C library
 /// @throws std::system_error where no process can be started, Cancelled when told so
 std::vector<WorkerOutcome> run_in_workers(std::size_t count,
                                           const std::function<std::string(std::size_t)>& task,

@@ -18,11 +18,11 @@
 namespace sampled_data_observers::test {
 namespace {
 
-WorkerOptions two_workers() {
-  WorkerOptions workers;
-  workers.jobs = 2;
-  workers.time_limit = 60.0;
-  return workers;
+ThreadOptions two_threads() {
+  ThreadOptions threads;
+  threads.jobs = 2;
+  threads.time_limit = 60.0;
+  return threads;
 }
 
 /// For how many of many deltas the method has a design.
@@ -37,7 +37,7 @@ int feasible_deltas(const DesignMethod& method, const CertificateSubject& subjec
   int count = 0;
   for (const DesignCandidate& candidate :
        proved_attempts(method, subject, choices, Objective::kFeasible, GainBound::kOfScaledPlant,
-                       two_workers())) {
+                       two_threads())) {
     count += candidate.is_verified() ? 1 : 0;
   }
   return count;
