@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <limits>
+#include <optional>
 
 #include "plant/formula_program.h"
 
@@ -55,6 +56,14 @@ bool assigns(const std::string& text) {
   return false;
 }
 
+/// Without the blanks around it, as muParser reads it.
+std::string stripped(const std::string& text) {
+  const auto is_blank = [](char c) { return static_cast<unsigned char>(c) <= ' '; };
+  const auto begin = std::find_if_not(text.begin(), text.end(), is_blank);
+  const auto end = std::find_if_not(text.rbegin(), text.rend(), is_blank).base();
+  return begin < end ? std::string(begin, end) : std::string();
+}
+
 double value_of(const mu::Parser& parser) {
   try {
     return parser.Eval();
@@ -66,14 +75,42 @@ double value_of(const mu::Parser& parser) {
 }  // namespace
 
 struct ExpressionMap::Program {
+  struct Formula {
+    const double* copied = nullptr;  ///< the value that it is
+    std::optional<mu::Parser> parser;
+    double constant = 0.0;  ///< what it is without these two
+
+    double value() const {
+      if (copied != nullptr) return *copied;
+      return parser ? value_of(*parser) : constant;
+    }
+  };
+
   std::size_t states = 0;
   std::size_t inputs = 0;
   /// x, u, then the values of the definitions. The parsers know the addresses.
   std::vector<double> values;
   std::vector<std::string> names;
   std::vector<std::pair<std::string, double>> constants;
-  std::vector<mu::Parser> definitions;
-  std::vector<mu::Parser> expressions;
+  std::vector<Formula> definitions;
+  std::vector<Formula> expressions;
+
+  /// A formula of the first `known` values. One that is no more than a name, or a number, needs no
+  /// parser.
+  Formula formula(const NamedExpression& expression, std::size_t known) {
+    const mu::Parser parser = parse(expression, known);
+    Formula formula;
+    const auto end = names.begin() + static_cast<std::ptrdiff_t>(known);
+    const auto name = std::find(names.begin(), end, stripped(expression.text));
+    if (name != end) {
+      formula.copied = &values[static_cast<std::size_t>(name - names.begin())];
+    } else if (parser.GetUsedVar().empty()) {
+      formula.constant = value_of(parser);
+    } else {
+      formula.parser = parser;
+    }
+    return formula;
+  }
 
   /// A parser that knows the first `known` values.
   mu::Parser parse(const NamedExpression& expression, std::size_t known) {
@@ -136,14 +173,14 @@ ExpressionMap::ExpressionMap(const ExpressionNames& names,
   program.definitions.reserve(definitions.size());
   program.expressions.reserve(expressions.size());
   for (const NamedExpression& definition : definitions) {
-    program.definitions.push_back(program.parse(definition, known++));
+    program.definitions.push_back(program.formula(definition, known++));
   }
   for (const NamedExpression& expression : expressions) {
-    program.expressions.push_back(program.parse(expression, known));
+    program.expressions.push_back(program.formula(expression, known));
   }
   // Copying a parser makes it compile again, at its first evaluation.
-  for (const mu::Parser& parser : program.definitions) value_of(parser);
-  for (const mu::Parser& parser : program.expressions) value_of(parser);
+  for (const Program::Formula& formula : program.definitions) formula.value();
+  for (const Program::Formula& formula : program.expressions) formula.value();
 }
 
 ExpressionMap::~ExpressionMap() = default;
@@ -157,8 +194,8 @@ void ExpressionMap::evaluate(const double* x, const double* u, double* out) cons
   double* value = program.values.data();
   for (std::size_t i = 0; i < program.states; ++i) *value++ = x[i];
   for (std::size_t i = 0; i < program.inputs; ++i) *value++ = u[i];
-  for (const mu::Parser& parser : program.definitions) *value++ = value_of(parser);
-  for (const mu::Parser& parser : program.expressions) *out++ = value_of(parser);
+  for (const Program::Formula& formula : program.definitions) *value++ = formula.value();
+  for (const Program::Formula& formula : program.expressions) *out++ = formula.value();
 }
 
 std::shared_ptr<const VectorMap> ExpressionMap::jacobian() const {

@@ -57,6 +57,24 @@ TEST(AffineFormulaTest, WhatIsNotOrCanNotBeToldIsNone) {
             affine_map_of(kMapNames, {std::string(5000, '(') + "x1" + std::string(5000, ')')}));
 }
 
+TEST(ExpressionMapTest, FormulasThatAreOnlyANameOrANumberAreThatToTheBit) {
+  const ExpressionMap map(
+      kMapNames, {{"d", " u "}, {"e", "3*d"}, {"c", "-a/3"}},
+      {{"f", "\tx2"}, {"g", "d"}, {"h", "e"}, {"i", "c"}, {"j", "sqrt(0 - 1)"}, {"k", "1e3"}});
+  const double x[] = {0.7, -0.0};
+  double out[6];
+  for (const double u : {0.1, -0.3}) {
+    map.evaluate(x, &u, out);
+    EXPECT_EQ(0.0, out[0]);
+    EXPECT_TRUE(std::signbit(out[0]));
+    EXPECT_EQ(u, out[1]);
+    EXPECT_EQ(3.0 * u, out[2]);
+    EXPECT_EQ(-0.5 / 3.0, out[3]);
+    EXPECT_TRUE(std::isnan(out[4]));
+    EXPECT_EQ(1e3, out[5]);
+  }
+}
+
 TEST(ExpressionMapTest, DefinitionsServeTheFormulasBehindThem) {
   const ExpressionMap map(kMapNames, {{"s", "x1 + x2"}, {"q", "s*s"}}, {{"f", "q - s + u"}});
   const double x[] = {1.0, 2.0};
