@@ -5,15 +5,20 @@
 #include <std_msgs/String.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <boost/make_shared.hpp>
 #include <filesystem>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "replay/bag_source.h"
 
 namespace sampled_data_observers {
 namespace {
 
-/// Some of these are more than what is held in memory.
+/// As many as are more than what is held in memory.
 constexpr int kMessages = 3000;
 
 std_msgs::String text(int number) {
@@ -58,7 +63,7 @@ TEST_F(BagWriterTest, WritesAllMessagesInTheOrderInWhichTheyCame) {
   rosbag::View view(bag);
   ASSERT_EQ(kMessages, static_cast<int>(view.size()));
   std::vector<bool> found(kMessages, false);
-  int last_second = 0;
+  std::map<std::pair<std::string, std::size_t>, int> newest;
   for (const rosbag::MessageInstance& instance : view) {
     const auto message = instance.instantiate<std_msgs::String>();
     ASSERT_NE(nullptr, message);
@@ -66,9 +71,11 @@ TEST_F(BagWriterTest, WritesAllMessagesInTheOrderInWhichTheyCame) {
     EXPECT_EQ(text(i).data, message->data);
     EXPECT_EQ(time_of(i), instance.getTime());
     EXPECT_EQ(i % 3 == 0 ? "/a" : "/b", instance.getTopic());
-    EXPECT_EQ(i % 2 == 0 ? 0U : 1U, instance.getConnectionHeader()->count("latching"));
-    EXPECT_GE(i / 10, last_second);
-    last_second = i / 10;
+    const std::size_t is_latched = instance.getConnectionHeader()->count("latching");
+    EXPECT_EQ(i % 2 == 0 ? 0U : 1U, is_latched);
+    int& before = newest.emplace(std::make_pair(instance.getTopic(), is_latched), -1).first->second;
+    EXPECT_LT(before, i);
+    before = i;
     found[static_cast<std::size_t>(i)] = true;
   }
   EXPECT_EQ(kMessages, std::count(found.begin(), found.end(), true));
