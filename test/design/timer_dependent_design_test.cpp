@@ -2,13 +2,18 @@
 // independent program gave.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <optional>
+#include <random>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "design/analysis.h"
 #include "design/request_error.h"
 #include "design/rigorous_check.h"
 #include "design/run_time_figures.h"
+#include "design/worst_intervals.h"
 #include "timer_dependent_plants.h"
 
 namespace sampled_data_observers::test {
@@ -126,6 +131,42 @@ TEST(TimerDependentDesign, OfTwoSensorsIsRunAtTheirTimesToTheNanosecond) {
       run_time_figures(*design.certificate.theorem, subject, design.certificate.values, noise);
   EXPECT_LT(figures.factor_on_start, 1e5);
   EXPECT_LT(figures.time_to_hundredth, 100.0);
+}
+
+TEST(TimerDependentDesign, LeavesLessThanTheWorstIrregularTimesAtAnyOthers) {
+  const Eigen::Matrix2d A{(Eigen::Matrix2d() << 0.0, 1.0, 0.0, 0.0).finished()};
+  const Design design =
+      design_by("timer_dependent_constant_gain",
+                with_cells(linear_subject(A, Eigen::RowVector2d(1.0, 0.0), 0.1, 0.5), 4),
+                {{"lambda_t", 0.3}}, Objective::kFeasible);
+  CertificateSubject subject = design.certificate.subject;
+  const Theorem& theorem = *design.certificate.theorem;
+  const NamedMatrices& values = design.certificate.values;
+  ErrorAssumptions noise;
+  noise.noise = 1.0;
+  const double regular = final_error(theorem, subject, values, noise);
+  const std::optional<double> worst = worst_intervals_final_error(theorem, subject, values, noise);
+  ASSERT_TRUE(worst);
+  const auto bound = theorem.error_bound(subject, values, noise);
+  std::vector<double> workspace(static_cast<std::size_t>(bound->workspace_size()));
+  std::mt19937 random(1);
+  double largest = 0.0;
+  for (int run = 0; run < 20; ++run) {
+    std::vector<double> state(static_cast<std::size_t>(bound->state_size()));
+    bound->initialize(state.data());
+    for (int sample = 0; sample < 500; ++sample) {
+      // Noise of many short intervals adds up before a long one, in every second run.
+      const bool is_long = run % 2 == 0 ? sample % 50 == 49 : random() % 2 == 0;
+      bound->flow(is_long ? 0.5 : 0.1 + 1e-9 * static_cast<double>(random() % 1000), state.data());
+      largest = std::max(largest, bound->bound(state.data()));
+      bound->sample(0, state.data(), workspace.data());
+    }
+  }
+  EXPECT_GT(largest, 1.01 * regular);
+  EXPECT_LT(largest, 1.000001 * *worst);
+  EXPECT_GT(largest, 0.9 * *worst);
+  subject.T1 = subject.T2;
+  EXPECT_FALSE(worst_intervals_final_error(theorem, subject, values, noise));
 }
 
 TEST(TimerDependentAnalysis, OfUselessGainsEndsAtNoTime) {

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "design/final_error.h"
 #include "design/run_time_figures.h"
+#include "design/worst_intervals.h"
 #include "linear_algebra/matrix_functions.h"
 
 namespace sampled_data_observers {
@@ -17,6 +19,9 @@ namespace {
 constexpr double kManyIntervals = 1000.0;
 constexpr double kLargeAmplification = 100.0;
 constexpr double kLargeFactor = 1e4;
+
+/// By how much the bound after irregular times must be larger than after regular ones to be told.
+constexpr double kWorthALine = 1.001;
 
 std::string columns_of(const Eigen::MatrixXd& N) {
   std::string text = "[";
@@ -113,6 +118,11 @@ void print_run_time_figures(const Design& main, const ErrorAssumptions& assumpti
   std::printf("  in the end, for |noise| <= %.6g", bounded.noise);
   if (bounded.disturbance > 0.0) std::printf(" and |disturbance| <= %.6g", bounded.disturbance);
   std::printf(": %.6g\n", figures.final_error);
+  const std::optional<double> irregular = worst_intervals_final_error(
+      *certificate.theorem, certificate.subject, certificate.values, bounded);
+  if (irregular && *irregular > kWorthALine * figures.final_error) {
+    std::printf("    after the worst irregular times that were found: %.6g\n", *irregular);
+  }
   if (bounded.noise > 0.0 && may_follow_at_once(certificate.subject)) {
     std::printf("    of events T2 apart: T1 is 0, and of denser ones noise may leave more\n");
   }
