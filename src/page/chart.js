@@ -304,9 +304,10 @@ function valueAt(layer, time) {
     const i = series.indexAt(time);
     const {low, high} = series.level(0);
     const factor = layer.factor ?? 1;
-    const text = shortNumber(factor * high[i], 5);
-    const sign = layer.kind === "band" ? "±" : "";
-    return low[i] === high[i] || layer.kind === "band" ? sign + text : shortNumber(low[i], 4) + "…" + text;
+    if (layer.kind === "band") return "±" + shortNumber(factor * high[i], 5);
+    if (low[i] === high[i]) return shortNumber(high[i], 5);
+    const ends = [low[i], high[i]].sort((a, b) => a - b);  // which rounding may have exchanged
+    return ends.map((end) => shortNumber(end, 4)).join("…");
   }
   if (layer.kind === "stairs") {
     const i = countBelow(layer.times, time + 1e-9) - 1;

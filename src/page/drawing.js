@@ -24,6 +24,14 @@ function breakFinder(series, layer) {
   };
 }
 
+/** Whether values grow around an entry that stands for several: then the least of them came first, most likely. */
+function growsAt(entries, k) {
+  const middle = (i) => entries.low[i] + entries.high[i];
+  const before = middle(k - 1 >= entries.begin ? k - 1 : k);
+  const after = middle(k + 1 < entries.end ? k + 1 : k);
+  return !(after < before);
+}
+
 function drawLine(context, view, layer) {
   const {series} = layer;
   const entries = entriesToDraw(series, view);
@@ -36,14 +44,18 @@ function drawLine(context, view, layer) {
   let isDrawing = false;
   for (let k = entries.begin; k < entries.end; ++k) {
     const x = view.x(series.times[k * entries.size]);
-    const low = view.y(entries.low[k]);
-    if (!Number.isFinite(low)) {
+    const grows = !isBand || growsAt(entries, k);
+    const first = view.y((grows ? entries.low : entries.high)[k]);
+    if (!Number.isFinite(first)) {
       isDrawing = false;
       continue;
     }
-    if (isDrawing && !isBroken(entries, k)) context.lineTo(x, low);
-    else context.moveTo(x, low);
-    if (isBand) context.lineTo(x, view.y(entries.high[k]));
+    if (isDrawing && !isBroken(entries, k)) context.lineTo(x, first);
+    else context.moveTo(x, first);
+    if (isBand) {
+      const end = k + 1 < entries.end ? view.x(series.times[(k + 1) * entries.size]) : x;
+      context.lineTo(end, view.y((grows ? entries.high : entries.low)[k]));
+    }
     isDrawing = true;
   }
   context.stroke();
@@ -58,6 +70,8 @@ function drawBand(context, view, layer) {
   context.fillStyle = colour(layer.colour);
   context.globalAlpha = layer.alpha ?? 0.16;
   const factor = layer.factor ?? 1;
+  const isThinned = width.isThinned || widths.size > 1;
+  const around = centres ? {...centres, begin: widths.begin, end: widths.end, size: widths.size} : null;
   let upper = [];
   let lower = [];
   const close = () => {
@@ -73,15 +87,20 @@ function drawBand(context, view, layer) {
   for (let k = widths.begin; k < widths.end; ++k) {
     const x = view.x(width.times[k * widths.size]);
     const reach = factor * widths.high[k];
-    const top = view.y((centres ? centres.high[k] : 0) + reach);
-    const bottom = view.y(view.log ? 0 : (centres ? centres.low[k] : 0) - reach);
-    if (!Number.isFinite(top)) {
+    if (!Number.isFinite(view.y((around ? around.high[k] : 0) + reach))) {
       close();
       continue;
     }
-    if (centres && upper.length > 0 && isBroken({...centres, size: widths.size}, k)) close();
-    upper.push([x, top]);
-    lower.push([x, bottom]);
+    if (around && upper.length > 0 && isBroken(around, k)) close();
+    const push = (at, middle) => {
+      upper.push([at, view.y(middle + reach)]);
+      lower.push([at, view.y(view.log ? 0 : middle - reach)]);
+    };
+    const grows = !around || growsAt(around, k);
+    push(x, around ? (grows ? around.low : around.high)[k] : 0);
+    if (!isThinned) continue;
+    const end = k + 1 < widths.end ? view.x(width.times[(k + 1) * widths.size]) : x;
+    push(end, around ? (grows ? around.high : around.low)[k] : 0);
   }
   close();
   context.globalAlpha = 1;
