@@ -143,6 +143,39 @@ class AxesTest(PageTest):
                 self.assertAlmostEqual(said, 10 ** tick["value"], delta=1e-6 * said)
 
 
+class CurvesTest(PageTest):
+    THINNED = """(() => {
+      %s
+      const points = [];
+      const note = (x, y) => points.push([x, y]);
+      const context = {beginPath() {}, stroke() {}, fill() {}, moveTo: note, lineTo: note};
+      const view = {from: 0, to: 1000, left: 0, right: 1000, x: (t) => t, y: (v) => v};
+      // Entries of ten stamps each, one value for each stamp: the stamp, or its distance from the end.
+      const times = Float64Array.from({length: 100}, (_, k) => 10 * k);
+      const thinned = (low, high) => Object.assign(new Series(times, {high: {}}), {levels: [{low: times.map(low), high: times.map(high)}]});
+      const rises = thinned((t) => t, (t) => t + 9);
+      const falls = thinned((t) => 991 - t, (t) => 1000 - t);
+      const drawn = (draw, layer) => { points.length = 0; draw(context, view, {colour: "estimate", ...layer}); return [...points]; };
+      return {rises: drawn(drawLine, {series: rises}), falls: drawn(drawLine, {series: falls}),
+              band: drawn(drawBand, {centre: rises, width: thinned(() => 5, () => 5)})};
+    })()"""
+
+    def test_thinned_curves_go_through_what_they_stand_for_and_bands_around_it(self):
+        self.browser.show("data:text/html,<script type=application/json id=data>{}</script>")
+        scripts = []
+        for name in ("data", "axes", "drawing"):
+            with open(os.path.join(ROOT, "src", "page", name + ".js"), encoding="utf-8") as file:
+                scripts.append(file.read())
+        drawn = self.browser.run(self.THINNED % "".join(scripts))
+        self.assertEqual([len(drawn[key]) for key in ("rises", "falls", "band")], [200, 200, 400])
+        for x, y in drawn["rises"]:
+            self.assertLessEqual(abs(y - x), 9 if x == 990 else 1, x)  # the last entry has no end
+        for x, y in drawn["falls"]:
+            self.assertLessEqual(abs(1000 - y - x), 9 if x == 990 else 1, x)
+        for x, y in drawn["band"]:
+            self.assertLessEqual(abs(abs(y - x) - 5), 9 if x == 990 else 1, x)
+
+
 class ReportTest(PageTest):
     def report(self, scenario, *observer):
         run_tool("simulate", scenario, "-o", self.path("run.bag"))
