@@ -3,6 +3,7 @@
 // beside the paper's times.
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <string>
@@ -10,6 +11,7 @@
 
 #include "config/design_config.h"
 #include "design/design_method.h"
+#include "design/threads.h"
 #include "design/workers.h"
 
 namespace sdo = sampled_data_observers;
@@ -31,12 +33,16 @@ double value(double low, double high, std::size_t i, std::size_t steps) {
   return low + (high - low) * static_cast<double>(i) / static_cast<double>(steps - 1);
 }
 
-/// Processor time of all workers that have ended [s].
-double worker_seconds() {
-  rusage usage{};
-  ::getrusage(RUSAGE_CHILDREN, &usage);
-  return static_cast<double>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
-         1e-6 * static_cast<double>(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
+/// Processor time of this process, and of the other solver's, which have ended [s].
+double worked_seconds() {
+  double seconds = 0.0;
+  for (const auto who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
+    rusage usage{};
+    ::getrusage(who, &usage);
+    seconds += static_cast<double>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
+               1e-6 * static_cast<double>(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
+  }
+  return seconds;
 }
 
 void run(const Row& row, const sdo::DesignConfig& config, unsigned jobs) {
@@ -46,8 +52,8 @@ void run(const Row& row, const sdo::DesignConfig& config, unsigned jobs) {
       dynamic_cast<const sdo::LmiDesignMethod&>(*sdo::find_design_method(row.method));
   /// Gains for all times between samples up to T2 are some for all up to less: what the solver
   /// calls infeasible is so for each larger T2 at the same delta, too, and is not tried.
-  const auto task = [&](std::size_t i) -> std::string {
-    std::string outcomes;
+  std::vector<std::string> found(kDeltas);
+  const auto task = [&](std::size_t i) {
     for (std::size_t j = 0; j < kTimes; ++j) {
       sdo::CertificateSubject subject = config.subject;
       subject.T2 = value(0.01, 0.3, j, kTimes);
@@ -61,26 +67,27 @@ void run(const Row& row, const sdo::DesignConfig& config, unsigned jobs) {
                                                  ? method.attempt(subject, parameters, objective)
                                                  : method.solve(subject, parameters, objective);
       if (candidate.values.empty()) break;
-      outcomes += candidate.is_verified() ? kVerified : kViolated;
+      found[i] += candidate.is_verified() ? kVerified : kViolated;
     }
-    return outcomes;
   };
-  sdo::WorkerOptions options;
+  sdo::ThreadOptions options;
   options.jobs = jobs;
-  std::size_t verified = 0;
-  std::size_t violated = 0;
-  std::size_t lost = 0;
-  options.on_outcome = [&](std::size_t, const sdo::WorkerOutcome& outcome) {
-    if (outcome.status != sdo::WorkerOutcome::Status::kDone) ++lost;
-    for (const char one : outcome.result) ++(one == kVerified ? verified : violated);
-  };
-  const double worked = worker_seconds();
+  const double worked = worked_seconds();
   const auto start = std::chrono::steady_clock::now();
-  sdo::run_in_workers(kDeltas, task, options);
+  const auto outcomes = sdo::run_in_threads(kDeltas, task, options);
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  std::size_t verified = 0;
+  std::size_t violated = 0;
+  for (const std::string& of_delta : found) {
+    for (const char one : of_delta) ++(one == kVerified ? verified : violated);
+  }
+  const auto lost = static_cast<std::size_t>(
+      std::count_if(outcomes.begin(), outcomes.end(), [](const sdo::ThreadOutcome& outcome) {
+        return outcome.status != sdo::ThreadOutcome::Status::kDone;
+      }));
   std::printf("%-26s %-10s %9.2f %9.2f %9s %9zu %9zu %9zu\n", row.method,
-              row.is_analysed ? "and proof" : "", seconds, worker_seconds() - worked,
+              row.is_analysed ? "and proof" : "", seconds, worked_seconds() - worked,
               row.seconds_in_paper, verified, violated, lost);
   std::fflush(stdout);
 }

@@ -274,5 +274,33 @@ TEST(Ferrante2019Designs, ReachLongerTimesAndFasterRatesThanTheStart) {
   EXPECT_GT(scalar_value(fastest.certificate.values, "lambda_t"), 0.05);
 }
 
+// By which the bench of Table II, and every search for the longest T2, leaves out what is above.
+TEST(Ferrante2019Designs, WhatIsInfeasibleAtT2IsSoAboveForTheSameDelta) {
+  for (const int number : {2, 3, 4, 5}) {
+    int feasible = 0;
+    int infeasible_above = 0;
+    for (const double delta : {1.0, 5.0, 10.0, 25.0, 60.0, 100.0}) {
+      bool is_above = false;
+      for (const double T2 : {0.02, 0.06, 0.12, 0.2, 0.3}) {
+        const Parameters parameters = {
+            {"lambda_t", 0.01}, {"delta", delta}, {"gain_bound", 1000.0}, {"a", 1.0}};
+        const SolverStatus status =
+            solve_with_interior_point(
+                proposition(number).program(flexible_link(T2), parameters, Objective::kMinGamma))
+                .status;
+        if (is_above) {
+          EXPECT_EQ(status, SolverStatus::kInfeasible)
+              << number << ", delta = " << delta << ", T2 = " << T2;
+          ++infeasible_above;
+        }
+        is_above = status == SolverStatus::kInfeasible;
+        feasible += status == SolverStatus::kSolved ? 1 : 0;
+      }
+    }
+    EXPECT_GE(feasible, 5) << number;
+    EXPECT_GE(infeasible_above, 5) << number;
+  }
+}
+
 }  // namespace
 }  // namespace sampled_data_observers
