@@ -39,8 +39,8 @@ std::vector<double> digit_tables(std::size_t block, const Step& none, const Unit
   constexpr std::size_t kComposed = kDigits / 2;  // larger digits are no part of others
   constexpr std::size_t kDigitsOfLastPlace = std::size_t{1} << (63 - kDigitBits * (kPlaces - 1));
   constexpr std::size_t kBlocks = (kDigits - 1) * (kPlaces - 1) + kDigitsOfLastPlace - 1;
-  std::vector<double> tables(block * kBlocks);
-  double* table = tables.data();
+  std::vector<double> tables;
+  tables.reserve(block * kBlocks);
   Step first = none;
   bool is_doubled = false;
   for (int place = 0; place < kPlaces; ++place) {
@@ -49,14 +49,14 @@ std::vector<double> digit_tables(std::size_t block, const Step& none, const Unit
     is_doubled = is_doubled || doublings(scale) > 0;
     const std::size_t end = place + 1 < kPlaces ? kDigits : kDigitsOfLastPlace;
     std::vector<Step> digits = {none};
-    for (std::size_t d = 1; d < end; ++d, table += block) {
+    for (std::size_t d = 1; d < end; ++d) {
       Step step = d > 1 ? compose(digits[d / 2], digits[d - d / 2]) : first;
       if (!step.is_finite()) {
-        tables.resize(static_cast<std::size_t>(table - tables.data()));
         tables.shrink_to_fit();
         return tables;
       }
-      write(step, table);
+      tables.resize(tables.size() + block);
+      write(step, tables.data() + tables.size() - block);
       if (d <= kComposed) digits.push_back(std::move(step));
     }
   }

@@ -1,5 +1,7 @@
 #include "linear_algebra/shared_tables.h"
 
+#include <malloc.h>
+
 #include <map>
 #include <mutex>
 #include <utility>
@@ -45,7 +47,11 @@ KnownTables& known_tables() {
 Tables shared_tables(std::vector<double> key, const std::function<std::vector<double>()>& make) {
   Tables tables = known_tables().find(key);
   if (tables) return tables;
-  return known_tables().add(std::move(key), std::make_shared<const std::vector<double>>(make()));
+  tables = std::make_shared<const std::vector<double>>(make());
+  // What they were made of, as much again, goes back to the system where it is worth the while.
+  constexpr std::size_t kLarge = 1U << 17U;
+  if (tables->size() >= kLarge) ::malloc_trim(0);
+  return known_tables().add(std::move(key), tables);
 }
 
 }  // namespace sampled_data_observers
