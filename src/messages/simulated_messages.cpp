@@ -10,24 +10,35 @@
 #include "sampled_data_observers/messages/message_source.h"
 
 namespace sampled_data_observers {
+namespace {
 
-MessageEncoder::MessageEncoder(const TopicSource& source, const std::optional<NavSatDatum>& navsat,
-                               double variance)
-    : has_mode_(source.has_mode) {
+ConfigError field_set_twice(const std::string& text, const TopicSource& source) {
+  return {source.origin, source.path + "/fields",
+          "fields that each have one value in a simulated message: for another sensor or input of "
+          "the same field, a topic of its own",
+          "'" + text + "', which another value sets already"};
+}
+
+}  // namespace
+
+MessageEncoder::MessageEncoder(const std::vector<SimulatedReading>& readings,
+                               const std::optional<NavSatDatum>& navsat)
+    : has_mode_(readings.front().source.has_mode) {
+  const TopicSource& source = readings.front().source;
   const auto transforms = std::make_shared<TransformBuffer>(std::vector<StaticTransform>(), navsat);
-  make_message_source(source, transforms);
+  for (const SimulatedReading& reading : readings) {
+    make_message_source(reading.source, transforms);  // which refuses what can't be read
+  }
   plane_ = transforms->plane();
   definition_ = installed_definition(source.type);
-  if (source.has_mode) add_field(source.mode);
-  const bool is_transform = source.frames.are_wanted_themselves();
-  const std::string prefix = is_transform ? "transforms.0.transform." : "";
-  for (const std::string& field : source.fields) add_field(prefix + field);
-  if (variance > 0.0) add_variances(source, prefix, variance);
+  if (source.has_mode) add_field(source.mode, source);
+  for (const SimulatedReading& reading : readings) add_reading(reading);
   if (!fixes_.empty() && !plane_->datum()) {
     throw ConfigError(source.origin, source.path + "/fields",
                       "a navsat/datum of numbers, since nobody knows where the simulated plant is",
                       "datum: first_fix");
   }
+  const bool is_transform = source.frames.are_wanted_themselves();
   std::optional<MessagePath> header = find_header(*definition_);
   if (is_transform) {
     const PathStep first{0, PathStep::Entry::kIndex, 0, ""};
@@ -40,9 +51,13 @@ MessageEncoder::MessageEncoder(const TopicSource& source, const std::optional<Na
                           MessageItem::Kind kind) {
     items_.push_back({{path_to(*definition_, from, {name})}, kind});
   };
-  if (header && !source.frames.frame.empty()) {
+  const auto has_frame = [](const SimulatedReading& reading) {
+    return !reading.source.frames.frame.empty();
+  };
+  const auto in_frame = std::find_if(readings.begin(), readings.end(), has_frame);
+  if (header && in_frame != readings.end()) {
     add_at(*header, "frame_id", MessageItem::Kind::kText);
-    items_.back().text = source.frames.frame;
+    items_.back().text = in_frame->source.frames.frame;
   }
   if (header) add_at(*header, "stamp", MessageItem::Kind::kTime);
   if (source.type == "std_msgs/Time") add_at({}, "data", MessageItem::Kind::kTime);
@@ -53,8 +68,35 @@ MessageEncoder::MessageEncoder(const TopicSource& source, const std::optional<Na
   (*connection_)["message_definition"] = definition_->text();
 }
 
-void MessageEncoder::add_field(const std::string& text) {
+void MessageEncoder::add_reading(const SimulatedReading& reading) {
+  const bool is_transform = reading.source.frames.are_wanted_themselves();
+  const std::string prefix = is_transform ? "transforms.0.transform." : "";
+  for (const std::string& field : reading.source.fields) add_field(prefix + field, reading.source);
+  if (reading.variance > 0.0) add_variances(reading, prefix);
+}
+
+/// A number can be written once only, and a quaternion by its numbers or by its angles.
+void MessageEncoder::require_free(const MessageField& field, const std::string& text,
+                                  const TopicSource& source) const {
+  const auto is_angle = [](const MessageField& of) {
+    return of.derived != MessageField::Derived::kNone && !of.is_in_plane();
+  };
+  const auto is_within = [](const MessagePath& inner, const MessagePath& outer) {
+    return inner.size() == outer.size() + 1 &&
+           std::equal(outer.begin(), outer.end(), inner.begin());
+  };
+  for (const MessageItem& item : items_) {
+    const MessageField& other = item.field;
+    const bool is_same = other.path == field.path && other.derived == field.derived;
+    const bool is_quaternion = (is_angle(field) && is_within(other.path, field.path)) ||
+                               (is_angle(other) && is_within(field.path, other.path));
+    if (is_same || is_quaternion) throw field_set_twice(text, source);
+  }
+}
+
+void MessageEncoder::add_field(const std::string& text, const TopicSource& source) {
   const MessageField field = *find_field(*definition_, text);
+  require_free(field, text, source);
   const std::size_t value = item_of_.size();
   item_of_.emplace_back();
   if (!field.is_in_plane()) {
@@ -66,12 +108,14 @@ void MessageEncoder::add_field(const std::string& text) {
   const auto found = std::find_if(fixes_.begin(), fixes_.end(), is_there);
   Fix& fix = found == fixes_.end() ? fixes_.emplace_back(Fix{field.path, {}}) : *found;
   const auto east = static_cast<std::size_t>(MessageField::Derived::kEast);
-  fix.values.at(static_cast<std::size_t>(field.derived) - east) = value;
+  std::optional<std::size_t>& place = fix.values.at(static_cast<std::size_t>(field.derived) - east);
+  if (place) throw field_set_twice(text, source);
+  place = value;
 }
 
 /// Where the messages have those of the values.
-void MessageEncoder::add_variances(const TopicSource& source, const std::string& prefix,
-                                   double variance) {
+void MessageEncoder::add_variances(const SimulatedReading& reading, const std::string& prefix) {
+  const TopicSource& source = reading.source;
   constexpr double kDiagonalIsKnown = 2.0;  // sensor_msgs/NavSatFix
   const auto add = [&](const MessagePath& path, double number) {
     items_.push_back({{path}});
@@ -83,7 +127,7 @@ void MessageEncoder::add_variances(const TopicSource& source, const std::string&
     if (!place) continue;
     const Eigen::VectorXd& scales = source.correction.scale;
     const double scale = scales.size() == 0 ? 1.0 : scales(static_cast<Eigen::Index>(i));
-    add(place->path_with(*place), variance / (scale * scale));
+    add(place->path_with(*place), reading.variance / (scale * scale));
     const auto type = CovarianceFields::type_of(*definition_, *place);
     if (type) add(*type, kDiagonalIsKnown);
   }
@@ -129,8 +173,9 @@ SimulatedMessages::SimulatedMessages(const std::vector<SimulatedChannel>& channe
     : channels_(channels) {
   for (const SimulatedChannel& channel : channels_) {
     encoders_.emplace_back();
-    const bool is_own = !channel.source || channel.source->is_of_own_type();
-    if (!is_own) encoders_.back().emplace(*channel.source, navsat, channel.variance);
+    const std::vector<SimulatedReading>& readings = channel.readings;
+    const bool is_own = readings.empty() || readings.front().source.is_of_own_type();
+    if (!is_own) encoders_.back().emplace(readings, navsat);
   }
 }
 
@@ -158,14 +203,17 @@ ros::Publisher SimulatedMessages::advertise(std::size_t channel, ros::NodeHandle
 
 SimulatedMessage SimulatedMessages::uncorrected(const SimulatedChannel& channel,
                                                 SimulatedMessage message) {
-  if (!channel.source) return message;
-  const ValueCorrection& correction = channel.source->correction;
-  for (std::size_t i = 0; i < message.values.size(); ++i) {
-    const auto entry = static_cast<Eigen::Index>(i);
-    if (correction.offset.size() > 0) message.values[i] -= correction.offset(entry);
-    if (correction.scale.size() > 0) message.values[i] /= correction.scale(entry);
+  std::size_t value = 0;
+  for (const SimulatedReading& reading : channel.readings) {
+    const ValueCorrection& correction = reading.source.correction;
+    const std::size_t first = value;
+    for (; value < std::min(first + reading.source.size, message.values.size()); ++value) {
+      const auto entry = static_cast<Eigen::Index>(value - first);
+      if (correction.offset.size() > 0) message.values[value] -= correction.offset(entry);
+      if (correction.scale.size() > 0) message.values[value] /= correction.scale(entry);
+    }
   }
-  message.stamp -= channel.source->stamp_offset;
+  if (!channel.readings.empty()) message.stamp -= channel.readings.front().source.stamp_offset;
   return message;
 }
 

@@ -20,18 +20,17 @@
 
 namespace sampled_data_observers {
 
-/// Messages of a type that a source reads, with the values that it is to find in them.
+/// Messages of a type that sources read, with the values that these are to find in them. They hold
+/// the variance of the noise, too, where it is known and their type has a place for it.
 class MessageEncoder {
  public:
+  /// @param readings  of one type, at least one; values of messages are those of one after the
+  ///   other
   /// @param navsat  the local plane, for values in it
-  /// @throws ConfigError for a type or field that does not exist, frames that its messages have
-  /// no use for, or a local plane whose datum is not given.
-  /// @param variance  of the noise of each event's value, for messages that tell of it; 0: it is
-  /// not
-  ///   known
-  explicit MessageEncoder(const TopicSource& source,
-                          const std::optional<NavSatDatum>& navsat = std::nullopt,
-                          double variance = 0.0);
+  /// @throws ConfigError for a type or field that does not exist, a field that is read twice,
+  /// frames that its messages have no use for, or a local plane whose datum is not given.
+  explicit MessageEncoder(const std::vector<SimulatedReading>& readings,
+                          const std::optional<NavSatDatum>& navsat = std::nullopt);
 
   RawMessage encode(const SimulatedMessage& from) const;
 
@@ -45,8 +44,11 @@ class MessageEncoder {
     std::array<std::optional<std::size_t>, 3> values;  ///< east, north, up
   };
 
-  void add_field(const std::string& text);
-  void add_variances(const TopicSource& source, const std::string& prefix, double variance);
+  void add_reading(const SimulatedReading& reading);
+  void add_field(const std::string& text, const TopicSource& source);
+  void add_variances(const SimulatedReading& reading, const std::string& prefix);
+  void require_free(const MessageField& field, const std::string& text,
+                    const TopicSource& source) const;
   void add_fix(const Fix& fix, const std::vector<double>& values,
                std::vector<MessageItem>& items) const;
 
@@ -93,7 +95,7 @@ class SimulatedMessages {
   }
 
  private:
-  /// With the stamp and values that the source corrects to those simulated.
+  /// With the stamp and values that the sources correct to those simulated.
   static SimulatedMessage uncorrected(const SimulatedChannel& channel, SimulatedMessage message);
   template <class M>
   static M made(const SimulatedChannel& channel, const SimulatedMessage& from) {

@@ -16,6 +16,11 @@ struct Delivery {
   double loss = 0.0;
   double duplication = 0.0;
   double reordering = 0.0;
+
+  bool operator==(const Delivery& other) const {
+    return shortest == other.shortest && longest == other.longest && loss == other.loss &&
+           duplication == other.duplication && reordering == other.reordering;
+  }
 };
 
 /// Gives the messages of one topic their times of arrival. They arrive in the order in which they

@@ -1,7 +1,6 @@
 #include "simulation/scenario_config.h"
 
 #include <algorithm>
-#include <map>
 #include <utility>
 
 #include "config/expression_config.h"
@@ -11,6 +10,7 @@
 #include "sampled_data_observers/config/yaml_file.h"
 #include "simulation/sampling_check.h"
 #include "simulation/schedule_config.h"
+#include "simulation/topic_check.h"
 
 namespace sampled_data_observers {
 namespace {
@@ -59,6 +59,7 @@ class ScenarioReader {
     read_signals();
     read_jumps();
     section_.finish();
+    check_topics(scenario_);
     return std::move(scenario_);
   }
 
@@ -138,15 +139,6 @@ class ScenarioReader {
     if (!source.frames.body_frame.empty()) {
       throw ConfigError(source.origin, source.path + "/body_frame",
                         "none (no transforms are simulated)", "'" + source.frames.body_frame + "'");
-    }
-    // All that does not hold what a source is about is none of its own then.
-    const bool may_share = source.is_of_own_type() || source.frames.are_wanted_themselves();
-    const auto [other, is_alone] = topics_.emplace(source.topic, may_share);
-    if (!is_alone && !(other->second && may_share)) {
-      throw ConfigError(source.origin, source.path + "/topic",
-                        "a topic of its own: a message is simulated for each sensor and input, and "
-                        "would hold nothing for the others",
-                        "'" + source.topic + "'");
     }
     return source;
   }
@@ -358,8 +350,6 @@ class ScenarioReader {
 
   ConfigSection& root_;
   Scenario scenario_;
-  /// Of sensors, inputs and jumps, and whether the package's own types are on them.
-  std::map<std::string, bool> topics_;
   ExpressionNames names_;
   ConfigSection section_;
 };

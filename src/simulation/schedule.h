@@ -24,6 +24,12 @@ struct Schedule {
   Duration first = 0;
   /// Strictly increasing.
   std::vector<Duration> times;
+
+  /// Whether both are described alike.
+  bool operator==(const Schedule& other) const {
+    return kind == other.kind && T1 == other.T1 && T2 == other.T2 && first == other.first &&
+           times == other.times;
+  }
 };
 
 /// The times of a schedule, one after the other.

@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <utility>
 
+#include "simulation/topic_check.h"
+
 namespace sampled_data_observers {
 
 Simulator::Simulator(Scenario scenario)
@@ -16,15 +18,9 @@ Simulator::Simulator(Scenario scenario)
   using Kind = SimulatedChannel::Kind;
   for (std::size_t i = 0; i < scenario_.sensors.size(); ++i) add_sensor(i);
   for (const SignalScenario& signal : scenario_.signals) add_signal(signal);
-  if (scenario_.input) {
-    for (const TopicSource& source : scenario_.input->sources) {
-      const std::size_t input_channel = input_channels_.size();
-      input_channels_.push_back(add_channel(Kind::kInput, source));
-      channels_.back().input_channel = input_channel;
-    }
-  }
+  if (scenario_.input) add_inputs();
   if (scenario_.jumps) {
-    jump_channel_ = add_channel(Kind::kJump, scenario_.jumps_source);
+    jump_channel_ = add_reading(Kind::kJump, {scenario_.jumps_source});
     if (scenario_.jumps->schedule) {
       jump_times_.emplace(*scenario_.jumps->schedule, stream("jumps/schedule"));
       next_jump_ = jump_times_->next();
@@ -35,14 +31,31 @@ Simulator::Simulator(Scenario scenario)
 }
 
 std::size_t Simulator::add_channel(SimulatedChannel::Kind kind, const std::string& topic) {
-  channels_.push_back({kind, topic, {}, 0});
+  channels_.push_back({kind, topic});
   return channels_.size() - 1;
 }
 
-std::size_t Simulator::add_channel(SimulatedChannel::Kind kind, const TopicSource& source) {
-  const std::size_t channel = add_channel(kind, source.topic);
-  channels_[channel].source = source;
+/// To the channel of those that share its messages, or to one of its own.
+std::size_t Simulator::add_reading(SimulatedChannel::Kind kind, const SimulatedReading& reading) {
+  const auto found =
+      std::find_if(channels_.begin(), channels_.end(), [&](const SimulatedChannel& channel) {
+        return !channel.readings.empty() &&
+               share_messages(channel.readings.front().source, reading.source);
+      });
+  const std::size_t channel = found != channels_.end()
+                                  ? static_cast<std::size_t>(found - channels_.begin())
+                                  : add_channel(kind, reading.source.topic);
+  channels_[channel].readings.push_back(reading);
   return channel;
+}
+
+void Simulator::add_inputs() {
+  const std::vector<TopicSource>& sources = scenario_.input->sources;
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    const std::size_t channel = add_reading(SimulatedChannel::Kind::kInput, {sources[i], 0.0, i});
+    const bool is_new = channels_[channel].readings.size() == 1;
+    if (is_new) input_channels_.push_back(channel);
+  }
 }
 
 void Simulator::add_sensor(std::size_t sensor) {
@@ -52,18 +65,20 @@ void Simulator::add_sensor(std::size_t sensor) {
                      nullptr,
                      &scenario.noise,
                      std::nullopt,
+                     false,
                      std::nullopt,
                      std::nullopt,
                      stream(name + "/noise"),
                      DeliveryLine(scenario.delivery, stream(name + "/delivery")),
                      stream(name + "/false_noise")};
   if (scenario.source) {
-    added.channel = add_channel(SimulatedChannel::Kind::kMeasurement, *scenario.source);
-    channels_.back().variance = variance_of(scenario.noise);
+    added.channel = add_reading(SimulatedChannel::Kind::kMeasurement,
+                                {*scenario.source, variance_of(scenario.noise)});
+    added.follows = channels_[*added.channel].readings.size() > 1;
   } else {
     values_in_jumps_ = true;
   }
-  if (scenario.schedule) {
+  if (scenario.schedule && !added.follows) {
     added.times.emplace(*scenario.schedule, stream(name + "/schedule"));
     added.next = added.times->next();
   }
@@ -76,6 +91,7 @@ void Simulator::add_signal(const SignalScenario& signal) {
                      &signal,
                      &signal.noise,
                      add_channel(SimulatedChannel::Kind::kSignal, signal.topic),
+                     false,
                      ScheduledTimes(signal.schedule, stream(name + "/schedule")),
                      std::nullopt,
                      stream(name + "/noise"),
@@ -85,9 +101,8 @@ void Simulator::add_signal(const SignalScenario& signal) {
   sensors_.push_back(std::move(added));
 }
 
-bool Simulator::is_sampled(const SensorStream& stream) const {
-  return stream.sensor &&
-         scenario_.plant->sensors()[*stream.sensor].timing == SensorTiming::kSampled;
+bool Simulator::is_timed(const SensorStream& stream, SensorTiming timing) const {
+  return stream.sensor && scenario_.plant->sensors()[*stream.sensor].timing == timing;
 }
 
 std::optional<SimulatedMessage> Simulator::next() {
@@ -133,7 +148,8 @@ void Simulator::step() {
   if (detection_.false_alarm() == time) raise_false_alarm();
   for (const bool sampled : {false, true}) {
     for (SensorStream& sensor : sensors_) {
-      if (sensor.next == time && is_sampled(sensor) == sampled) measure(sensor);
+      const bool is_sampled = is_timed(sensor, SensorTiming::kSampled);
+      if (sensor.next == time && is_sampled == sampled) measure(sensor);
     }
   }
   if (next_truth_ == time) {
@@ -150,12 +166,8 @@ void Simulator::change_input() {
   Eigen::VectorXd u(plant_.input().size());
   scenario_.input->formulas->evaluate(arguments.data(), nullptr, u.data());
   plant_.set_input(u);
-  for (std::size_t i = 0; i < input_channels_.size(); ++i) {
-    std::vector<double> values;
-    for (const Eigen::Index input : scenario_.plant->input_channels()[i].inputs) {
-      values.push_back(u(input));
-    }
-    send(message_now(input_channels_[i], std::move(values)), {now()});
+  for (const std::size_t channel : input_channels_) {
+    send(message_now(channel, values_on(channel)), {now()});
   }
   next_input_ += scenario_.input->period;
 }
@@ -194,10 +206,18 @@ void Simulator::raise_false_alarm() {
 Simulator::JumpOutputs Simulator::jump_outputs(bool is_false) {
   JumpOutputs result;
   for (SensorStream& sensor : sensors_) {
-    if (sensor.times) continue;
+    if (!is_timed(sensor, SensorTiming::kAtJumps)) continue;
     const std::vector<double> y = outputs(sensor, is_false ? sensor.false_noise : sensor.noise);
     if (values_in_jumps_) result.values.insert(result.values.end(), y.begin(), y.end());
-    if (sensor.channel) result.sent.emplace_back(&sensor, y);
+    if (!sensor.channel) continue;
+    if (!sensor.follows) {
+      result.sent.emplace_back(&sensor, y);
+      continue;
+    }
+    const auto shared = std::find_if(result.sent.begin(), result.sent.end(), [&](const auto& sent) {
+      return sent.first->channel == sensor.channel;
+    });
+    shared->second.insert(shared->second.end(), y.begin(), y.end());
   }
   return result;
 }
@@ -218,8 +238,26 @@ void Simulator::tell(const JumpOutputs& measured, int mode, Stamp stamp) {
 }
 
 void Simulator::measure(SensorStream& stream) {
-  send(message_now(*stream.channel, outputs(stream, stream.noise)), stream.delivery.send(now()));
+  send(message_now(*stream.channel, values_on(*stream.channel)), stream.delivery.send(now()));
   stream.next = stream.times->next();
+}
+
+/// Of all that is read there, as it is now: of sensors, then of inputs, which are added later.
+std::vector<double> Simulator::values_on(std::size_t channel) {
+  std::vector<double> values;
+  for (SensorStream& stream : sensors_) {
+    if (stream.channel != channel) continue;
+    const std::vector<double> y = outputs(stream, stream.noise);
+    values.insert(values.end(), y.begin(), y.end());
+  }
+  for (const SimulatedReading& reading : channels_[channel].readings) {
+    if (!reading.input_channel) continue;
+    for (const Eigen::Index input :
+         scenario_.plant->input_channels()[*reading.input_channel].inputs) {
+      values.push_back(plant_.input()(input));
+    }
+  }
+  return values;
 }
 
 std::vector<double> Simulator::exact_outputs(const SensorStream& stream) const {

@@ -15,20 +15,27 @@
 
 namespace sampled_data_observers {
 
+/// What an observer reads in the messages of a topic.
+struct SimulatedReading {
+  TopicSource source;
+  /// Of the noise of each value; 0 where it is not known.
+  double variance = 0.0;
+  /// Of inputs: which of the plant's channels they are.
+  std::optional<std::size_t> input_channel = {};
+};
+
 /// A topic on which a simulation sends.
 struct SimulatedChannel {
   enum class Kind { kMeasurement, kSignal, kInput, kJump, kTruth };
 
+  /// That of its first reading.
   Kind kind = Kind::kMeasurement;
   std::string topic;
   /// Of the truth: names of the states.
-  std::vector<std::string> names;
-  /// Of inputs: which of the plant's channels it is.
-  std::size_t input_channel = 0;
-  /// How observers read its messages; nothing for signals and the truth.
-  std::optional<TopicSource> source = {};
-  /// Of the noise of each value; 0 where it is not known.
-  double variance = 0.0;
+  std::vector<std::string> names = {};
+  /// None for signals and the truth; several where sensors and inputs share messages. A message has
+  /// the values of one after the other.
+  std::vector<SimulatedReading> readings = {};
 };
 
 /// A message that a robot's sensors would send.
@@ -38,8 +45,8 @@ struct SimulatedMessage {
   Stamp stamp = 0;
   /// When it is received.
   Stamp arrival = 0;
-  /// The outputs, inputs or true states. Of jump events: the outputs measured at jumps, where any
-  /// of them has no topic of its own.
+  /// The outputs, inputs or true states. Of several readings: one after the other. Of jump events:
+  /// the outputs measured at jumps, where any of them has no topic of its own.
   std::vector<double> values;
   /// Label of the mode after a jump.
   int mode = 0;
@@ -92,6 +99,8 @@ class Simulator {
     const SignalScenario* signal;
     const Noise* added;
     std::optional<std::size_t> channel;
+    /// Whether its values come in the messages of a sensor before it, when that measures.
+    bool follows;
     std::optional<ScheduledTimes> times;
     std::optional<Duration> next;
     RandomNumbers noise;
@@ -116,7 +125,8 @@ class Simulator {
 
   RandomNumbers stream(const std::string& name) const { return {scenario_.seed, name}; }
   std::size_t add_channel(SimulatedChannel::Kind kind, const std::string& topic);
-  std::size_t add_channel(SimulatedChannel::Kind kind, const TopicSource& source);
+  std::size_t add_reading(SimulatedChannel::Kind kind, const SimulatedReading& reading);
+  void add_inputs();
   void add_sensor(std::size_t sensor);
   void add_signal(const SignalScenario& signal);
   Duration next_time() const;
@@ -126,6 +136,7 @@ class Simulator {
   void raise_false_alarm();
   std::string describe_rest() const;
   void measure(SensorStream& stream);
+  std::vector<double> values_on(std::size_t channel);
   std::vector<double> exact_outputs(const SensorStream& stream) const;
   std::vector<double> outputs(const SensorStream& stream, RandomNumbers& random) const;
   JumpOutputs jump_outputs(bool is_false);
@@ -133,12 +144,13 @@ class Simulator {
   SimulatedMessage message_now(std::size_t channel, std::vector<double> values) const;
   void send(SimulatedMessage message, const std::vector<Stamp>& arrivals);
   Stamp now() const { return scenario_.start + plant_.time(); }
-  bool is_sampled(const SensorStream& stream) const;
+  bool is_timed(const SensorStream& stream, SensorTiming timing) const;
 
   const Scenario scenario_;
   SimulatedPlant plant_;
   std::vector<SimulatedChannel> channels_;
   std::vector<SensorStream> sensors_;
+  /// Those whose messages hold nothing but inputs.
   std::vector<std::size_t> input_channels_;
   std::size_t jump_channel_ = 0;
   std::size_t truth_channel_ = 0;

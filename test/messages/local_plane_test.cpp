@@ -161,13 +161,13 @@ TEST(LocalPlaneTest, SimulatedPlacesAreReadBack) {
   message.stamp = kStamp;
   message.values = {120.0, -3.0, -450.0, 5.0};
   const MessageEncoder encoder(
-      source<sensor_msgs::NavSatFix>({"north", "up", "east", "status.service"}), kVienna);
+      {{source<sensor_msgs::NavSatFix>({"north", "up", "east", "status.service"})}}, kVienna);
   const test::Read read = test::read(receiver.messages(), encoder.encode(message));
   ASSERT_EQ(4u, read.values.size());
   for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(message.values[i], read.values[i], 1e-6);
   EXPECT_EQ(kStamp, read.event.stamp);
   const std::string fault = test::fault_of(
-      [] { MessageEncoder(source<sensor_msgs::NavSatFix>({"east"}), NavSatDatum()); });
+      [] { MessageEncoder({{source<sensor_msgs::NavSatFix>({"east"})}}, NavSatDatum()); });
   test::expect_parts(fault, {"navsat/datum", "found datum: first_fix"});
 }
 

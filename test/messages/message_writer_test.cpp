@@ -32,7 +32,7 @@ SimulatedMessage simulated(const std::vector<double>& values) {
 /// What the type's own code makes of the message.
 template <class M>
 M written(const TopicSource& to, const std::vector<double>& values) {
-  RawMessage raw = MessageEncoder(to).encode(simulated(values));
+  RawMessage raw = MessageEncoder({{to}}).encode(simulated(values));
   EXPECT_STREQ(ros::message_traits::MD5Sum<M>::value(), raw.said("md5sum"));
   EXPECT_STREQ(ros::message_traits::Definition<M>::value(), raw.said("message_definition"));
   M message;
@@ -113,7 +113,7 @@ TEST(MessageWriterTest, BareStampsAreJumpsAndFieldsTheirModes) {
   modes.mode = "pose.pose.position.z";
   SimulatedMessage jump = simulated({0.5});
   jump.mode = 3;
-  RawMessage raw = MessageEncoder(modes).encode(jump);
+  RawMessage raw = MessageEncoder({{modes}}).encode(jump);
   const auto messages = make_message_source(modes);
   Event event;
   event.kind = EventKind::kJump;
@@ -135,7 +135,7 @@ TEST(MessageWriterTest, WhatASourceCorrectsIsWrittenSoThatItDoes) {
     to.correction.offset = Eigen::Vector2d(1.0, 0.5);
     SimulatedChannel channel;
     channel.topic = "topic";
-    channel.source = to;
+    channel.readings = {{to}};
     const SimulatedMessages messages({channel});
     const auto reader = make_message_source(to);
     int visits = 0;

@@ -172,7 +172,7 @@ TEST_F(TransformSourceTest, SimulatedOnesAreReadBack) {
   SimulatedMessage message;
   message.stamp = test::kSecond;
   message.values = {1.5, -0.75};
-  const test::Read read = test::read(*source_, MessageEncoder(config_).encode(message));
+  const test::Read read = test::read(*source_, MessageEncoder({{config_}}).encode(message));
   ASSERT_EQ(2u, read.values.size());
   EXPECT_EQ(test::kSecond, read.event.stamp);
   EXPECT_EQ(1.5, read.values[0]);

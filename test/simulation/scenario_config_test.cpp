@@ -248,7 +248,7 @@ TEST(ScenarioConfigTest, FaultsAreNamedWithPathExpectedAndFound) {
       {"false_rate: 0.5", "false_rate: -1", {"scenario/jumps/false_rate", "from 0"}},
       {"source: {topic: wheel}",
        "source: {topic: force, type: geometry_msgs/PointStamped, fields: [point.x]}",
-       {"sensors/wheel/source/topic", "a topic of its own", "'force'"}},
+       {"input/topic", "a topic of its own", "sensors/wheel/source", "'force'"}},
       {"source: {topic: wheel}",
        "source: {topic: w, type: nav_msgs/Odometry, fields: [twist.twist.linear.x], body_frame: b}",
        {"sensors/wheel/source/body_frame", "no transforms are simulated", "'b'"}},

@@ -65,7 +65,7 @@ class Runner {
         return;
       case SimulatedChannel::Kind::kInput:
         event.kind = EventKind::kInput;
-        event.sensor = static_cast<int>(channel.input_channel);
+        event.sensor = static_cast<int>(*channel.readings.front().input_channel);
         break;
       case SimulatedChannel::Kind::kJump:
         event.kind = EventKind::kJump;

@@ -32,10 +32,19 @@ class Recorder {
         start_(scenario.start),
         now_(scenario.start) {}
 
-  void change_input(std::size_t channel, const SimulatedMessage& message) {
-    flow_to(message.stamp);
-    const std::vector<Eigen::Index>& inputs = plant_.input_channels()[channel].inputs;
-    for (std::size_t i = 0; i < inputs.size(); ++i) u_(inputs[i]) = message.values[i];
+  /// Where the message holds any.
+  void change_inputs(const SimulatedChannel& channel, const SimulatedMessage& message) {
+    std::size_t value = 0;
+    for (const SimulatedReading& reading : channel.readings) {
+      if (!reading.input_channel) {
+        value += reading.source.size;
+        continue;
+      }
+      flow_to(message.stamp);
+      for (const Eigen::Index input : plant_.input_channels()[*reading.input_channel].inputs) {
+        u_(input) = message.values[value++];
+      }
+    }
   }
 
   void see_truth(const SimulatedMessage& message) {
@@ -89,6 +98,7 @@ class Recorder {
 std::vector<TrajectoryStep> simulated_trajectory(Scenario scenario, std::size_t steps) {
   scenario.truth_period = std::max<Duration>(1, scenario.duration / static_cast<Duration>(steps));
   scenario.signals.clear();
+  for (SensorScenario& sensor : scenario.sensors) sensor.delivery = {};
   if (scenario.jumps) {
     scenario.jumps->faults = {};
     scenario.jumps->delivery = {};
@@ -99,7 +109,8 @@ std::vector<TrajectoryStep> simulated_trajectory(Scenario scenario, std::size_t 
     const SimulatedChannel& channel = simulator.channels()[message->channel];
     switch (channel.kind) {
       case SimulatedChannel::Kind::kInput:
-        recorder.change_input(channel.input_channel, *message);
+      case SimulatedChannel::Kind::kMeasurement:
+        recorder.change_inputs(channel, *message);
         break;
       case SimulatedChannel::Kind::kJump:
         recorder.jump(*message);
@@ -107,7 +118,6 @@ std::vector<TrajectoryStep> simulated_trajectory(Scenario scenario, std::size_t 
       case SimulatedChannel::Kind::kTruth:
         recorder.see_truth(*message);
         break;
-      case SimulatedChannel::Kind::kMeasurement:
       case SimulatedChannel::Kind::kSignal:
         break;
     }
