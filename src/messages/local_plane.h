@@ -19,9 +19,9 @@ struct GeodeticPosition {
 /// The plane that touches the earth at a datum, with axes to the east, to the north and up. For one
 /// thread; allocates nothing.
 ///
-/// Where the datum is the first fix, it is set by the first one that is used, and those of earlier
-/// stamps that come after it are too old: so it is that of the earliest stamp among all that the
-/// estimate rests on.
+/// Where the datum is the first fix, it is set by the first good one, whether or not the estimate
+/// lets it through a gate, and those of earlier stamps that come after it are too old: so it is a
+/// matter of events alone, and of the earliest stamp among all that the estimate rests on.
 class LocalPlane {
  public:
   explicit LocalPlane(const NavSatDatum& datum);
@@ -31,7 +31,7 @@ class LocalPlane {
   /// datum the fix is proposed as one.
   std::optional<Eigen::Vector3d> project(const GeodeticPosition& fix, Stamp stamp);
 
-  /// Told that the fix that was projected last is used: where there is no datum, it becomes that.
+  /// Told that the fix that was projected last is good: where there is no datum, it becomes that.
   void confirm() { is_set_ = true; }
 
   /// Where time begins anew: the datum stays, and no fix is older than it.

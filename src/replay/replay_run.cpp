@@ -167,7 +167,7 @@ bool ReplayRun::handle(const EventChannel& channel, const Event& event, Reading 
     const auto sensor = static_cast<std::size_t>(event.sensor);
     comparison_->add_sample(sensor, event.stamp, event.values);
   }
-  return report.used();
+  return is_good(report.outcome);
 }
 
 /// Lets time pass as a live observer would see it: from one due estimate to the next, however

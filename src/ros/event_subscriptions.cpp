@@ -212,7 +212,7 @@ bool EventSubscriptions::handle(const EventChannel& channel, const Event& event,
   }
   status_publisher_.publish(status);
   publication_.notice_event();
-  return report.used();
+  return is_good(report.outcome);
 }
 
 }  // namespace sampled_data_observers

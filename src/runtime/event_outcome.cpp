@@ -86,6 +86,11 @@ bool is_use(EventOutcome outcome) {
          outcome == EventOutcome::kJumpAlone || outcome == EventOutcome::kTakenBack;
 }
 
+bool is_good(EventOutcome outcome) {
+  return is_use(outcome) || outcome == EventOutcome::kGated ||
+         outcome == EventOutcome::kWouldOverflow;
+}
+
 bool is_rejection(EventOutcome outcome) {
   return !is_use(outcome) && outcome != EventOutcome::kDuplicate &&
          outcome != EventOutcome::kWithdrawn;

@@ -102,7 +102,7 @@ TEST(LocalPlaneTest, AFixWithoutAltitudeHasThatOfTheDatum) {
   EXPECT_TRUE(std::isnan(without[2]));
 }
 
-TEST(LocalPlaneTest, TheFirstFixThatIsUsedIsTheDatum) {
+TEST(LocalPlaneTest, TheFirstGoodFixIsTheDatum) {
   Receiver receiver({});
   receiver.read(fix(10.0, 10.0, 0.0));  // rejected
   EXPECT_EQ("", receiver.transforms().datum_text());
@@ -111,6 +111,20 @@ TEST(LocalPlaneTest, TheFirstFixThatIsUsedIsTheDatum) {
   EXPECT_EQ("[48.300000000, 16.400000000, 180.0000]", receiver.transforms().datum_text());
   const sensor_msgs::NavSatFix second = fix(48.31, 16.41, 190.0, kStamp + kNanosecondsPerSecond);
   EXPECT_EQ(Receiver(kVienna).read(second).values, receiver.use(second).values);
+}
+
+/// Else the datum would depend on gates and gains.
+TEST(LocalPlaneTest, WhatOnlyTheEstimateKeepsOutIsAGoodFix) {
+  for (const EventOutcome outcome : {EventOutcome::kUsed, EventOutcome::kUsedLate,
+                                     EventOutcome::kGated, EventOutcome::kWouldOverflow}) {
+    EXPECT_TRUE(is_good(outcome)) << describe(outcome);
+  }
+  for (const EventOutcome outcome :
+       {EventOutcome::kDuplicate, EventOutcome::kTooOld, EventOutcome::kInFuture,
+        EventOutcome::kNotFinite, EventOutcome::kNoField, EventOutcome::kOutOfLimits,
+        EventOutcome::kNoCovariance, EventOutcome::kDisabled}) {
+    EXPECT_FALSE(is_good(outcome)) << describe(outcome);
+  }
 }
 
 /// Else the estimate would depend on which of two came first.

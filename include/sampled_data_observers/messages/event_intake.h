@@ -14,7 +14,7 @@ namespace sampled_data_observers {
 /// transforms are not known yet wait for them, aside, for a bounded time.
 class EventIntake {
  public:
-  /// Takes what became of a message, and returns whether the estimate rests on it. The event has a
+  /// Takes what became of a message, and returns whether it is good (is_good()). The event has a
   /// stamp and, where it is one, values that live until the handler returns. The text says which
   /// transform is missing, for kNoTransform, is the note of lose(), for kDropped, and is empty
   /// otherwise.

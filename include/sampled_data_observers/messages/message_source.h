@@ -81,7 +81,7 @@ class MessageSource {
   /// @param event    of the kind that its channel has; a jump becomes a withdrawal where it is one
   virtual Reading read(const MessagePointer& message, Stamp receipt, Event& event) = 0;
 
-  /// Told that the event read last is used.
+  /// Told that the event read last is good (is_good()).
   virtual void confirm() {}
 
   /// Writes which transform a message lacks (see write_pair()).

@@ -49,6 +49,10 @@ const char* remedy(EventOutcome outcome);
 /// Whether the estimate rests on events with this outcome.
 bool is_use(EventOutcome outcome);
 
+/// Whether events with this outcome are good as far as events alone tell: they are used, or it is
+/// the estimate that keeps them out.
+bool is_good(EventOutcome outcome);
+
 /// Whether events with this outcome are lost: neither used nor known already.
 bool is_rejection(EventOutcome outcome);
 
