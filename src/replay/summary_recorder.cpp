@@ -27,8 +27,7 @@ void SummaryRecorder::add_event(const EventChannel& channel, const Event& event,
     if (report.outcome == EventOutcome::kInFuture) latencies.has_future = true;
   }
   count(event, report, reason);
-  const bool is_compared = report.used() || report.outcome == EventOutcome::kGated;
-  if (is_compared && report.innovations != nullptr) {
+  if (report.used() && report.innovations != nullptr) {
     summary_.innovations[static_cast<std::size_t>(event.sensor)].of.add(report.innovations,
                                                                         event.size, report.nis);
   }

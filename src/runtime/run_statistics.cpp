@@ -114,8 +114,9 @@ void StatisticsRecorder::record_event(std::size_t index, const Event& event,
     channel.innovation.store(report.innovation, kRelaxed);
     channel.trend.store(report.trend, kRelaxed);
   }
-  const bool counts = report.used() || report.outcome == EventOutcome::kGated;
-  if (counts && report.innovations != nullptr) record_innovation(channel, event.size, report);
+  if (report.used() && report.innovations != nullptr) {
+    record_innovation(channel, event.size, report);
+  }
   if (!report.interval) return;
   channel.interval.record(*report.interval);
   const bool is_short = report.interval_check == IntervalCheck::kShort;

@@ -72,8 +72,11 @@ TEST(StatisticsRecorderTest, InnovationsAreSummedWithoutAllocation) {
   event.size = 2;
   const std::size_t before = test::allocations();
   recorder.record_event(0, event, used, 0);
-  used.outcome = EventOutcome::kGated;
+  used.outcome = EventOutcome::kUsedLate;
   used.nis = 5.0;
+  recorder.record_event(0, event, used, 0);
+  used.outcome = EventOutcome::kGated;
+  used.nis = 500.0;
   recorder.record_event(0, event, used, 0);
   used.outcome = EventOutcome::kWouldOverflow;
   recorder.record_event(0, event, used, 0);

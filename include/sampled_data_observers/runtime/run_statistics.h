@@ -15,7 +15,8 @@
 
 namespace sampled_data_observers {
 
-/// The innovations of a sensor, of samples that were used or gated.
+/// The innovations of a sensor, of samples that were used: what a gate keeps out says nothing of
+/// the noise of the others.
 struct InnovationStatistics {
   /// How many there were.
   std::uint64_t count = 0;
