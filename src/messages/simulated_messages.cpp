@@ -72,7 +72,7 @@ void MessageEncoder::add_reading(const SimulatedReading& reading) {
   const bool is_transform = reading.source.frames.are_wanted_themselves();
   const std::string prefix = is_transform ? "transforms.0.transform." : "";
   for (const std::string& field : reading.source.fields) add_field(prefix + field, reading.source);
-  if (reading.variance > 0.0) add_variances(reading, prefix);
+  if (reading.variance.size() > 0) add_variances(reading, prefix);
 }
 
 /// A number can be written once only, and a quaternion by its numbers or by its angles.
@@ -125,9 +125,12 @@ void MessageEncoder::add_variances(const SimulatedReading& reading, const std::s
     const auto place = CovarianceFields::place_of(
         *definition_, *find_field(*definition_, prefix + source.fields[i]));
     if (!place) continue;
+    const auto value = static_cast<Eigen::Index>(i);
+    const double variance = reading.variance(value);
+    if (variance == 0.0) continue;
     const Eigen::VectorXd& scales = source.correction.scale;
-    const double scale = scales.size() == 0 ? 1.0 : scales(static_cast<Eigen::Index>(i));
-    add(place->path_with(*place), reading.variance / (scale * scale));
+    const double scale = scales.size() == 0 ? 1.0 : scales(value);
+    add(place->path_with(*place), variance / (scale * scale));
     const auto type = CovarianceFields::type_of(*definition_, *place);
     if (type) add(*type, kDiagonalIsKnown);
   }

@@ -22,20 +22,22 @@ namespace sampled_data_observers {
 struct Noise {
   enum class Kind {
     kNone,
-    kUniform,   ///< uniform in [-size, size), each output
-    kGaussian,  ///< normal with standard deviation `size`, each output
+    kUniform,   ///< uniform in [-size, size)
+    kGaussian,  ///< normal with standard deviation `size`
     kFormulas   ///< formulas of the time since the start
   };
 
   Kind kind = Kind::kNone;
-  double size = 0.0;
+  /// One per output, of kUniform and kGaussian.
+  Eigen::VectorXd size;
   std::shared_ptr<const VectorMap> formulas;
 };
 
-/// Of each output; 0 where it is not known.
-inline double variance_of(const Noise& noise) {
-  if (noise.kind == Noise::Kind::kUniform) return noise.size * noise.size / 3.0;
-  return noise.kind == Noise::Kind::kGaussian ? noise.size * noise.size : 0.0;
+/// Of each output; empty where it is not known.
+inline Eigen::VectorXd variance_of(const Noise& noise) {
+  if (noise.kind == Noise::Kind::kUniform) return noise.size.cwiseAbs2() / 3.0;
+  return noise.kind == Noise::Kind::kGaussian ? Eigen::VectorXd(noise.size.cwiseAbs2())
+                                              : Eigen::VectorXd();
 }
 
 /// A sensor of the plant in a scenario.

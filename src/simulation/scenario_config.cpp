@@ -220,9 +220,24 @@ class ScenarioReader {
           ExpressionReader(timed_names(section, key, false)).read_list(section, key, outputs);
     } else {
       noise.kind = key == "gaussian" ? Noise::Kind::kGaussian : Noise::Kind::kUniform;
-      noise.size = section.number_in(key, 0.0, 1e100, std::nullopt);
+      noise.size = read_sizes(section, key, outputs);
     }
     return noise;
+  }
+
+  /// One for all outputs, or one for each.
+  static Eigen::VectorXd read_sizes(ConfigSection& section, const std::string& key,
+                                    std::size_t outputs) {
+    constexpr double kLargest = 1e100;
+    const auto size = static_cast<Eigen::Index>(outputs);
+    if (!section.is_list(key)) {
+      return Eigen::VectorXd::Constant(size, section.number_in(key, 0.0, kLargest, std::nullopt));
+    }
+    const Eigen::VectorXd sizes = section.vector(key, size);
+    if (sizes.minCoeff() < 0.0 || sizes.maxCoeff() > kLargest) {
+      throw section.error(key, "numbers from 0 to 1e100, in the units of the outputs", "others");
+    }
+    return sizes;
   }
 
   static Delivery read_delivery(ConfigSection& section) {

@@ -52,7 +52,7 @@ std::size_t Simulator::add_reading(SimulatedChannel::Kind kind, const SimulatedR
 void Simulator::add_inputs() {
   const std::vector<TopicSource>& sources = scenario_.input->sources;
   for (std::size_t i = 0; i < sources.size(); ++i) {
-    const std::size_t channel = add_reading(SimulatedChannel::Kind::kInput, {sources[i], 0.0, i});
+    const std::size_t channel = add_reading(SimulatedChannel::Kind::kInput, {sources[i], {}, i});
     const bool is_new = channels_[channel].readings.size() == 1;
     if (is_new) input_channels_.push_back(channel);
   }
@@ -284,8 +284,9 @@ std::vector<double> Simulator::outputs(const SensorStream& stream, RandomNumbers
     noise.formulas->evaluate(&t, nullptr, added.data());
   }
   for (std::size_t i = 0; i < y.size(); ++i) {
-    if (noise.kind == Noise::Kind::kUniform) added[i] = random.uniform(-noise.size, noise.size);
-    if (noise.kind == Noise::Kind::kGaussian) added[i] = noise.size * random.gaussian();
+    const double size = noise.size.size() == 0 ? 0.0 : noise.size(static_cast<Eigen::Index>(i));
+    if (noise.kind == Noise::Kind::kUniform) added[i] = random.uniform(-size, size);
+    if (noise.kind == Noise::Kind::kGaussian) added[i] = size * random.gaussian();
     y[i] += added[i];
     if (stream.sensor && scenario_.plant->sensors()[*stream.sensor].angular[i]) {
       y[i] = wrap_angle(y[i]);

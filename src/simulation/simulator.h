@@ -18,8 +18,8 @@ namespace sampled_data_observers {
 /// What an observer reads in the messages of a topic.
 struct SimulatedReading {
   TopicSource source;
-  /// Of the noise of each value; 0 where it is not known.
-  double variance = 0.0;
+  /// Of the noise of each value; empty where it is not known.
+  Eigen::VectorXd variance = {};
   /// Of inputs: which of the plant's channels they are.
   std::optional<std::size_t> input_channel = {};
 };

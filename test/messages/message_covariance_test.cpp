@@ -156,8 +156,9 @@ TEST(MessageCovarianceTest, SimulatedMessagesTellOfTheirNoise) {
   simulated.values = {1.0, 2.0};
   TopicSource wanted = with_covariance<sensor_msgs::NavSatFix>({"east", "north"});
   wanted.correction.scale = Eigen::Vector2d(2.0, 1.0);
-  const MessageEncoder encoder({{wanted, 0.25}}, NavSatDatum{Eigen::Vector3d(48.0, 16.0, 0.0)});
-  EXPECT_EQ((Numbers{0.25, 0.0, 0.25}), covariance_in(wanted, encoder.encode(simulated)));
+  const MessageEncoder encoder({{wanted, Eigen::Vector2d(0.25, 0.5)}},
+                               NavSatDatum{Eigen::Vector3d(48.0, 16.0, 0.0)});
+  EXPECT_EQ((Numbers{0.25, 0.0, 0.5}), covariance_in(wanted, encoder.encode(simulated)));
 }
 
 const char kFiltered[] = R"(

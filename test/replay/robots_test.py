@@ -65,6 +65,9 @@ class RobotsTest(FolderTest):
         self.assertEqual({}, found["rejected"])
         for sensor in found["sensors"].values():
             self.assertEqual(0, sensor["intervals"]["above_T2"])
+        for sensor, innovation in found["innovations"].items():
+            share = innovation["nis"] / len(innovation["rms"])
+            self.assertTrue(0.7 < share < 1.3, f"NIS of {sensor}: {share} times the number of its outputs")
         print(robot, found["rmse"])
         return found["rmse"]
 
@@ -73,7 +76,7 @@ class RobotsTest(FolderTest):
             for state in states.split():
                 self.assertLess(errors[state], bound, state)
 
-    PLANAR = {"x y": 0.06, "yaw": 0.03, "vx w": 0.02, "vy": 0.01, "gyro_bias": 0.003}
+    PLANAR = {"x y": 0.06, "yaw": 0.03, "vx": 0.03, "w": 0.02, "vy": 0.012, "gyro_bias": 0.003}
 
     def test_on_the_plane(self):
         self.assert_within(self.PLANAR, self.errors("planar_robot", 1))
@@ -88,7 +91,7 @@ class RobotsTest(FolderTest):
         self.assert_within(self.PLANAR, self.errors("planar_robot", 2, self.write("robot.yaml", text)))
 
     def test_in_space(self):
-        self.assert_within({"x y z": 0.06, "roll pitch": 0.004, "yaw": 0.02, "vx vy vz": 0.01,
+        self.assert_within({"x y z": 0.06, "roll pitch": 0.004, "yaw": 0.02, "vx vy vz": 0.015,
                             "wx wy wz": 0.025, "ax ay az": 0.04}, self.errors("spatial_robot", 1))
 
 

@@ -93,7 +93,7 @@ TEST(ScenarioConfigTest, ReadsEveryKey) {
   EXPECT_EQ("wheel", wheel.source->topic);
   EXPECT_EQ(100000000, wheel.schedule->T1);
   EXPECT_EQ(200000000, wheel.schedule->T2);
-  EXPECT_EQ(0.1, wheel.noise.size);
+  EXPECT_EQ(Eigen::VectorXd::Constant(1, 0.1), wheel.noise.size);
   EXPECT_EQ(10000000, wheel.delivery.shortest);
   EXPECT_EQ(50000000, wheel.delivery.longest);
   EXPECT_EQ(0.1, wheel.delivery.loss);
@@ -214,6 +214,12 @@ TEST(ScenarioConfigTest, FaultsAreNamedWithPathExpectedAndFound) {
       {"noise: {uniform: 0.1}",
        "noise: {uniform: -0.1}",
        {"scenario/sensors/wheel/noise/uniform", "from 0"}},
+      {"noise: {uniform: 0.1}",
+       "noise: {uniform: [0.1, 0.1]}",
+       {"scenario/sensors/wheel/noise/uniform", "1", "2"}},
+      {"noise: {uniform: 0.1}",
+       "noise: {uniform: [-0.1]}",
+       {"scenario/sensors/wheel/noise/uniform", "from 0", "units of the outputs"}},
       {"noise: {uniform: 0.1}",
        "noise: {pink: 0.1}",
        {"scenario/sensors/wheel/noise", "uniform, gaussian, formulas", "pink"}},
