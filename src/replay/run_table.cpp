@@ -23,14 +23,6 @@ struct Column {
   Values values;
 };
 
-std::optional<double> largest_share(const ReplaySummary& summary) {
-  std::optional<double> share = summary.bound_share;
-  for (const ReplaySummary::StateBound& bound : summary.state_bounds) {
-    share = std::max(share, bound.share);
-  }
-  return share;
-}
-
 std::vector<std::pair<std::string, std::optional<double>>> numbers_of(
     const ReplaySummary& summary) {
   std::vector<std::pair<std::string, std::optional<double>>> numbers = {
@@ -45,7 +37,7 @@ std::vector<std::pair<std::string, std::optional<double>>> numbers_of(
     numbers.emplace_back("RMSE " + summary.compared[i], summary.rmse[i]);
   }
   numbers.emplace_back("RMSE norm", summary.rmse_norm);
-  if (summary.bounded) numbers.emplace_back("share of bound", largest_share(summary));
+  if (summary.bounded) numbers.emplace_back("share of bound", summary.all_bounds().share);
   return numbers;
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -41,7 +40,7 @@ struct SensorSummary {
   SampleIntervals intervals;
 };
 
-/// What a replay found of the innovations of a sensor: of what was used or gated.
+/// What a replay found of the innovations of a sensor, of what was used.
 struct InnovationSummary {
   std::string name;
   std::size_t outputs = 0;
@@ -134,6 +133,10 @@ struct ReplaySummary {
     std::optional<double> share;
   };
   std::vector<StateBound> state_bounds;
+  /// Of the bound on the norm and of those on the quantities in all: where that on the norm was
+  /// finite, how often one of them was exceeded at most, and the largest share of its bound that an
+  /// error took.
+  StateBound all_bounds() const;
   /// Inputs and jumps that came after a bound that rested on their absence.
   std::size_t after_bound = 0;
   /// Whether the truth came on a topic of its own, and not from samples with their noise.
@@ -144,11 +147,7 @@ struct ReplaySummary {
 
   /// Whether the truth refutes the guarantee: the error, or an entry of it, was larger than its
   /// bound.
-  bool is_guarantee_broken() const {
-    const auto is_exceeded = [](const StateBound& bound) { return bound.exceeded > 0; };
-    return truth_is_given && (bound_exceeded > 0 ||
-                              std::any_of(state_bounds.begin(), state_bounds.end(), is_exceeded));
-  }
+  bool is_guarantee_broken() const { return truth_is_given && all_bounds().exceeded > 0; }
   /// Where a published estimate was first without finite bound: its stamp [s], and why.
   std::optional<double> bound_lost_at;
   std::string bound_loss;
@@ -156,6 +155,10 @@ struct ReplaySummary {
   double bag_seconds = 0.0;
   double wall_seconds = 0.0;
 };
+
+/// What the bound makes of times between samples outside of [T1, T2]; empty where there are none,
+/// or there is no bound.
+std::string describe_bound_outside(const ReplaySummary& summary);
 
 /// The summary as a table for people.
 void print_table(const ReplaySummary& summary, std::ostream& out);

@@ -130,8 +130,8 @@ class ReportTest(FolderTest):
         data = self.report()
         self.assertEqual(data["verdict"][0]["level"], "good")
         self.assertRegex(data["verdict"][0]["text"],
-                         "^The guaranteed bound held at every one of 300 compared stamps; the error "
-                         "took at most [0-9.]+ % of it$")
+                         "^The guaranteed bound held, on the norm of the error and on each state's, at every one of 300 "
+                         "compared stamps; an error took at most [0-9.]+ % of its bound$")
         row = data["errors"][0]
         self.assertEqual((row["name"], row["bound"]["exceeded"]), ("x", 0))
         self.assertEqual(values_of(data["columns"][0]["exceeded"]["times"]), [])

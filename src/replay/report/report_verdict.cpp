@@ -25,21 +25,6 @@ std::string sentence(const Parts&... parts) {
   return out.str();
 }
 
-/// Over the norm and each quantity: how many stamps, and the largest share.
-struct Exceeded {
-  std::size_t stamps = 0;
-  double share = 0.0;
-};
-
-Exceeded exceeded(const ReplaySummary& summary) {
-  Exceeded result{summary.bound_exceeded, summary.bound_share.value_or(0.0)};
-  for (const ReplaySummary::StateBound& bound : summary.state_bounds) {
-    result.stamps = std::max(result.stamps, bound.exceeded);
-    result.share = std::max(result.share, bound.share.value_or(0.0));
-  }
-  return result;
-}
-
 ReportFinding of_bound(const ReplaySummary& summary, const std::string& warning) {
   if (!summary.bounded) {
     if (!warning.empty()) return {FindingLevel::kWarning, "No guaranteed bound: " + warning};
@@ -57,18 +42,19 @@ ReportFinding of_bound(const ReplaySummary& summary, const std::string& warning)
   if (stamps == 0) {
     return {FindingLevel::kWarning, "The guaranteed bound was infinite at all" + of_all};
   }
-  const Exceeded found = exceeded(summary);
-  if (found.stamps == 0) {
+  const ReplaySummary::StateBound found = summary.all_bounds();
+  const double share = found.share.value_or(0.0);
+  if (found.exceeded == 0) {
     const bool is_all = stamps == summary.compared_stamps;
     return {is_all ? FindingLevel::kGood : FindingLevel::kWarning,
-            sentence("The guaranteed bound held at ",
+            sentence("The guaranteed bound held, on the norm of the error and on each state's, at ",
                      is_all ? sentence("every one of ", stamps, " compared stamps")
                             : sentence("each of the ", stamps, of_all, " where it was finite"),
-                     "; the error took at most ", 100.0 * found.share, " % of it")};
+                     "; an error took at most ", 100.0 * share, " % of its bound")};
   }
   const std::string what =
-      sentence("The error was larger than its guaranteed bound at ", found.stamps, " of ", stamps,
-               " stamps, by a factor of up to ", found.share);
+      sentence("The error was larger than its guaranteed bound at ", found.exceeded, " of ", stamps,
+               " stamps, by a factor of up to ", share);
   if (!summary.truth_is_given) {
     return {FindingLevel::kWarning,
             what + ". The truth is samples with their noise, which refute nothing"};
@@ -134,6 +120,8 @@ ReportFinding of_intervals(const ReplaySummary& summary) {
                      own.above_T2, " above T2 = ", sensor.T2, " s;");
   }
   what.pop_back();
+  const std::string outside = describe_bound_outside(summary);
+  if (!outside.empty()) what += ". " + outside;
   return {FindingLevel::kWarning, what};
 }
 
@@ -228,10 +216,10 @@ ReportFinding finding_beside(const std::string& name, const ReplaySummary& other
     what += sentence(", ", *other.rmse_norm / *own.rmse_norm, " times that of this report's gains");
   }
   if (other.bound_stamps > 0) {
-    const Exceeded found = exceeded(other);
+    const ReplaySummary::StateBound found = other.all_bounds();
     what += sentence("; its guaranteed bound ",
-                     found.stamps == 0 ? std::string("held at each")
-                                       : sentence("was exceeded at ", found.stamps),
+                     found.exceeded == 0 ? std::string("held at each")
+                                         : sentence("was exceeded at ", found.exceeded),
                      " of ", other.bound_stamps, " stamps");
   }
   return {FindingLevel::kOpen, what};

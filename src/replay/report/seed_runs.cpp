@@ -65,10 +65,7 @@ SeedRun seed_run(std::uint64_t seed, const ReplaySummary& summary, const RunReco
   run.norms = record.compared.norms;
   run.rmse = summary.rmse_norm;
   run.largest = error_figures(record.compared, record.compared.norms).largest;
-  run.bound_share = summary.bound_share;
-  for (const ReplaySummary::StateBound& bound : summary.state_bounds) {
-    run.bound_share = std::max(run.bound_share, bound.share);
-  }
+  run.bound_share = summary.all_bounds().share;
   run.is_guarantee_broken = summary.is_guarantee_broken();
   return run;
 }
