@@ -174,7 +174,14 @@ std::vector<ConditionCheck> check(const Certificate& certificate) {
 std::string statement(const Certificate& certificate) {
   const Theorem& theorem = *certificate.theorem;
   const CertificateSubject& subject = certificate.subject;
-  const std::string guarantee = theorem.guarantee();
+  std::string guarantee = theorem.guarantee();
+  // Where an exponential rate is 0, the theorem proves that there is one without saying which.
+  const std::string at_rate =
+      ", at the rate " + theorem.decay_parameter() + " from sample to sample";
+  const std::size_t rate = guarantee.find("exponentially" + at_rate);
+  if (rate != std::string::npos && certificate.values.at(theorem.decay_parameter())(0, 0) == 0.0) {
+    guarantee.erase(guarantee.find(at_rate, rate), at_rate.size());
+  }
   std::string text = theorem.name() + ": " + guarantee;
   const char* separator = " (";
   const auto add = [&](const std::string& name, double value, const char* unit) {

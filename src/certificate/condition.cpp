@@ -211,21 +211,29 @@ bool all_hold(const std::vector<ConditionCheck>& checks) {
 }
 
 std::string describe_violations(const std::vector<ConditionCheck>& checks) {
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
+  const ConditionCheck* worst = nullptr;
+  std::size_t violated = 0;
   for (const ConditionCheck& check : checks) {
     if (check.holds()) continue;
-    text << (text.tellp() > 0 ? "; " : "") << check.name;
-    if (!std::isfinite(check.min_eigenvalue)) {
-      text << " is not finite";
-    } else if (check.min_eigenvalue > 0.0) {
-      text << " holds by " << check.min_eigenvalue
-           << ", less than its check can be sure of in floating point, " << check.rounding << ',';
-    } else {
-      text << " is violated by " << -check.min_eigenvalue;
-    }
-    if (check.tau) text << " at tau = " << *check.tau << " s";
+    ++violated;
+    const bool is_worse = worst == nullptr || !std::isfinite(check.min_eigenvalue) ||
+                          check.min_eigenvalue < worst->min_eigenvalue;
+    if (is_worse && (worst == nullptr || std::isfinite(worst->min_eigenvalue))) worst = &check;
   }
+  if (worst == nullptr) return "";
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << worst->name;
+  if (!std::isfinite(worst->min_eigenvalue)) {
+    text << " is not finite";
+  } else if (worst->min_eigenvalue > 0.0) {
+    text << " holds by " << worst->min_eigenvalue
+         << ", less than its check can be sure of in floating point, " << worst->rounding << ',';
+  } else {
+    text << " is violated by " << -worst->min_eigenvalue;
+  }
+  if (worst->tau) text << " at tau = " << *worst->tau << " s";
+  if (violated > 1) text << ", the most of " << violated << " that do not hold";
   return text.str();
 }
 

@@ -77,7 +77,8 @@ std::vector<ConditionCheck> check(const std::vector<Condition>& conditions,
 double least_eigenvalue(const MatrixExpression& matrix, const NamedMatrices& values,
                         Condition::Range range, std::size_t points = 65);
 
-/// Whether all hold, and, where not, which ones do not and by how much, for a message.
+/// Whether all hold, and, where not, which one does least, by how much, and how many do not, for a
+/// message.
 bool all_hold(const std::vector<ConditionCheck>& checks);
 std::string describe_violations(const std::vector<ConditionCheck>& checks);
 

@@ -99,6 +99,7 @@ std::optional<CertificateConfig> read_certificate(ConfigSection& root, const Pla
   require_same_nodes(section, certificate);
   if (section.has("proof_hash")) {
     config.is_proved = section.text("proof_hash") == proof_fingerprint(certificate);
+    config.is_altered = !config.is_proved;
   }
   for (const char* remark : kRemarks) section.has(remark);
   section.finish();

@@ -21,6 +21,8 @@ struct CertificateConfig {
   std::string origin;
   /// Whether the file records a proof in ball arithmetic of just these numbers.
   bool is_proved = false;
+  /// Whether the file says that they were proved, but of other numbers.
+  bool is_altered = false;
 };
 
 /// Reads the claim that a section of `root` makes of its gains; nothing where it has no such

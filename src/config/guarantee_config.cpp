@@ -138,10 +138,13 @@ std::optional<ConfigError> objection(ConfigSection& root, const ConfigNode& tree
   if (auto error = objection_to_step(root, *config.plant, *config.law, true)) return error;
   const std::vector<ConditionCheck> checks = check(certificate);
   if (all_hold(checks)) return std::nullopt;
-  return root.error(claim.section,
-                    "gains and matrices for which the conditions of " +
-                        certificate.theorem->name() + " hold" + kGainsRemedy,
-                    "others: " + describe_violations(checks));
+  return root.error(
+      claim.section,
+      "gains and matrices for which the conditions of " + certificate.theorem->name() + " hold" +
+          kGainsRemedy,
+      std::string(claim.is_altered ? "some that were altered since 'design' wrote them: "
+                                   : "others: ") +
+          describe_violations(checks));
 }
 
 /// The bound must not leave out a disturbance that the certificate reckons with.
