@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "design/design_method.h"
@@ -110,22 +111,39 @@ class Explanation {
         "worse, and the methods allow for the worst.");
   }
 
+  /// Those that apply, one below the other, then the others by what they are about.
   void say_methods() {
     c_.out.heading("METHODS");
-    const std::vector<std::size_t> widths = {34};
+    std::vector<std::pair<std::string, std::string>> others;  // reason, names
+    const auto add_other = [&others](const std::string& why_not, const std::string& name) {
+      for (auto& [reason, names] : others) {
+        if (reason != why_not) continue;
+        names += ", " + name;
+        return;
+      }
+      others.emplace_back(why_not, name);
+    };
     for (const DesignMethod* method : design_methods()) {
       const std::string why_not = objection_to(*method);
-      if (!why_not.empty()) {
-        c_.out.row({method->name(), "no: " + why_not}, widths);
-        continue;
+      if (why_not.empty()) {
+        say_applicable(*method);
+      } else {
+        add_other(why_not, method->name());
       }
-      std::string objectives;
-      for (const Objective objective : method->objectives(c_.subject)) {
-        objectives += (objectives.empty() ? "" : ", ") + std::string(to_string(objective));
-      }
-      c_.out.row({method->name(), "applies: " + objectives}, widths);
-      applicable_.push_back(method->name());
     }
+    if (others.empty()) return;
+    c_.out.paragraph(applicable_.empty() ? "No method applies:" : "The others do not:");
+    for (const auto& [reason, names] : others) c_.out.bullet(reason + ": " + names);
+  }
+
+  void say_applicable(const DesignMethod& method) {
+    std::string objectives;
+    for (const Objective objective : method.objectives(c_.subject)) {
+      objectives += (objectives.empty() ? "" : ", ") + std::string(to_string(objective));
+    }
+    const std::vector<std::size_t> widths = {38};
+    c_.out.row({method.name(), "applies: " + objectives}, widths);
+    applicable_.push_back(method.name());
   }
 
   /// Why a method can't serve; empty where nothing is against it.

@@ -394,7 +394,7 @@ TEST_F(DesignTool, ExplainsFirstThatNothingCanConverge) {
       write("plant.yaml", oscillator("[[0, 1], [-4, 0]]", "[[-0.1, 0], [0.2, 0.5]]"));
   const ToolRun explained = run("explain " + plant);
   EXPECT_EQ(explained.output.find("NO OBSERVER CAN CONVERGE"), 0u) << explained.output;
-  EXPECT_TRUE(explained.says("no: not detectable")) << explained.output;
+  EXPECT_TRUE(explained.says("- not detectable")) << explained.output;
   EXPECT_FALSE(explained.says("applies: ")) << explained.output;
   EXPECT_TRUE(explained.says("states that y shows")) << explained.output;
   EXPECT_FALSE(run("explain " + write("plant.yaml", oscillator())).says("states that y shows"));

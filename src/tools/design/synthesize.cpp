@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -172,16 +174,29 @@ void require_something_to_weigh(const DeclaredAssumptions& declared) {
       "off by, or take another --objective");
 }
 
+/// What commands begin with, where they are to run in the environment that this one runs in:
+/// nothing where that is the shell's own.
+std::string command_prefix() {
+  const char* const run = std::getenv("SDO_RUN");  // set by scripts/run
+  return run == nullptr ? "" : std::string(run) + " ";
+}
+
 /// How an observer with these gains is started, and what its error bound takes.
 void print_how_to_run(const SynthesizeArguments& arguments, const DeclaredAssumptions& declared,
                       bool has_held_outputs) {
   std::string files;
-  for (const std::string& file : arguments.files) files += file + " ";
+  std::string absolute;  // roslaunch starts nodes in a folder of its own
+  for (const std::string& file : arguments.files) {
+    files += file + " ";
+    absolute += std::filesystem::absolute(file).string() + " ";
+  }
+  const std::string prefix = command_prefix();
   std::printf(
       "To run it:\n"
-      "  rosrun sampled_data_observers replay BAG %s%s\n"
-      "  roslaunch sampled_data_observers observer.launch config:=\"%s%s\"\n",
-      files.c_str(), arguments.output.c_str(), files.c_str(), arguments.output.c_str());
+      "  %srosrun sampled_data_observers replay BAG %s%s\n"
+      "  %sroslaunch sampled_data_observers observer.launch config:=\"%s%s\"\n",
+      prefix.c_str(), files.c_str(), arguments.output.c_str(), prefix.c_str(), absolute.c_str(),
+      std::filesystem::absolute(arguments.output).c_str());
   if (declared.noise) return;
   std::printf(
       "For a bound on the error, say how noisy the sensor is, in %s, and design again:\n"
