@@ -48,7 +48,7 @@ void print_bounds(const ReplaySummary& summary, std::ostream& out) {
     out << "  " << of << ": finite at " << bound.stamps << " stamps, exceeded at " << bound.exceeded
         << "; the error took at most " << shown(bound.share) << " of it\n";
   };
-  row("error bound, on all below", all);
+  row("error bound", all);  // on all that follow
   row("that on the norm", {summary.bound_stamps, summary.bound_exceeded, summary.bound_share});
   for (std::size_t i = 0; i < summary.state_bounds.size(); ++i) {
     row("that on " + summary.compared[i], summary.state_bounds[i]);
