@@ -1,4 +1,5 @@
 """What tests in python need of ROS: the package's tools, and launches with a roscore of their own."""
+import functools
 import os
 import signal
 import subprocess
@@ -14,6 +15,7 @@ def free_port():
     return int(subprocess.check_output([FREE_PORT]))
 
 
+@functools.lru_cache(maxsize=None)
 def find_tool(name):
     found = subprocess.check_output(["catkin_find", "--first-only", "--libexec", PACKAGE, name])
     return found.decode().strip()
