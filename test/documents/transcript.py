@@ -11,6 +11,9 @@ import xmlrpc.client
 from courses import EXIT_STATUS, is_left_out
 from pages import ROOT
 
+# A shell has what it starts in the background ignore Ctrl-C, and so all that this starts.
+signal.signal(signal.SIGINT, signal.default_int_handler)
+
 LIVE = re.compile(r'\b(roslaunch|rostopic|rosservice)\b')
 PATIENCE = 240  # s, until an observer must publish, and a topic or a service must have answered, however busy the machine is
 NUMBER = re.compile(r'-?\d+(?:\.\d+)?(?:e[+-]?\d+)?')
@@ -79,6 +82,7 @@ class Reader:
         self.environment = dict(os.environ, ROS_MASTER_URI=self.master, ROS_HOSTNAME='localhost', BROWSER='true',
                                 ROS_HOME=os.path.join(folder, 'ros'))
         self.launched = None
+        self.launch_command = ''
         self.seconds = {}
         for name in ('scripts', 'config', 'doc', 'bench', 'test'):
             os.symlink(os.path.join(ROOT, name), os.path.join(folder, name))
@@ -122,21 +126,30 @@ class Reader:
         if 'roslaunch' not in command:
             return self.ask(command)
         faults = self.end_launch()
+        self.launch_command = setup + command
+        return faults + self.launch()
+
+    def launch(self):
+        """Starts a launch, and waits until it publishes; the faults."""
         with open(os.path.join(self.folder, 'launched'), 'w', encoding='utf-8') as log:
-            self.launched = self.start(setup + command, stdout=log, stderr=subprocess.STDOUT)
-        is_beside_robot = re.search(r'observer\.launch|robot\.launch(?!.*simulated:=true)', command)
+            self.launched = self.start(self.launch_command, stdout=log, stderr=subprocess.STDOUT)
+        is_beside_robot = re.search(r'observer\.launch|robot\.launch(?!.*simulated:=true)', self.launch_command)
         wanted = {'estimate'} if is_beside_robot else {'estimate', 'truth'}
         deadline = time.monotonic() + PATIENCE
         while self.launched.poll() is None and wanted - self.published():
             if time.monotonic() > deadline:
-                return faults + [f'nobody publishes {" and ".join(sorted(wanted - self.published()))} after {command}\n{self.printed()}']
+                return [f'nobody publishes {" and ".join(sorted(wanted - self.published()))} after {self.launch_command}\n{self.printed()}']
             time.sleep(0.2)
-        return faults
+        return []
 
     def ask(self, command):
-        """No fault, as soon as a topic or a service has answered."""
+        """No fault, as soon as a topic or a service has answered. A simulation that ended before is begun anew."""
         deadline = time.monotonic() + PATIENCE
         while time.monotonic() < deadline:
+            if self.launched and self.launched.poll() == 0:
+                faults = self.launch()
+                if faults:
+                    return faults
             process = self.start(command.split('  #')[0], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
             given_up = threading.Timer(deadline - time.monotonic(), lambda: end(process, signal.SIGKILL))
             given_up.start()
