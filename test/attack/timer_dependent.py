@@ -148,6 +148,13 @@ def flows(claim, fields, grid, P, mode=""):
                 yield Fixed(f"flow of cell {cell} at node {node}{mode}", flow(node, change, F))
 
 
+def numbers_of_flow(claim):
+    """What flows() takes for granted: of gamma it sees the square only."""
+    yield Number("lambda_t >= 0", claim.value("lambda_t"), may_be_zero=True)
+    if claim.N is not None:
+        yield Number("gamma > 0", claim.value("gamma"))
+
+
 def timer_dependent(claim, fields, timers, nodes):
     """e' = F e + N w + G phi between events, and those of each timer."""
     size = len(fields[0])
@@ -158,12 +165,14 @@ def timer_dependent(claim, fields, timers, nodes):
         yield Number("mu > 0", part)
         yield Number("mu < 1", 1 - part)
         yield Statement("mu is of one timer with T1 > 0", len(timers) == 1 and bool(timers[0].T1 > 0))
-    yield Number("lambda_t >= 0", claim.value("lambda_t"), may_be_zero=True)
+    yield from numbers_of_flow(claim)
     for timer, of_timer in zip(timers, nodes):
         may_coincide = of_timer[0] == timer.T1 == 0 and timer.J == identity(size)
         may_coincide = may_coincide and (len(timers) == 1 or timer.Z is not None)
-        yield Statement(f"{timer.name}: 0 < T1 <= T2, or 0 = T1", bool(
-            (timer.T1 > 0 or may_coincide) and timer.T1 <= timer.T2 and timer.T2 > 0))
+        has_times = bool((timer.T1 > 0 or may_coincide) and timer.T1 <= timer.T2 and timer.T2 > 0)
+        yield Statement(f"{timer.name}: 0 < T1 <= T2, or 0 = T1", has_times)
+        if not has_times:
+            return  # what follows is about such times
         yield Statement(f"{timer.name}: nodes from 0 to T2, T1 among them",
                         of_timer == sorted(set(of_timer)) and of_timer[0] == 0
                         and of_timer[-1] == timer.T2 and timer.T1 in of_timer)
@@ -290,7 +299,7 @@ def timer_dependent_switched(claim):
     """P of each mode; a switch leads into any other one."""
     nodes = nodes_of(claim.values, "timer_nodes", ["jumps"])
     grid = Grid(nodes)
-    yield Number("lambda_t >= 0", claim.value("lambda_t"), may_be_zero=True)
+    yield from numbers_of_flow(claim)
     yield Statement("0 < T1 <= T2, nodes from 0 to T2, T1 among them", bool(
         0 < claim.T1 <= claim.T2 and nodes[0] == sorted(set(nodes[0])) and nodes[0][0] == 0
         and nodes[0][-1] == claim.T2 and claim.T1 in nodes[0]))
