@@ -13,7 +13,7 @@ nlohmann::json json_of(const std::optional<double>& value) {
   return value ? nlohmann::json(*value) : nlohmann::json();
 }
 
-std::optional<double> number_of(const nlohmann::json& json) {
+std::optional<double> optional_number(const nlohmann::json& json) {
   return json.is_null() ? std::nullopt : std::optional(json.get<double>());
 }
 
@@ -34,9 +34,9 @@ SeedRun unpacked(const nlohmann::json& json) {
   json.at(0).get_to(run.seed);
   json.at(1).get_to(run.stamps);
   json.at(2).get_to(run.norms);
-  run.rmse = number_of(json.at(3));
-  run.largest = number_of(json.at(4));
-  run.bound_share = number_of(json.at(5));
+  run.rmse = optional_number(json.at(3));
+  run.largest = optional_number(json.at(4));
+  run.bound_share = optional_number(json.at(5));
   json.at(6).get_to(run.is_guarantee_broken);
   return run;
 }
