@@ -14,6 +14,7 @@
 namespace sampled_data_observers {
 
 /// One of several runs, and what is told of it.
+// NOLINTNEXTLINE(bugprone-exception-escape): moving JSON throws nothing
 struct RunRow {
   std::string gains;  ///< the file; empty: that of the configuration
   std::uint64_t seed = 0;
