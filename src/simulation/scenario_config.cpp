@@ -233,7 +233,7 @@ class ScenarioReader {
     if (!section.is_list(key)) {
       return Eigen::VectorXd::Constant(size, section.number_in(key, 0.0, kLargest, std::nullopt));
     }
-    const Eigen::VectorXd sizes = section.vector(key, size);
+    Eigen::VectorXd sizes = section.vector(key, size);
     if (sizes.minCoeff() < 0.0 || sizes.maxCoeff() > kLargest) {
       throw section.error(key, "numbers from 0 to 1e100, in the units of the outputs", "others");
     }
