@@ -5,6 +5,13 @@
 namespace sampled_data_observers {
 namespace {
 
+/// Whether what stands there is the matrix of the only sensor, or a map that stands for one.
+bool is_without_name(ConfigSection& gains, const std::string& key, const std::string& sensor) {
+  if (!gains.is_map(key)) return true;
+  ConfigSection map = gains.section(key);
+  return !map.has(sensor) && (map.has("diagonal") || map.has("message"));
+}
+
 /// @param read  of a section, a key of it and a sensor: the sensor's matrix
 template <class Read>
 std::vector<Eigen::MatrixXd> read_per_sensor(ConfigSection& gains, const std::string& key,
@@ -23,8 +30,8 @@ std::vector<Eigen::MatrixXd> read_per_sensor(ConfigSection& gains, const std::st
     }
     throw gains.error(key, "a sensor with measured: " + expected, "none");
   }
-  if (count == 1 && !gains.is_map(key)) {
-    const auto only = std::find_if(sensors.begin(), sensors.end(), fits);
+  const auto only = std::find_if(sensors.begin(), sensors.end(), fits);
+  if (count == 1 && is_without_name(gains, key, only->name)) {
     result[static_cast<std::size_t>(only - sensors.begin())] = read(gains, key, *only);
     return result;
   }

@@ -135,6 +135,23 @@ TEST(KalmanGainsTest, ADiagonalStandsForItsMatrix) {
   EXPECT_EQ(gains(text).find("R/s")->value, gains(short_text).find("R/s")->value);
 }
 
+TEST(KalmanGainsTest, TheNoiseOfTheOnlySensorNeedsNoName) {
+  const auto noise = [](const std::string& R) {
+    const ObserverConfig config = read_observer_config(
+        read_yaml_text(test::replaced(kFallingBall, "R: [[1]]", "R: " + R), "test.yaml"),
+        no_plant_plugins);
+    return config.law->observer().gains().find("R/s")->value;
+  };
+  EXPECT_EQ(noise("[[4]]"), noise("{s: {diagonal: [4]}}"));
+  EXPECT_EQ(noise("[[4]]"), noise("{diagonal: [4]}"));
+  try {
+    noise("{t: {diagonal: [4]}}");
+    FAIL() << "a sensor that is none";
+  } catch (const ConfigError& error) {
+    EXPECT_NE(std::string::npos, std::string(error.what()).find("gains/R/s")) << error.what();
+  }
+}
+
 TEST(KalmanGainsTest, TheStampErrorOfJumpsIsThatOfAUniformDistribution) {
   const ObserverConfig config =
       read_observer_config(read_yaml_text(kFallingBall, "test.yaml"), no_plant_plugins);
