@@ -86,7 +86,13 @@ std::vector<std::pair<std::string, double>> read_constants(ConfigSection& root,
   std::vector<std::pair<std::string, double>> constants;
   ConfigSection section = root.section_or_empty(key);
   require_at_most(kMostParameters, section.keys().size(), "parameters", root, key);
-  for (const std::string& name : section.keys()) constants.emplace_back(name, section.number(name));
+  for (const std::string& name : section.keys()) {
+    if (section.is_map(name)) {
+      throw section.error(name, "a number: places of frames are known live and in replay only",
+                          "a map");
+    }
+    constants.emplace_back(name, section.number(name));
+  }
   return constants;
 }
 

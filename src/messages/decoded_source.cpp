@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <boost/make_shared.hpp>
+#include <cstring>
 #include <utility>
 
+#include "messages/other_definition.h"
 #include "messages/time_conversion.h"
 #include "sampled_data_observers/runtime/estimator.h"
 
@@ -38,6 +40,13 @@ std::pair<std::size_t, std::size_t> want_stamp(const TopicSource& source,
                     "receipt (" + source.type + " carries no stamp)", "none");
 }
 
+/// In the bytes of all messages; nothing where it depends on them, or is not that of events.
+std::optional<std::size_t> offset_of_stamp(const TopicSource& source,
+                                           const MessageDefinition& definition) {
+  if (source.stamped_on_receipt) return std::nullopt;
+  return fixed_offset(definition, *path_to_stamp(definition));
+}
+
 DecodingPlan compile_stamp(const TopicSource& source,
                            const std::shared_ptr<const MessageDefinition>& definition) {
   PlanCompiler compiler(definition);
@@ -50,10 +59,11 @@ std::shared_ptr<LocalPlane> plane_of(const std::shared_ptr<const TransformBuffer
   return transforms == nullptr ? nullptr : transforms->plane();
 }
 
-Stamp stamp_from(double seconds, double nanoseconds) {
+/// As it was sent: ros::Time would carry nanoseconds over.
+Stamp stamp_from(std::uint32_t seconds, std::uint32_t nanoseconds) {
   ros::Time time;
-  time.sec = static_cast<std::uint32_t>(seconds);
-  time.nsec = static_cast<std::uint32_t>(nanoseconds);
+  time.sec = seconds;
+  time.nsec = nanoseconds;
   return to_stamp(time);
 }
 
@@ -71,6 +81,7 @@ DecodedSource::DecodedSource(const TopicSource& source,
       transforms_(std::move(transforms)),
       thinned_(source.min_interval),
       stamp_plan_(compile_stamp(source, definition_)),
+      stamp_at_(offset_of_stamp(source, *definition_)),
       parts_(compile(source, definition_, plane_of(transforms_))),
       decoded_(parts_.plan.counts()),
       values_(parts_.fields.size() + (parts_.covariance ? parts_.covariance->size() : 0)) {}
@@ -94,8 +105,9 @@ ros::Subscriber DecodedSource::subscribe(ros::NodeHandle& handle, std::uint32_t 
   options.initByFullCallbackType<Message>(topic_, queue_length, [receive](Message message) {
     receive(message.getConstMessage(), to_stamp(message.getReceiptTime()));
   });
-  // So that roscpp refuses publishers of another definition. With "*" it would take on that of the
-  // first publisher, and refuse the right ones.
+  // So that roscpp refuses publishers of another definition, which RefusedPublishers listens to.
+  // With
+  // "*" it would take on that of the first publisher, and refuse the right ones.
   options.datatype = definition_->type();
   options.md5sum = definition_->md5sum();
   options.transport_hints.tcpNoDelay();
@@ -111,11 +123,17 @@ MessagePointer DecodedSource::deserialize(std::uint8_t* data, std::uint32_t size
 }
 
 Stamp DecodedSource::own_stamp(const RawMessage& message) const {
+  if (stamp_at_) {
+    std::array<std::uint32_t, 2> time{};  // seconds and nanoseconds
+    if (message.bytes.size() < *stamp_at_ + sizeof time) return 0;
+    std::memcpy(time.data(), message.bytes.data() + *stamp_at_, sizeof time);
+    return stamp_from(time[0], time[1]);
+  }
   std::array<double, 2> numbers{};
   std::array<char, 2> are_held{};
   const DecodingSlots slots{numbers.data(), are_held.data(), nullptr, nullptr, nullptr};
   if (stamp_plan_.run(message.bytes.data(), message.bytes.size(), slots).any()) return 0;
-  return stamp_from(numbers[0], numbers[1]);
+  return stamp_from(static_cast<std::uint32_t>(numbers[0]), static_cast<std::uint32_t>(numbers[1]));
 }
 
 Stamp DecodedSource::stamp_of(const MessagePointer& message, Stamp receipt) const {
@@ -125,7 +143,7 @@ Stamp DecodedSource::stamp_of(const MessagePointer& message, Stamp receipt) cons
 }
 
 Reading DecodedSource::read(const MessagePointer& message, Stamp receipt, Event& event) {
-  const std::vector<std::uint8_t>& bytes = raw(message).bytes;
+  const MessageBytes& bytes = raw(message).bytes;
   event.stamp = 0;
   if (!raw(message).is_of(definition_->type(), definition_->md5sum())) {
     return Reading::kOtherDefinition;
@@ -133,8 +151,9 @@ Reading DecodedSource::read(const MessagePointer& message, Stamp receipt, Event&
   if (parts_.plan.run(bytes.data(), bytes.size(), decoded_.slots()).any())
     return Reading::kMalformed;
   const auto [seconds, nanoseconds] = parts_.stamp;
-  event.stamp =
-      by_receipt_ ? receipt : stamp_from(decoded_.number(seconds), decoded_.number(nanoseconds));
+  event.stamp = by_receipt_ ? receipt
+                            : stamp_from(static_cast<std::uint32_t>(decoded_.number(seconds)),
+                                         static_cast<std::uint32_t>(decoded_.number(nanoseconds)));
   if (event.stamp > 0) event.stamp += stamp_offset_;
   const bool has_stamp = event.stamp > 0;
   if (has_stamp && !parts_.frames.transform(decoded_, event.stamp, transforms_.get())) {
@@ -160,9 +179,14 @@ bool DecodedSource::add_covariance(Event& event) {
   return parts_.covariance->read(decoded_, values_.data() + event.size);
 }
 
+std::string DecodedSource::describe_sender(const MessagePointer& message) const {
+  return describe_other_definition(topic_, *raw(message).connection, definition_->type(),
+                                   definition_->md5sum());
+}
+
 void DecodedSource::name_missing_transform(const MessagePointer& message, Stamp stamp,
                                            std::string& text) const {
-  const std::vector<std::uint8_t>& bytes = raw(message).bytes;
+  const MessageBytes& bytes = raw(message).bytes;
   parts_.plan.run(bytes.data(), bytes.size(), decoded_.slots());
   parts_.frames.name_missing(decoded_, stamp, *transforms_, text);
 }

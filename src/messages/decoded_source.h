@@ -32,6 +32,8 @@ class DecodedSource : public MessageSource {
                              const Connection& connection) const override;
   Stamp stamp_of(const MessagePointer& message, Stamp receipt) const override;
   Reading read(const MessagePointer& message, Stamp receipt, Event& event) override;
+  std::string md5sum() const override { return definition_->md5sum(); }
+  std::string describe_sender(const MessagePointer& message) const override;
   void confirm() override { parts_.fields.confirm(); }
   void name_missing_transform(const MessagePointer& message, Stamp stamp,
                               std::string& text) const override;
@@ -62,6 +64,8 @@ class DecodedSource : public MessageSource {
   ThinnedStamps thinned_;
   /// Ends with the stamp: for any thread.
   DecodingPlan stamp_plan_;
+  /// Where the stamp lies at one place in all messages [bytes]: no plan is needed there.
+  std::optional<std::size_t> stamp_at_;
   Parts parts_;
   mutable DecodedMessage decoded_;
   std::vector<double> values_;

@@ -24,6 +24,10 @@ class DetectedJumps : public MessageSource {
                              const Connection& connection) const override;
   Stamp stamp_of(const MessagePointer& message, Stamp receipt) const override;
   Reading read(const MessagePointer& message, Stamp receipt, Event& event) override;
+  std::string md5sum() const override { return signal_->md5sum(); }
+  std::string describe_sender(const MessagePointer& message) const override {
+    return signal_->describe_sender(message);
+  }
   void name_missing_transform(const MessagePointer& message, Stamp stamp,
                               std::string& text) const override {
     signal_->name_missing_transform(message, stamp, text);

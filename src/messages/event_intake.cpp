@@ -23,7 +23,15 @@ void EventIntake::take(const MessagePointer& message, Stamp receipt, Stamp now) 
     if (!waiting_.push({message, receipt, event.stamp}, now)) drop(message, event.stamp);
     return;
   }
+  if (reading == Reading::kOtherDefinition) {
+    handle_(channel_, event, reading, source_->describe_sender(message));
+    return;
+  }
   hand_over(event, reading);
+}
+
+void EventIntake::refuse(const std::string& sender) {
+  handle_(channel_, make_event(), Reading::kOtherDefinition, sender);
 }
 
 void EventIntake::hand_over(const Event& event, Reading reading) {

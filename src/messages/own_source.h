@@ -75,6 +75,8 @@ class OwnSource : public MessageSource {
     return !counts || thinned_.keep(event.stamp) ? Reading::kEvent : Reading::kPassedOver;
   }
 
+  std::string md5sum() const override { return ros::message_traits::MD5Sum<M>::value(); }
+
   void name_missing_transform(const MessagePointer&, Stamp, std::string&) const override {}
 
  private:

@@ -5,16 +5,45 @@
 #include <ros/serialization.h>
 
 #include <algorithm>
+#include <array>
 #include <boost/shared_ptr.hpp>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 namespace sampled_data_observers {
 
+/// The bytes of a message. Those of most sensors' are held inside, so that a message takes one
+/// allocation.
+class MessageBytes {
+ public:
+  MessageBytes() {}  // leaves what is inside as it is
+  MessageBytes(const std::vector<std::uint8_t>& bytes) {
+    assign(bytes.data(), bytes.data() + bytes.size());
+  }
+
+  void assign(const std::uint8_t* begin, const std::uint8_t* end) {
+    size_ = static_cast<std::size_t>(end - begin);
+    if (size_ > inside_.size()) outside_.resize(size_);
+    std::copy(begin, end, data());
+  }
+
+  std::uint8_t* data() { return size_ > inside_.size() ? outside_.data() : inside_.data(); }
+  const std::uint8_t* data() const {
+    return size_ > inside_.size() ? outside_.data() : inside_.data();
+  }
+  std::size_t size() const { return size_; }
+
+ private:
+  std::size_t size_ = 0;
+  std::array<std::uint8_t, 768> inside_;  // an Odometry has 712 and the names of its frames
+  std::vector<std::uint8_t> outside_;
+};
+
 /// A message as it was sent, of any type.
 struct RawMessage {
-  std::vector<std::uint8_t> bytes;
+  MessageBytes bytes;
   /// What its publisher said of the connection that it came on; null: nothing.
   boost::shared_ptr<ros::M_string> connection;
 
@@ -77,8 +106,8 @@ struct Serializer<sampled_data_observers::RawMessage> {
   }
   template <class Stream>
   static void write(Stream& stream, const sampled_data_observers::RawMessage& message) {
-    const std::vector<std::uint8_t>& bytes = message.bytes;
-    std::copy(bytes.begin(), bytes.end(), stream.advance(serializedLength(message)));
+    const sampled_data_observers::MessageBytes& bytes = message.bytes;
+    std::copy_n(bytes.data(), bytes.size(), stream.advance(serializedLength(message)));
   }
   static std::uint32_t serializedLength(const sampled_data_observers::RawMessage& message) {
     return static_cast<std::uint32_t>(message.bytes.size());

@@ -30,6 +30,9 @@ class TransformSource : public MessageSource {
                              const Connection& connection) const override;
   Stamp stamp_of(const MessagePointer& message, Stamp receipt) const override;
   Reading read(const MessagePointer& message, Stamp receipt, Event& event) override;
+  std::string md5sum() const override {
+    return ros::message_traits::MD5Sum<tf2_msgs::TFMessage>::value();
+  }
   void confirm() override { parts_.fields.confirm(); }
   void name_missing_transform(const MessagePointer& message, Stamp stamp,
                               std::string& text) const override;

@@ -86,7 +86,10 @@ void ReplayRun::take_part(const RecordedMessage::OfChannel& part, Stamp now) {
   } else if (*part.reading != Reading::kPassedOver) {
     Event event = part.event;
     event.values = part.values.data();
-    handle(channels_[part.channel].channel, event, *part.reading, {});
+    const BagChannel& bound = channels_[part.channel];
+    const bool is_other = *part.reading == Reading::kOtherDefinition;
+    handle(bound.channel, event, *part.reading,
+           is_other ? bound.source->describe_sender(part.content) : "");
   }
 }
 

@@ -152,7 +152,7 @@ nlohmann::json json_number(const std::optional<double>& value) {
   return value ? nlohmann::json(*value) : nlohmann::json();
 }
 
-std::optional<double> number_of(const nlohmann::json& json) {
+std::optional<double> number_or_none(const nlohmann::json& json) {
   return json.is_null() ? std::nullopt : std::optional(json.get<double>());
 }
 
@@ -182,7 +182,7 @@ std::vector<RunRow> unpacked(const std::string& bytes) {
     json.at(3).get_to(row.bag_seconds);
     json.at(4).get_to(row.wall_seconds);
     for (const nlohmann::json& number : json.at(5)) {
-      row.numbers.emplace_back(number.at(0).get<std::string>(), number_of(number.at(1)));
+      row.numbers.emplace_back(number.at(0).get<std::string>(), number_or_none(number.at(1)));
     }
     json.at(6).get_to(row.is_guarantee_broken);
     json.at(7).get_to(row.has_diverged);

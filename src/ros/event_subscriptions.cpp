@@ -22,7 +22,7 @@ EventStatus status_prototype(Eigen::Index outputs) {
   status.values.resize(static_cast<std::size_t>(outputs));
   status.innovation.resize(static_cast<std::size_t>(outputs));
   status.source = status.reason =
-      std::string(64 + kLongestPair, ' ');  // room, so that writing allocates nothing
+      std::string(64 + kLongestDetail, ' ');  // room, so that writing allocates nothing
   return status;
 }
 
@@ -38,7 +38,7 @@ EventSubscriptions::EventSubscriptions(const ros::NodeHandle& handle, const Obse
       history_(config.options.history.history),
       statuses_(status_prototype(config.plant->max_outputs()), kStatusesHeld),
       transforms_(std::make_shared<TransformBuffer>(config.static_transforms, config.navsat)),
-      messages_(event_channels(config).size(), kQueueLength),
+      messages_(2 * event_channels(config).size(), kQueueLength),
       turn_(boost::make_shared<ActionCallback>([this] { use_next(); })),
       clock_(config.jump_back_tolerance) {
   for (const EventChannel& channel : event_channels(config)) add(channel);
@@ -77,6 +77,14 @@ void EventSubscriptions::add(const EventChannel& channel) {
               channel.source.type.c_str());
   });
   intakes_.push_back(intake);
+  expected_.push_back(
+      {handle_.resolveName(channel.source.topic), channel.source.type, source->md5sum()});
+}
+
+std::vector<ExpectedDefinition> EventSubscriptions::expected() const { return expected_; }
+
+void EventSubscriptions::refuse(std::size_t channel, const RefusedPublishers::Text& sender) {
+  if (messages_.push({channel + intakes_.size(), sender, 0, 0})) ask_for_turn();
 }
 
 /// On the same callback queue as everything else: what waits is tried again as transforms come, and
@@ -149,16 +157,22 @@ void EventSubscriptions::use_next() {
   if (next.drop) answer(*next.drop);
   if (next.message) {
     const MessageQueue::Message& message = *next.message;
-    const Stamp receipt = message.receipt > 0 ? message.receipt : now;
-    intakes_[message.channel]->take(message.message, receipt, now);
-    tell_of_datum();
+    if (message.channel >= intakes_.size()) {
+      intakes_[message.channel - intakes_.size()]->refuse(
+          *static_cast<const std::string*>(message.message.get()));
+    } else {
+      const Stamp receipt = message.receipt > 0 ? message.receipt : now;
+      intakes_[message.channel]->take(message.message, receipt, now);
+      tell_of_datum();
+    }
   }
   if (next.more) ask_for_turn();
 }
 
 /// One status each, and two for many that were dropped together.
 void EventSubscriptions::answer(const MessageQueue::Drop& drop) {
-  EventIntake& intake = *intakes_[drop.channel];
+  const std::size_t channel = drop.channel % intakes_.size();
+  EventIntake& intake = *intakes_[channel];
   if (drop.count == 1) {
     intake.lose(drop.first, "");
     return;
@@ -169,7 +183,7 @@ void EventSubscriptions::answer(const MessageQueue::Drop& drop) {
   EventReport report;
   report.outcome = EventOutcome::kDropped;
   for (std::uint64_t i = 2; i < drop.count; ++i) {
-    runtime_.statistics().record_event(drop.channel, {}, report, 0);
+    runtime_.statistics().record_event(channel, {}, report, 0);
   }
 }
 
@@ -179,7 +193,7 @@ LogThrottle& EventSubscriptions::throttle_of(const EventChannel& channel,
 }
 
 bool EventSubscriptions::handle(const EventChannel& channel, const Event& event, Reading reading,
-                                const std::string& missing) {
+                                const std::string& detail) {
   EventReport report;
   Stamp now = 0;
   SharedRuntime::Parts parts;
@@ -189,17 +203,17 @@ bool EventSubscriptions::handle(const EventChannel& channel, const Event& event,
     if (!parts.are_enough(access->approach(event, access.now(), SharedRuntime::kSteps))) continue;
     report = reading == Reading::kEvent ? access->receive(event, access.now())
                                         : access->reject(event, outcome_of(reading), access.now());
-    if (reading == Reading::kNoTransform)
-      runtime_.statistics().record_missing_transform(channel.index, missing);
+    if (!detail.empty() && reading != Reading::kDropped) {
+      runtime_.statistics().record_detail(channel.index, report.outcome, detail);
+    }
     now = access.now();
     runtime_.statistics().record_event(channel.index, event, report, now - event.stamp);
-    write(channel, event, report, missing, now, *status);  // the innovations are the runtime's
+    write(channel, event, report, detail, now, *status);  // the innovations are the runtime's
     break;
   }
   const Duration latency = now - event.stamp;
   if (!report.used() && throttle_of(channel, report).admits()) {
-    log_.warn("event from %s rejected: %s (stamp %.9f s, latency %.9f s)", channel.name.c_str(),
-              status->reason.c_str(), to_seconds(event.stamp), status->latency);
+    tell_of_rejection(channel, event, *status);
   }
   if (report.used() && latency > history_ && !has_told_of_old_stamps_) {
     has_told_of_old_stamps_ = true;
@@ -213,6 +227,18 @@ bool EventSubscriptions::handle(const EventChannel& channel, const Event& event,
   status_publisher_.publish(status);
   publication_.notice_event();
   return is_good(report.outcome);
+}
+
+/// Of one by another definition the stamp is not known.
+void EventSubscriptions::tell_of_rejection(const EventChannel& channel, const Event& event,
+                                           const EventStatus& status) const {
+  if (status.outcome == EventStatus::OTHER_DEFINITION) {
+    log_.warn("event from %s rejected: %s (%s)", channel.name.c_str(), status.reason.c_str(),
+              remedy(EventOutcome::kOtherDefinition));
+    return;
+  }
+  log_.warn("event from %s rejected: %s (stamp %.9f s, latency %.9f s)", channel.name.c_str(),
+            status.reason.c_str(), to_seconds(event.stamp), status.latency);
 }
 
 }  // namespace sampled_data_observers

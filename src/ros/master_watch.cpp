@@ -2,7 +2,6 @@
 
 #include <ros/connection_manager.h>
 #include <ros/init.h>
-#include <ros/master.h>
 #include <ros/network.h>
 #include <ros/publication.h>
 #include <ros/this_node.h>
@@ -13,6 +12,7 @@
 #include <utility>
 
 #include "config/misspelling.h"
+#include "ros/master_call.h"
 #include "sampled_data_observers/runtime/diagnosis.h"
 
 namespace sampled_data_observers {
@@ -21,24 +21,6 @@ namespace {
 constexpr double kPeriod = 3.0;  // s
 /// Nodes may start one after the other: so many checks without a publisher are reported.
 constexpr int kSilentChecks = 2;
-
-XmlRpc::XmlRpcValue list_of(const std::vector<std::string>& texts) {
-  XmlRpc::XmlRpcValue list;
-  list.setSize(static_cast<int>(texts.size()));
-  for (int i = 0; i < list.size(); ++i) list[i] = texts[static_cast<std::size_t>(i)];
-  return list;
-}
-
-/// Calls the master, with the name of this node and `arguments`. Returns whether it agreed;
-/// `response` is not valid where it did not answer, or was not asked since the node ends: its
-/// services are gone then, and whatever is registered now would stay.
-bool call_master(const std::string& method, std::vector<std::string> arguments,
-                 XmlRpc::XmlRpcValue& response, XmlRpc::XmlRpcValue& payload) {
-  if (ros::isShuttingDown()) return false;
-  arguments.insert(arguments.begin(), ros::this_node::getName());
-  const bool wait = false;
-  return ros::master::execute(method, list_of(arguments), response, payload, wait);
-}
 
 using TopicsAndTypes = std::vector<std::pair<std::string, std::string>>;
 
@@ -63,16 +45,8 @@ std::string type_of(const std::string& topic, const TopicsAndTypes& published) {
 
 /// As the master tells subscribers of new publishers: that is how roscpp learns of them.
 void tell_of_publishers(const std::string& topic, const XmlRpc::XmlRpcValue& publishers) {
-  const ros::XMLRPCManagerPtr& manager = ros::XMLRPCManager::instance();
-  std::string host;
-  std::uint32_t port = 0;
-  if (!ros::network::splitURI(manager->getServerURI(), host, port)) return;
-  XmlRpc::XmlRpcValue request = list_of({"/master", topic, ""});
-  request[2] = publishers;
   XmlRpc::XmlRpcValue response;
-  XmlRpc::XmlRpcClient* client = manager->getXMLRPCClient(host, static_cast<int>(port), "/");
-  client->execute("publisherUpdate", request, response);
-  manager->releaseXMLRPCClient(client);
+  call_self("publisherUpdate", "/master", {XmlRpc::XmlRpcValue(topic), publishers}, response);
 }
 
 }  // namespace
@@ -117,6 +91,7 @@ MasterWatch::MasterWatch(const ros::NodeHandle& handle, std::vector<std::string>
 
 void MasterWatch::check() {
   check_types();
+  if (ask_) ask_();
   XmlRpc::XmlRpcValue response;
   XmlRpc::XmlRpcValue payload;
   if (call_master("lookupService", {services_.front()}, response, payload)) return;

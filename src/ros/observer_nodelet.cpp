@@ -4,6 +4,7 @@
 
 #include "messages/plant_plugins.h"
 #include "ros/parameter_tree.h"
+#include "ros/places_of_tf.h"
 #include "sampled_data_observers/config/event_channels.h"
 
 namespace sampled_data_observers {
@@ -43,7 +44,7 @@ ObserverNodelet::~ObserverNodelet() { stop(); }
 void ObserverNodelet::onInit() {
   const NodeLog log(getName());
   try {
-    const ConfigNode tree = read_parameter_tree(getPrivateNodeHandle());
+    const ConfigNode tree = with_places_of_tf(read_parameter_tree(getPrivateNodeHandle()), log);
     const ObserverConfig config = read_observer_config(tree, load_plant_plugin);
     if (!type_.empty() && config.type != type_) {
       throw ConfigError("parameters of " + getPrivateNodeHandle().getNamespace(), "observer",
@@ -63,6 +64,7 @@ void ObserverNodelet::stop() {
   control_threads_.stop();
   event_threads_.stop();
   clock_watch_.reset();
+  refused_publishers_.reset();
   master_watch_.reset();
   diagnostics_.reset();
   services_.reset();
@@ -106,6 +108,12 @@ void ObserverNodelet::start(const ConfigNode& tree, const ObserverConfig& config
         diagnostics_->note_published_type(channel, type);
       },
       log);
+  refused_publishers_ = std::make_unique<RefusedPublishers>(
+      subscriptions_->expected(),
+      [this](std::size_t channel, const RefusedPublishers::Text& sender) {
+        subscriptions_->refuse(channel, sender);
+      });
+  master_watch_->also([this] { refused_publishers_->check(); });
   publication_->start(config, log);
   subscriptions_->start([this](const std::string& datum) { diagnostics_->note_datum(datum); });
   event_threads_.start();

@@ -119,7 +119,7 @@ std::string Diagnosis::rejections(const ChannelStatistics& statistics) const {
   if (commonest == kEventOutcomes) return "";
   const auto outcome = static_cast<EventOutcome>(commonest);
   std::string detail;
-  if (outcome == EventOutcome::kNoTransform) detail = statistics.missing_transform;
+  if (outcome == statistics.detail.outcome) detail = statistics.detail.text;
   if (outcome == EventOutcome::kInFuture && statistics.median_latency.value_or(0) < 0) {
     detail = describe_stamps_ahead(*statistics.median_latency);
   }

@@ -11,9 +11,6 @@ namespace {
 
 constexpr std::memory_order kRelaxed = std::memory_order_relaxed;
 
-/// So many characters of a missing transform are kept.
-constexpr std::size_t kLongestTransform = 160;
-
 void increment(std::atomic<std::uint64_t>& counter) { counter.fetch_add(1, kRelaxed); }
 
 void raise(std::atomic<Stamp>& newest, Stamp stamp) {
@@ -51,7 +48,7 @@ void ChannelStatistics::add(const ChannelStatistics& other) {
   violations.add(other.violations);
   rewound.add(other.rewound);
   after_bound += other.after_bound;
-  missing_transform = other.missing_transform;
+  detail = other.detail;
   innovation = other.innovation;
   innovations.add(other.innovations);
   trend = other.trend;
@@ -76,17 +73,19 @@ void RunStatistics::add(const RunStatistics& later) {
 StatisticsRecorder::StatisticsRecorder(std::size_t channels, std::size_t most_outputs)
     : channels_(channels) {
   for (Channel& channel : channels_) {
-    channel.missing_transform.reserve(kLongestTransform);
+    channel.detail.text.reserve(kLongestDetail);
     channel.innovations.sums.resize(most_outputs, 0.0);
     channel.innovations.squares.resize(most_outputs, 0.0);
   }
 }
 
-void StatisticsRecorder::record_missing_transform(std::size_t index,
-                                                  const std::string& transform) noexcept {
+void StatisticsRecorder::record_detail(std::size_t index, EventOutcome outcome,
+                                       const std::string& text) noexcept {
   Channel& channel = channels_[index];
-  const std::unique_lock<std::mutex> lock(channel.missing_transform_mutex, std::try_to_lock);
-  if (lock.owns_lock()) channel.missing_transform.assign(transform, 0, kLongestTransform);
+  const std::unique_lock<std::mutex> lock(channel.detail_mutex, std::try_to_lock);
+  if (!lock.owns_lock()) return;
+  channel.detail.outcome = outcome;
+  channel.detail.text.assign(text, 0, kLongestDetail);
 }
 
 /// Left out where take() just reads, and where there are more outputs than there is place for.
@@ -171,8 +170,8 @@ void StatisticsRecorder::take(RunStatistics& statistics) noexcept {
       to.innovations = from.innovations;
       from.innovations.clear();
     }
-    const std::lock_guard<std::mutex> lock(from.missing_transform_mutex);
-    to.missing_transform = from.missing_transform;
+    const std::lock_guard<std::mutex> lock(from.detail_mutex);
+    to.detail = from.detail;
   }
   statistics.lateness = lateness_.take();
   statistics.held = held_.exchange(0, kRelaxed);

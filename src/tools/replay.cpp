@@ -23,8 +23,8 @@
 #include "console/tool_main.h"
 #include "console/usage_error.h"
 #include "files/output_file.h"
-#include "messages/plant_plugins.h"
 #include "ranks/ranks.h"
+#include "replay/replay_config.h"
 #include "replay/report/beside_run.h"
 #include "replay/report/report_data.h"
 #include "replay/report/report_page.h"
@@ -161,8 +161,8 @@ struct Beside {
 std::vector<Beside> configurations_beside(const Arguments& arguments) {
   std::vector<Beside> all;
   for (const std::string& gains : arguments.beside) {
-    all.push_back({gains, sdo::read_observer_config(sdo::with_gains(arguments.config, gains),
-                                                    sdo::load_plant_plugin)});
+    all.push_back({gains, sdo::read_replay_config(sdo::with_gains(arguments.config, gains),
+                                                  arguments.options.bags)});
   }
   return all;
 }
@@ -235,7 +235,7 @@ int replay_runs(const Arguments& arguments, const sdo::ReplayOptions& options, s
                                          cases.begin() + static_cast<std::ptrdiff_t>(end));
   std::set<std::vector<std::string>> warned;
   const auto load = [&](const std::vector<std::string>& files) {
-    sdo::ObserverConfig config = sdo::read_observer_config(files, sdo::load_plant_plugin);
+    sdo::ObserverConfig config = sdo::read_replay_config(files, options.bags);
     if (warned.insert(files).second) print_warnings(config);
     return config;
   };
@@ -264,16 +264,14 @@ int replay_runs(const Arguments& arguments, const sdo::ReplayOptions& options, s
 
 /// A report or tables of one run, with other seeds: on all ranks but the first.
 int replay_seeds(const Arguments& arguments, const sdo::ReplayOptions& options, sdo::Ranks& ranks) {
-  const sdo::ObserverConfig config =
-      sdo::read_observer_config(arguments.config, sdo::load_plant_plugin);
+  const sdo::ObserverConfig config = sdo::read_replay_config(arguments.config, options.bags);
   sdo::gathered_runs(ranks, runs_of_seeds(arguments, options, config, &ranks));
   ranks.finish();
   return 0;
 }
 
 int replay_one(const Arguments& arguments, const sdo::ReplayOptions& options, sdo::Ranks* ranks) {
-  const sdo::ObserverConfig config =
-      sdo::read_observer_config(arguments.config, sdo::load_plant_plugin);
+  const sdo::ObserverConfig config = sdo::read_replay_config(arguments.config, options.bags);
   print_warnings(config);
   const std::vector<Beside> beside = configurations_beside(arguments);
   sdo::RunRecord record;

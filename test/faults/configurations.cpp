@@ -52,6 +52,18 @@ void sample_camera(FaultBench& bench, Stamp stamp, double p) {
   bench.publish("camera", point_ahead(stamp, "lens", p));
 }
 
+/// By an IMU whose messages say how sure it is.
+Configuration filtered() {
+  Configuration configuration = oscillating("filtered", {"filtered.yaml"});
+  configuration.type = "HybridKalmanFilter";
+  configuration.sample = [](FaultBench& bench, Stamp stamp, double p) {
+    sensor_msgs::Imu message = heading(stamp, p);
+    message.orientation_covariance[8] = 1e-4;
+    bench.publish("imu", message);
+  };
+  return configuration;
+}
+
 std::vector<Configuration> all_configurations() {
   const auto joint = [](FaultBench& bench, Stamp stamp, double p) {
     bench.publish("joint_states", joint_state(stamp, {"caster", "wheel"}, {0.0, p}));
@@ -70,6 +82,7 @@ std::vector<Configuration> all_configurations() {
       with(oscillating("joint", {"oscillator.yaml", "jumps.yaml", "joint.yaml"}), joint),
       with(oscillating("imu", {"oscillator.yaml", "jumps.yaml", "imu.yaml"}), imu),
       with(oscillating("camera", {"oscillator.yaml", "jumps.yaml", "camera.yaml"}), sample_camera),
+      filtered(),
       at_rest("unstable", 0.0),
       at_rest("tank", 1.0),
       certified("certified", "rate.yaml"),

@@ -76,6 +76,11 @@ std::vector<Fault> message_faults() {
          imu.orientation.w *= 2.0;
        }),
        {{EventStatus::NOT_FINITE, 10}}},
+      {"NoCovariance",
+       "filtered",
+       "1 s of an IMU that states no covariance, where the filter takes it from the message",
+       imus([](sensor_msgs::Imu&) {}),
+       {{EventStatus::NO_COVARIANCE, 10}}},
       {"OrientationHasOtherSign",
        "imu",
        "1 s of the quaternion -q, which is the same rotation",

@@ -38,6 +38,20 @@ std::function<void(FaultBench&)> reload(const std::string& file, const std::stri
   };
 }
 
+/// The covariances of the messages go on to be used, before and after.
+void reload_other_covariance(FaultBench& bench) {
+  reload("matrix.yaml",
+         "gains: {P0: {diagonal: [1, 1]}, R: {imu: [[1]]}, Q: {diagonal: [0.1, 100]}}")(bench);
+  const ReloadGains::Response refused = bench.observer().reload("matrix.yaml");
+  require(refused.message.find("gains/R/imu") != std::string::npos, refused.message);
+  bench.observer().write_gains(
+      "same.yaml", "gains: {P0: {diagonal: [1, 1]}, R: message, Q: {diagonal: [0.1, 100]}}");
+  const ReloadGains::Response loaded = bench.observer().reload("same.yaml");
+  require(loaded.success != 0, loaded.message);
+  bench.go_on(0.3);
+  require(bench.statuses.back().outcome == EventStatus::USED, bench.statuses.back().reason);
+}
+
 void reload_link(FaultBench& bench) {
   const std::string link = bench.observer().gains_directory() + "/link.yaml";
   std::filesystem::remove(link);
@@ -174,6 +188,12 @@ std::vector<Fault> service_faults() {
        "oscillator",
        "a gain file that would change the rate: refused",
        reload("rate.yaml", "gains: {L: [[0.9], [7]]}\nrate: 1"),
+       {}},
+      {"ReloadOfOtherCovariance",
+       "filtered",
+       "gains with a matrix R, where it comes with the messages: refused; those where it does are "
+       "loaded",
+       reload_other_covariance,
        {}},
       {"ReloadOfMissingFile",
        "oscillator",

@@ -65,22 +65,33 @@ void publisher_dies(FaultBench& bench) {
   bench.let_pass(2.0);
 }
 
-/// For one second, from a publisher that roscpp refuses to connect with.
+/// From a publisher that roscpp refuses to connect with, until the diagnostics name it and both
+/// definitions; so do the reasons.
 template <class M>
-void publish_unconnected(FaultBench& bench, const M& message) {
+void publish_refused(FaultBench& bench, const M& message) {
+  const std::string sum = ros::message_traits::MD5Sum<M>::value();
+  const std::string sender = ros::this_node::getName() + " on /joint_states has " +
+                             ros::message_traits::DataType<M>::value() + ", MD5 sum " + sum +
+                             "; expected sensor_msgs/JointState, " +
+                             ros::message_traits::MD5Sum<sensor_msgs::JointState>::value();
+  const auto is_named = [&] {
+    return bench.diagnosis("events from encoder").find(sender) != std::string::npos;
+  };
   bench.end_publisher("joint_states");
-  ros::NodeHandle handle;
-  const ros::Publisher wrong = handle.advertise<M>("joint_states", 10);
-  for (int i = 0; i < 10; ++i) {
+  for (int i = 0; !spin_until(is_named, 0.02); ++i) {
+    if (i == 1500) throw std::runtime_error(bench.diagnosis("events from encoder"));
     bench.let_pass(0.1);
-    wrong.publish(message);
-    ros::WallDuration(0.02).sleep();
+    bench.publish("joint_states", message);
+    bench.await_statuses();
+    const std::string& reason = bench.statuses.back().reason;
+    if (reason.find(sender) == std::string::npos) throw std::runtime_error("it is told: " + reason);
   }
+  bench.end_publisher("joint_states");
 }
 
-void wrong_type(FaultBench& bench) { publish_unconnected(bench, std_msgs::String()); }
+void wrong_type(FaultBench& bench) { publish_refused(bench, std_msgs::String()); }
 
-void wrong_definition(FaultBench& bench) { publish_unconnected(bench, OutdatedMessage()); }
+void wrong_definition(FaultBench& bench) { publish_refused(bench, OutdatedMessage()); }
 
 void malformed(FaultBench& bench) {
   bench.end_publisher("joint_states");
@@ -174,12 +185,13 @@ std::vector<Fault> transport_faults() {
        "joint",
        "a publisher of another type on the topic of a sensor",
        wrong_type,
-       {}},
-      {"WrongDefinition",
+       {{EventStatus::OTHER_DEFINITION, kSome}}},
+      {"OtherDefinition",
        "joint",
-       "a publisher of the right type that was built with another definition of it",
+       "the definition changes between publishers: for a while there is one of the right type that "
+       "was built with another definition of it",
        wrong_definition,
-       {}},
+       {{EventStatus::OTHER_DEFINITION, kSome}}},
       {"Malformed",
        "joint",
        "messages of the right type that end too early",

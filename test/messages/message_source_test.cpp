@@ -111,6 +111,12 @@ TEST(MessageSourceTest, AnotherDefinitionIsNotRead) {
   (*connection)["type"] = "its/PointStamped";
   EXPECT_EQ(Reading::kOtherDefinition, reading());
   EXPECT_EQ(EventOutcome::kOtherDefinition, outcome_of(Reading::kOtherDefinition));
+  (*connection)["callerid"] = "/camera";
+  const std::string sum = ros::message_traits::MD5Sum<geometry_msgs::PointStamped>::value();
+  EXPECT_EQ(sum, points->md5sum());
+  EXPECT_EQ("/camera on topic has its/PointStamped, MD5 sum " + sum +
+                "; expected geometry_msgs/PointStamped, " + sum,
+            points->describe_sender(points->deserialize(bytes.message_start, 0, connection)));
 }
 
 TEST(MessageSourceTest, ReceiptReplacesAStampWhereConfigured) {

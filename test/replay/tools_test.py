@@ -3,12 +3,15 @@
 import json
 import os
 import re
+import shutil
 import subprocess
 import sys
 import unittest
 
 import genpy.dynamic
 import rosbag
+from geometry_msgs.msg import TransformStamped, Vector3
+from tf2_msgs.msg import TFMessage
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "support"))
 from folder_test import FolderTest  # noqa: E402
@@ -285,6 +288,25 @@ class ToolsTest(FolderTest):
         self.assertEqual(own["samples_used"], read["samples_used"])
         for state, value in own["final_state"].items():
             self.assertAlmostEqual(value, read["final_state"][state], 6)
+
+    def test_places_of_frames_in_formulas_are_those_of_the_bag(self):
+        self.simulate()
+        plant = SCENARIO.replace("A: [[0, 1], [0, 0]], B: [[0], [1]]", "parameters: %s, flow: {p: v, v: u}").replace(
+            "C: [[1, 0]]", 'h: ["p + arm_x - 2*arm_y"]')
+        numbers = self.write("numbers.yaml", plant.replace("%s", "{arm_x: -0.25, arm_y: 0.5}"))
+        places = self.write("places.yaml", plant.replace("%s", "{arm: {frame: base, child_frame: tip}}"))
+        text = self.fault("replay", self.path("run.bag"), places, self.observer)
+        self.assertIn("plant/parameters/arm: expected the place of tip in base, from static_transforms or /tf_static", text)
+        shutil.copy(self.path("run.bag"), self.path("tf.bag"))
+        with rosbag.Bag(self.path("tf.bag"), "a") as bag:
+            for parent, child, place in [("base", "mast", (-0.75, 0.25, 1)), ("mast", "tip", (0.5, 0.25, 0))]:
+                transform = TransformStamped()
+                transform.header.frame_id, transform.child_frame_id = parent, child
+                transform.transform.translation = Vector3(*place)
+                transform.transform.rotation.w = 1
+                bag.write("/tf_static", TFMessage([transform]), genpy.Time(1))
+        expected = self.replayed([self.path("run.bag")], numbers, self.observer)["final_state"]
+        self.assertEqual(expected, self.replayed([self.path("tf.bag")], places, self.observer)["final_state"])
 
     def test_simulated_messages_tell_a_kalman_filter_of_their_noise(self):
         source = "{topic: odometry, type: nav_msgs/Odometry, fields: [pose.pose.position.x]}"

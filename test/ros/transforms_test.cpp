@@ -29,6 +29,8 @@ TEST(WrongTypeTest, DiagnosticsNameTheTypeThatIsPublishedAndTheOneExpected) {
   const ros::Publisher publisher = ros::NodeHandle().advertise<std_msgs::Float64>("camera", 1);
   EXPECT_TRUE(
       is_diagnosed("camera is published as std_msgs/Float64, expected geometry_msgs/PointStamped"));
+  // So that it is not on its way to the next test.
+  EXPECT_TRUE(test::spin_until([&] { return publisher.getNumSubscribers() > 0; }));
 }
 
 class TransformsTest : public testing::Test {

@@ -150,7 +150,7 @@ TEST_F(DiagnosisTest, SaysWhySamplesWereRejected) {
 TEST_F(DiagnosisTest, NamesTheTransformThatIsMissing) {
   RunStatistics window(3);
   outcome(window, EventOutcome::kNoTransform) = 4;
-  window.channels[0].missing_transform = "gps_origin -> mapp";
+  window.channels[0].detail = {EventOutcome::kNoTransform, "gps_origin -> mapp"};
   update(window);
   expect(HealthLevel::kError, {"in time: gps_origin -> mapp (", "tf_echo"}, diagnosis_.channel(0));
   expect(HealthLevel::kError, {"gps_origin -> mapp"}, diagnosis_.estimates());

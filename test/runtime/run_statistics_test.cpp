@@ -194,18 +194,19 @@ TEST(StatisticsRecorderTest, KnowsSinceWhenTheBoundIsLost) {
   EXPECT_FALSE(window.bound_lost_since);
 }
 
-TEST(StatisticsRecorderTest, KeepsTheLastMissingTransformOfEachChannel) {
+TEST(StatisticsRecorderTest, KeepsWhatIsSaidLastOfEachChannel) {
   StatisticsRecorder recorder(2);
   RunStatistics window(2);
-  recorder.record_missing_transform(1, "lens -> map");
-  recorder.record_missing_transform(1, "lens -> odom");
+  recorder.record_detail(1, EventOutcome::kOtherDefinition, "/node on /topic");
+  recorder.record_detail(1, EventOutcome::kNoTransform, "lens -> odom");
   recorder.take(window);
-  EXPECT_EQ("", window.channels[0].missing_transform);
-  EXPECT_EQ("lens -> odom", window.channels[1].missing_transform);
+  EXPECT_EQ("", window.channels[0].detail.text);
+  EXPECT_EQ("lens -> odom", window.channels[1].detail.text);
+  EXPECT_EQ(EventOutcome::kNoTransform, window.channels[1].detail.outcome);
   recorder.take(window);
   RunStatistics totals(2);
   totals.add(window);
-  EXPECT_EQ("lens -> odom", totals.channels[1].missing_transform);
+  EXPECT_EQ("lens -> odom", totals.channels[1].detail.text);
 }
 
 TEST(StatisticsRecorderTest, AllocatesNothing) {
@@ -214,10 +215,10 @@ TEST(StatisticsRecorderTest, AllocatesNothing) {
   const Estimate some = estimate(10, 0.5);
   StatisticsRecorder recorder(1);
   RunStatistics window(1);
-  const std::string transform(100, 'x');
-  window.channels[0].missing_transform = transform;  // has room for the next
+  const std::string detail(100, 'x');
+  window.channels[0].detail.text = detail;  // has room for the next
   const std::size_t before = test::allocations();
-  recorder.record_missing_transform(0, transform);
+  recorder.record_detail(0, EventOutcome::kNoTransform, detail);
   recorder.record_event(0, sample(100), used_after(30, IntervalCheck::kLong), 5);
   recorder.record_estimate(law, some, {0.5, BoundLoss::kNone}, 3);
   recorder.record_tick(100);

@@ -16,8 +16,8 @@ class EventIntake {
  public:
   /// Takes what became of a message, and returns whether it is good (is_good()). The event has a
   /// stamp and, where it is one, values that live until the handler returns. The text says which
-  /// transform is missing, for kNoTransform, is the note of lose(), for kDropped, and is empty
-  /// otherwise.
+  /// transform is missing, for kNoTransform, who sent it, for kOtherDefinition, is the note of
+  /// lose(), for kDropped, and is empty otherwise.
   using Handler =
       std::function<bool(const EventChannel&, const Event&, Reading, const std::string&)>;
 
@@ -33,6 +33,10 @@ class EventIntake {
   /// @param stamp  of the event that it would have been
   /// @param note   what is to be said of it beside; may be empty
   void lose(Stamp stamp, const std::string& note);
+
+  /// Passes on that a message came whose publisher has another definition.
+  /// @param sender  what is said of it (describe_other_definition())
+  void refuse(const std::string& sender);
 
   /// Tries again those that wait: to be called when transforms came, and now and then so that those
   /// which have waited in vain are reported.

@@ -81,6 +81,13 @@ class MessageSource {
   /// @param event    of the kind that its channel has; a jump becomes a withdrawal where it is one
   virtual Reading read(const MessagePointer& message, Stamp receipt, Event& event) = 0;
 
+  /// The MD5 sum of the definition by which it reads.
+  virtual std::string md5sum() const = 0;
+
+  /// What is said of a message of another definition; empty where nothing is known of its sender.
+  /// @pre read() gave kOtherDefinition for it
+  virtual std::string describe_sender(const MessagePointer&) const { return ""; }
+
   /// Told that the event read last is good (is_good()).
   virtual void confirm() {}
 

@@ -22,6 +22,7 @@
 #include "sampled_data_observers/ros/log_throttle.h"
 #include "sampled_data_observers/ros/message_inbox.h"
 #include "sampled_data_observers/ros/node_log.h"
+#include "sampled_data_observers/ros/refused_publishers.h"
 #include "sampled_data_observers/ros/shared_runtime.h"
 #include "sampled_data_observers/runtime/clock_jumps.h"
 
@@ -49,6 +50,13 @@ class EventSubscriptions {
   /// @param take_datum  called once, where there is a local plane, when its datum is known
   void start(DatumReceiver take_datum);
 
+  /// What is expected on the topic of each channel.
+  std::vector<ExpectedDefinition> expected() const;
+
+  /// Takes in that a message came from a publisher of another definition; for any thread, after
+  /// start(). Allocates nothing.
+  void refuse(std::size_t channel, const RefusedPublishers::Text& sender);
+
  private:
   void add(const EventChannel& channel);
   void listen_to_transforms();
@@ -59,7 +67,9 @@ class EventSubscriptions {
   void retry_waiting();
   void tell_of_datum();
   bool handle(const EventChannel& channel, const Event& event, Reading reading,
-              const std::string& missing);
+              const std::string& detail);
+  void tell_of_rejection(const EventChannel& channel, const Event& event,
+                         const EventStatus& status) const;
   LogThrottle& throttle_of(const EventChannel& channel, const EventReport& report);
 
   ros::NodeHandle handle_;
@@ -77,7 +87,9 @@ class EventSubscriptions {
   DatumReceiver take_datum_;  ///< none where nothing is to be told any more
   /// One for each channel, in its order.
   std::vector<std::shared_ptr<EventIntake>> intakes_;
+  std::vector<ExpectedDefinition> expected_;
   std::vector<std::function<void()>> subscribe_;
+  /// Its channels are followed by as many of messages that are refused: texts on their senders.
   MessageQueue messages_;
   AtOnce at_once_;
   /// A callback that uses the next message.

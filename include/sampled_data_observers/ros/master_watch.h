@@ -50,6 +50,10 @@ class MasterWatch {
               std::vector<ExpectedType> topics, std::vector<std::string> own_topics,
               TypeReceiver take_type, NodeLog log);
 
+  /// Does something else that asks the master each time, too: on the same thread, so that a master
+  /// that does not answer holds up no other. To be set before the callback queue is called.
+  void also(std::function<void()> ask) { ask_ = std::move(ask); }
+
  private:
   void check();
   void check_types();
@@ -66,6 +70,7 @@ class MasterWatch {
   /// How often in a row nobody published each of them.
   std::vector<int> silent_;
   const NodeLog log_;
+  std::function<void()> ask_;
   ros::SteadyTimer timer_;
 };
 

@@ -14,6 +14,7 @@
 #include "sampled_data_observers/ros/master_watch.h"
 #include "sampled_data_observers/ros/node_log.h"
 #include "sampled_data_observers/ros/observer_services.h"
+#include "sampled_data_observers/ros/refused_publishers.h"
 #include "sampled_data_observers/ros/shared_runtime.h"
 
 namespace sampled_data_observers {
@@ -50,6 +51,7 @@ class ObserverNodelet : public nodelet::Nodelet {
   std::unique_ptr<ObserverServices> services_;
   std::unique_ptr<DiagnosticsReporter> diagnostics_;
   std::unique_ptr<MasterWatch> master_watch_;
+  std::unique_ptr<RefusedPublishers> refused_publishers_;
   std::unique_ptr<ClockWatch> clock_watch_;
 };
 

@@ -40,6 +40,9 @@ enum class EventOutcome : std::uint8_t {
 /// How many outcomes there are: their codes lie below.
 constexpr std::size_t kEventOutcomes = static_cast<std::size_t>(EventOutcome::kNoCovariance) + 1;
 
+/// Characters of what is said of a rejected event beside its outcome; what is longer is cut.
+constexpr std::size_t kLongestDetail = 400;
+
 /// The outcome in a few words.
 const char* describe(EventOutcome outcome);
 

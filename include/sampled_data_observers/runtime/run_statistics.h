@@ -65,8 +65,16 @@ struct ChannelStatistics {
   Range rewound;
   /// How many came after a bound that rested on their absence (EventReport::came_after_bound).
   std::uint64_t after_bound = 0;
-  /// The transform for which an event was rejected last, ever; empty: none was.
-  std::string missing_transform;
+  /// What was said last of a rejection, ever: the transform that is missing, say, or the publisher
+  /// whose definition is another one.
+  struct Detail {
+    /// Of that rejection.
+    EventOutcome outcome = EventOutcome::kUsed;
+    /// Empty where nothing was said.
+    std::string text = {};
+  };
+  /// Of the last one.
+  Detail detail = {};
   /// The norm of the innovation of the last sample; NaN without.
   double innovation = std::numeric_limits<double>::quiet_NaN();
   /// Mean and size of them.
@@ -139,8 +147,8 @@ class StatisticsRecorder {
   void record_event(std::size_t channel, const Event& event, const EventReport& report,
                     Duration latency) noexcept;
 
-  /// The transform for which an event is rejected. Left out where take() just reads the last one.
-  void record_missing_transform(std::size_t channel, const std::string& transform) noexcept;
+  /// What is said of an event that is rejected. Left out where take() just reads the last one.
+  void record_detail(std::size_t channel, EventOutcome outcome, const std::string& text) noexcept;
 
   /// An estimate that was published.
   /// @param law       whose state the estimate is
@@ -173,8 +181,8 @@ class StatisticsRecorder {
     std::atomic<InnovationTrend> trend{InnovationTrend::kSteady};
     std::mutex innovations_mutex;
     InnovationStatistics innovations;
-    std::mutex missing_transform_mutex;
-    std::string missing_transform;
+    std::mutex detail_mutex;
+    ChannelStatistics::Detail detail;
   };
 
   static void record_innovation(Channel& channel, Eigen::Index size,

@@ -181,7 +181,8 @@ class DecodingPlan::Run {
   }
 
   void take(const Read& read, const std::uint8_t* from) {
-    slots_.numbers[read.slot] = number_at(from, read.type);
+    slots_.numbers[read.slot] = read.type == NumberType::kFloat64 ? load<double>(from)  // as most
+                                                                  : number_at(from, read.type);
     slots_.is_held[read.slot] = 1;
   }
 

@@ -203,6 +203,22 @@ MessagePath path_to(const MessageDefinition& definition, MessagePath from,
   return from;
 }
 
+std::optional<std::size_t> fixed_offset(const MessageDefinition& definition,
+                                        const MessagePath& path) {
+  std::size_t offset = 0;
+  const std::string* type = &definition.type();
+  for (const PathStep& step : path) {
+    const std::vector<MessageMember>& members = definition.members(*type);
+    for (std::size_t i = 0; i < step.member; ++i) {
+      const std::optional<std::size_t> size = definition.fixed_size(members[i].type);
+      if (!size || members[i].is_list()) return std::nullopt;
+      offset += *size * members[i].length.value_or(1);
+    }
+    type = &members[step.member].type;
+  }
+  return offset;
+}
+
 const std::string& type_at(const MessageDefinition& definition, const MessagePath& path) {
   const std::string* type = &definition.type();
   for (const PathStep& step : path) type = &definition.members(*type)[step.member].type;

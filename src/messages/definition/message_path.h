@@ -63,6 +63,11 @@ std::optional<MessagePath> find_header(const MessageDefinition& definition);
 MessagePath path_to(const MessageDefinition& definition, MessagePath from,
                     const std::vector<std::string>& names);
 
+/// How many bytes of a message lie before what a path leads to; nothing where that is not so in all
+/// messages. @pre it goes through no lists and arrays
+std::optional<std::size_t> fixed_offset(const MessageDefinition& definition,
+                                        const MessagePath& path);
+
 /// The type of what a path leads to.
 const std::string& type_at(const MessageDefinition& definition, const MessagePath& path);
 
