@@ -219,6 +219,21 @@ TEST(TimerDependentDesign, CorrectsAtSwitchesWhatNoModeShowsAlone) {
   EXPECT_THROW(require_subject(*found.certificate.theorem, subject), std::invalid_argument);
 }
 
+TEST(TimerDependentDesign, CorrectsAtSwitchesBetweenThreeModes) {
+  CertificateSubject subject =
+      CertifiedGains("config/examples/bernard2022_switched/gains.yaml").certificate().subject;
+  // Each mode turns two of the states.
+  ModeMatrices third = subject.plant.modes.front();
+  third.label = 7;
+  third.A << 0, 0, 1, 0, 0, 0, -1, 0, 0;
+  subject.plant.modes.push_back(third);
+  const Design found = design_by("timer_dependent_switched_gain", with_cells(subject, 6),
+                                 {{"lambda_t", 0.005}}, Objective::kFeasible);
+  EXPECT_EQ(found.proved_conditions,
+            found.certificate.theorem->conditions(found.certificate.subject).size());
+  EXPECT_EQ(found.certificate.values.count("L_d/7"), 1u);
+}
+
 TEST(TimerDependentDesign, IsForAllFlowsInAHull) {
   CertificateSubject subject = with_cells(densely_sampled_oscillator(0.3), 4);
   const auto gamma = [&] {
