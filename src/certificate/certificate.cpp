@@ -140,6 +140,9 @@ const std::vector<const Theorem*>& theorems() {
       &timer_dependent_intersample_injection(),
       &timer_dependent_sample_and_hold(),
       &timer_dependent_scheduled_gain(),
+      &timer_dependent_sum_constant_gain(),
+      &timer_dependent_sum_intersample_injection(),
+      &timer_dependent_sum_sample_and_hold(),
       &timer_dependent_switched(),
       &timer_dependent_synchronized(),
   };

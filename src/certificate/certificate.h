@@ -134,6 +134,10 @@ class Theorem {
   /// Whether it is about functions that fall at events too (falls_at_events).
   virtual bool takes_fall_at_events() const { return false; }
 
+  /// Whether it is about a function that is a sum of such of one timer each, so that the nodes of
+  /// its timers make no grid.
+  virtual bool sums_over_timers() const { return false; }
+
   /// @throws std::invalid_argument saying why, for a plant or times [T1, T2] that it is not about.
   virtual void require_applicable(const CertificateSubject& subject) const = 0;
 

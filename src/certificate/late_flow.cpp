@@ -82,15 +82,21 @@ LateFlow::LateFlow(const TimerDependentFunction& function, const NamedMatrices& 
   }
 }
 
+LateFlow::Growth LateFlow::growth_in(const ErrorSystem& system,
+                                     const std::vector<Eigen::MatrixXd>& F,
+                                     const Eigen::MatrixXd& Q, double disturbance) {
+  Growth growth = {kLowest, push_of(Q, system.N, disturbance)};
+  for (const Eigen::MatrixXd& flow : F) {
+    growth.rate = std::max(growth.rate, quotient_above(flow_of(system, flow, Q), Q) / 2.0);
+  }
+  return growth;
+}
+
 void LateFlow::add_norm(const ErrorSystem& system, const std::vector<Eigen::MatrixXd>& F,
                         const std::vector<Eigen::MatrixXd>& P, const Eigen::MatrixXd& Q,
                         double disturbance) {
   Norm norm;
-  norm.growth = {kLowest, push_of(Q, system.N, disturbance)};
-  for (const Eigen::MatrixXd& flow : F) {
-    norm.growth.rate =
-        std::max(norm.growth.rate, quotient_above(flow_of(system, flow, Q), Q) / 2.0);
-  }
+  norm.growth = growth_in(system, F, Q, disturbance);
   const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(system.size, system.size);
   for (const Eigen::MatrixXd& P_k : P) {
     norm.into.push_back(raised(squared(norm_between(P_k, Q, identity))));

@@ -45,6 +45,10 @@ class LateFlow {
                                const std::vector<Eigen::MatrixXd>& P, std::size_t late,
                                double disturbance);
 
+  /// The same of |e|_Q.
+  static Growth growth_in(const ErrorSystem& system, const std::vector<Eigen::MatrixXd>& F,
+                          const Eigen::MatrixXd& Q, double disturbance);
+
  private:
   struct Norm {
     Growth growth;

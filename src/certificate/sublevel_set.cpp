@@ -45,4 +45,16 @@ double SublevelSet::radius_around(const Eigen::Ref<const Eigen::MatrixXd>& Q) co
   return raised(std::sqrt(form_.over(Q)));
 }
 
+Eigen::MatrixXd inverse_above(const MatrixExpression& P, const NamedMatrices& values,
+                              const std::string& name) {
+  const RoundedMatrix rounded = evaluate_with_rounding(P, values);
+  Eigen::MatrixXd below = (rounded.value + rounded.value.transpose()) / 2.0;
+  // |Σ E_ij x_i x_j| <= Σ_i x_i² Σ_j |E_ij| d_i / d_j for any d > 0.
+  const Eigen::VectorXd d = below.diagonal().cwiseAbs().cwiseSqrt();
+  const Eigen::MatrixXd weighted =
+      d.asDiagonal() * (rounded.error + rounded.error.transpose()) * d.cwiseInverse().asDiagonal();
+  below.diagonal() -= std::numeric_limits<double>::epsilon() * weighted.rowwise().sum();
+  return inverse_above(below, positive_least_eigenvalue(below, name));
+}
+
 }  // namespace sampled_data_observers

@@ -1,8 +1,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
 
 #include "certificate/form_maximum.h"
+#include "certificate/matrix_expression.h"
+#include "certificate/numeric_algebra.h"
 
 namespace sampled_data_observers {
 
@@ -12,6 +15,11 @@ namespace sampled_data_observers {
 /// @param P      n x n, > 0
 /// @param least  λ > 0, not more than the least eigenvalue of P
 Eigen::MatrixXd inverse_above(const Eigen::MatrixXd& P, double least);
+
+/// The same, whatever rounding has done to the value of P, named so for messages.
+/// @throws std::invalid_argument where rounding hides its least eigenvalue
+Eigen::MatrixXd inverse_above(const MatrixExpression& P, const NamedMatrices& values,
+                              const std::string& name);
 
 /// The errors e with eᵀ P e <= r², P > 0, in which a quadratic Lyapunov function keeps the error.
 /// Allocates nothing once it is built.

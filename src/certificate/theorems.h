@@ -39,6 +39,9 @@ const Theorem& timer_dependent_constant_gain();
 const Theorem& timer_dependent_intersample_injection();
 const Theorem& timer_dependent_sample_and_hold();
 const Theorem& timer_dependent_scheduled_gain();
+const Theorem& timer_dependent_sum_constant_gain();
+const Theorem& timer_dependent_sum_intersample_injection();
+const Theorem& timer_dependent_sum_sample_and_hold();
 const Theorem& timer_dependent_switched();
 const Theorem& timer_dependent_synchronized();
 

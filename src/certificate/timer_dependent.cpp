@@ -47,7 +47,8 @@ class SampledTimerTheorem : public TimerDependentTheorem {
     }
     if (plant.sampled.size() > TensorGrid::kMaxDimensions) {
       throw std::invalid_argument("it is about " + std::to_string(TensorGrid::kMaxDimensions) +
-                                  " sensors at most, each with a timer of its own");
+                                  " sensors at most, each with a timer of its own; the theorems "
+                                  "timer_dependent_sum_... are about more");
     }
     const std::vector<SamplingTimes> times = times_of_timers(subject);
     if (times.size() != plant.sampled.size()) {

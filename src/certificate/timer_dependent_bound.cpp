@@ -25,19 +25,6 @@ constexpr double kLargestShare = 0.1;
 
 double square_of(double value) { return value * value; }
 
-/// How far weights between nodes may be off: those of a cell that is narrow beside its time the
-/// most.
-double weight_rounding_of(const TensorGrid& grid) {
-  double largest = 0.0;
-  for (std::size_t timer = 0; timer < grid.dimensions(); ++timer) {
-    const std::vector<double>& nodes = grid.nodes(timer);
-    for (std::size_t i = 1; i < nodes.size(); ++i) {
-      largest = std::max(largest, nodes[i] / (nodes[i] - nodes[i - 1]));
-    }
-  }
-  return 16.0 * std::numeric_limits<double>::epsilon() * largest;
-}
-
 /// δ of P <= (1 + δ) P_k and P_k <= (1 + δ) P, P_k being exact and P its computed value.
 double share_of_rounding(const MatrixExpression& P, const NamedMatrices& values) {
   const RoundedMatrix rounded = evaluate_with_rounding(P, values);
@@ -78,19 +65,6 @@ double gain_rounding_of(const std::vector<Eigen::MatrixXd>& P, const TensorGrid&
   return share * std::sqrt(n) * largest / (solves ? least : 1.0);
 }
 
-/// Not less than P⁻¹, whatever rounding has done to the value of P.
-Eigen::MatrixXd inverse_of_exact(const MatrixExpression& P, const NamedMatrices& values,
-                                 const std::string& name) {
-  const RoundedMatrix rounded = evaluate_with_rounding(P, values);
-  Eigen::MatrixXd below = (rounded.value + rounded.value.transpose()) / 2.0;
-  // |Σ E_ij x_i x_j| <= Σ_i x_i² Σ_j |E_ij| d_i / d_j for any d > 0.
-  const Eigen::VectorXd d = below.diagonal().cwiseAbs().cwiseSqrt();
-  const Eigen::MatrixXd weighted =
-      d.asDiagonal() * (rounded.error + rounded.error.transpose()) * d.cwiseInverse().asDiagonal();
-  below.diagonal() -= std::numeric_limits<double>::epsilon() * weighted.rowwise().sum();
-  return inverse_above(below, positive_least_eigenvalue(below, name));
-}
-
 }  // namespace
 
 TimerDependentBound::TimerDependentBound(const TimerDependentFunction& function,
@@ -99,7 +73,7 @@ TimerDependentBound::TimerDependentBound(const TimerDependentFunction& function,
     : grid_(function.grid()),
       shortest_(function.shortest()),
       longest_(std::move(longest)),
-      weight_rounding_(weight_rounding_of(grid_)),
+      weight_rounding_(weight_rounding(grid_)),
       rate_(2.0 * scalar_value(values, "lambda_t")),
       fall_(function.falls_at_events() ? scalar_value(values, "mu") : 1.0),
       noise_(assumptions.noise),
@@ -138,7 +112,7 @@ void TimerDependentBound::compute_nodes(const TimerDependentFunction& function,
   for (std::size_t k = 0; k < grid_.size(); ++k) {
     Node node;
     node.inverse =
-        inverse_of_exact(function.P(k), values, "P/" + std::to_string(k)).topLeftCorner(n, n);
+        inverse_above(function.P(k), values, "P/" + std::to_string(k)).topLeftCorner(n, n);
     node.inverse_norm = largest_eigenvalue_above(node.inverse);
     const Eigen::MatrixXd of_state = P[k].topLeftCorner(n, n);
     node.form = FormMaximum(of_state, of_state.cwiseAbs());

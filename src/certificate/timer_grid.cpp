@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace sampled_data_observers {
 namespace {
@@ -121,6 +122,17 @@ std::vector<std::vector<CellCorner>> cells_of(const TensorGrid& grid) {
     cells.push_back(std::move(corners));
   }
   return cells;
+}
+
+double weight_rounding(const TensorGrid& grid) {
+  double largest = 0.0;
+  for (std::size_t timer = 0; timer < grid.dimensions(); ++timer) {
+    const std::vector<double>& nodes = grid.nodes(timer);
+    for (std::size_t i = 1; i < nodes.size(); ++i) {
+      largest = std::max(largest, nodes[i] / (nodes[i] - nodes[i - 1]));
+    }
+  }
+  return 16.0 * std::numeric_limits<double>::epsilon() * largest;
 }
 
 }  // namespace sampled_data_observers

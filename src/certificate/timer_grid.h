@@ -41,4 +41,8 @@ struct CellCorner {
 /// The corners of all cells, cell by cell.
 std::vector<std::vector<CellCorner>> cells_of(const TensorGrid& grid);
 
+/// How far weights between nodes may be off by rounding: those of a cell that is narrow beside its
+/// time the most.
+double weight_rounding(const TensorGrid& grid);
+
 }  // namespace sampled_data_observers

@@ -45,7 +45,7 @@ CertificateSubject read_subject(ConfigSection& section, const Plant& plant,
   if (section.has("N")) subject.plant.N = section.matrix("N", n, -1);
   if (section.has("C_p")) subject.plant.C_p = section.matrix("C_p", -1, n);
   read_event_times(section, subject);
-  read_timer_nodes(section, subject);
+  read_timer_nodes(section, theorem, subject);
   subject.falls_at_events = theorem.takes_fall_at_events() && section.has("mu");
   return subject;
 }

@@ -97,18 +97,21 @@ std::vector<double> read_nodes(ConfigSection& section, const std::string& name,
 
 }  // namespace
 
-void read_timer_nodes(ConfigSection& section, CertificateSubject& subject) {
+void read_timer_nodes(ConfigSection& section, const Theorem& theorem, CertificateSubject& subject) {
   if (!section.has("timer_nodes")) return;
   ConfigSection lists = section.section("timer_nodes");
   const std::vector<std::string> names = names_of_timers(subject);
   const std::vector<SamplingTimes> times = times_of_timers(subject);
-  std::size_t of_grid = 1;
+  const bool is_sum = theorem.sums_over_timers();
+  std::size_t of_all = is_sum ? 0 : 1;
   for (std::size_t i = 0; i < names.size(); ++i) {
     subject.timer_nodes.push_back(read_nodes(lists, names[i], times[i]));
-    of_grid *= subject.timer_nodes.back().size();
-    require_at_most(kMostTimerNodes, of_grid,
-                    "nodes of the grid, the product of those of its timers", section,
-                    "timer_nodes");
+    const std::size_t nodes = subject.timer_nodes.back().size();
+    of_all = is_sum ? of_all + nodes : of_all * nodes;
+    require_at_most(
+        kMostTimerNodes, of_all,
+        is_sum ? "nodes of all timers" : "nodes of the grid, the product of those of its timers",
+        section, "timer_nodes");
   }
   lists.finish();
 }

@@ -30,6 +30,6 @@ void read_event_times(ConfigSection& section, CertificateSubject& subject);
 /// `jumps`, of increasing times from 0 to the longest of that timer, its shortest among them [s].
 /// @pre the times of the subject are known
 /// @throws ConfigError for lists that are none such
-void read_timer_nodes(ConfigSection& section, CertificateSubject& subject);
+void read_timer_nodes(ConfigSection& section, const Theorem& theorem, CertificateSubject& subject);
 
 }  // namespace sampled_data_observers

@@ -77,7 +77,9 @@ class GivenGains : public DesignMethod {
   std::vector<Objective> objectives(const CertificateSubject& subject) const override {
     std::vector<Objective> all = {Objective::kFeasible};
     if (std::isfinite(subject.T2)) all.push_back(Objective::kMaxT2);
-    if (timer_dependent_function(theorem_, subject)) all.push_back(Objective::kMinT1);
+    if (theorem_.sums_over_timers() || timer_dependent_function(theorem_, subject)) {
+      all.push_back(Objective::kMinT1);
+    }
     if (has_gamma(theorem_, subject) && gain_has_meaning(theorem_, subject))
       all.insert(all.begin(), Objective::kMinGamma);
     if (!theorem_.decay_parameter().empty()) all.push_back(Objective::kMaxDecay);

@@ -11,6 +11,7 @@
 #include "design/request_error.h"
 #include "design/run_time_figures.h"
 #include "design/synthesis.h"
+#include "linear_algebra/tensor_grid.h"
 
 namespace sampled_data_observers {
 namespace {
@@ -71,6 +72,11 @@ std::vector<const DesignMethod*> methods_that_apply(const DesignProblem& problem
     // For one sensor, gains that depend on its timer are hardly better than constant ones.
     const bool is_for_several = method->name() == "timer_dependent_scheduled_gain";
     if (is_variant || (is_for_several && problem.subject.plant.sampled.size() == 1)) continue;
+    // On a grid, where there may be one, functions of timers prove more.
+    if (method->theorem().sums_over_timers() &&
+        problem.subject.plant.sampled.size() <= TensorGrid::kMaxDimensions) {
+      continue;
+    }
     if (applies(*method, problem)) all.push_back(method);
   }
   return all;

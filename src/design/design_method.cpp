@@ -180,6 +180,7 @@ const std::vector<const DesignMethod*>& design_methods() {
       &timer_dependent_jump_gain_design(),
       &timer_dependent_switched_design(),
       &timer_dependent_alternating_gain(),
+      &timer_dependent_sum_gain(),
       &timer_dependent_alternating_injection(),
       &timer_dependent_alternating_hold(),
   };

@@ -106,8 +106,16 @@ void minimize_final_error(LmiProgram& program, const Theorem& theorem,
     Parameters all = parameters;
     all["lambda_t"] = scalar_value(fixed, "lambda_t");
     if (subject.falls_at_events) all["mu"] = scalar_value(fixed, "mu");
-    minimize_timer_dependent_level(program, *function, subject, weights, all,
-                                   fixed.count("P/0") == 0);
+    const bool has_free_P = fixed.count("P/0") == 0;
+    minimize_timer_dependent_level(
+        program, function->system(),
+        has_free_P ? matrices_of(*function) : std::vector<MatrixExpression>(), subject, weights,
+        all);
+  } else if (const auto sum = timer_dependent_sum(theorem, subject)) {
+    Parameters all = parameters;
+    all["lambda_t"] = scalar_value(fixed, "lambda_t");
+    minimize_timer_dependent_level(program, sum->system(), {sum->P_constant()}, subject, weights,
+                                   all);
   } else if (theorem.name() == "ferrante2016_theorem1") {
     minimize_ferrante2016_level(program, subject, fixed.at("L"), weights, parameters);
   } else if (theorem.name() == "ferrante2019_theorem2") {
@@ -117,18 +125,23 @@ void minimize_final_error(LmiProgram& program, const Theorem& theorem,
   }
 }
 
-void minimize_timer_dependent_level(LmiProgram& program, const TimerDependentFunction& function,
+std::vector<MatrixExpression> matrices_of(const TimerDependentFunction& function) {
+  std::vector<MatrixExpression> all;
+  for (std::size_t node = 0; node < function.grid().size(); ++node) {
+    all.push_back(function.P(node));
+  }
+  return all;
+}
+
+void minimize_timer_dependent_level(LmiProgram& program, const ErrorSystem& system,
+                                    const std::vector<MatrixExpression>& matrices,
                                     const CertificateSubject& subject,
-                                    const Eigen::VectorXd& weights, const Parameters& parameters,
-                                    bool has_free_P) {
+                                    const Eigen::VectorXd& weights, const Parameters& parameters) {
   const ErrorAssumptions assumptions = final_error_assumptions(parameters);
-  const ErrorSystem& system = function.system();
-  if (has_free_P) {
+  for (const MatrixExpression& P : matrices) {
     Eigen::MatrixXd least = Eigen::MatrixXd::Zero(system.size, system.size);
     least.topLeftCorner(system.states, system.states) = weights.cwiseAbs2().asDiagonal();
-    for (std::size_t node = 0; node < function.grid().size(); ++node) {
-      program.bound_above("least P", least, function.P(node));
-    }
+    program.bound_above("least P", least, P);
   }
   // W of the bound ends at Σ ν_i |η_i|² / (1 − μ e^{−2 λ T1_i}), and of the disturbance, before the
   // last event, at γ² |w|² / (2 λ) (1 − e^{−2 λ T2}) / (1 − μ e^{−2 λ T2}); here over |η|² or |w|².
@@ -139,7 +152,7 @@ void minimize_timer_dependent_level(LmiProgram& program, const TimerDependentFun
   MatrixExpression level = 0.0;
   for (std::size_t timer = 0; timer < system.resets.size(); ++timer) {
     const double shortest = times[timer].T1 > 0.0 ? times[timer].T1 : times[timer].T2;
-    const double fall = function.falls_at_events()
+    const double fall = subject.falls_at_events
                             ? 1.0 - parameters.at("mu") * std::exp(-rate * shortest)
                             : -std::expm1(-rate * shortest);
     level = level +
@@ -147,7 +160,7 @@ void minimize_timer_dependent_level(LmiProgram& program, const TimerDependentFun
   }
   if (system.N.cols() > 0) {
     double push = squared(assumptions.disturbance / unit) / rate;
-    if (function.falls_at_events()) {
+    if (subject.falls_at_events) {
       const double left = std::exp(-rate * subject.T2);
       push *= (1.0 - left) / (1.0 - parameters.at("mu") * left);
     }

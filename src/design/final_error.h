@@ -1,5 +1,6 @@
 #pragma once
 
+#include "certificate/error_system.h"
 #include "certificate/timer_dependent_conditions.h"
 #include "design/design_method.h"
 
@@ -49,12 +50,17 @@ void minimize_final_error(LmiProgram& program, const Theorem& theorem,
                           const CertificateSubject& subject, const NamedMatrices& fixed,
                           const Eigen::VectorXd& weights, const Parameters& parameters);
 
-/// The same for any program that has the symbols of such a function as variables, or P fixed.
+/// The same for any program that has the symbols of a function of timers as variables, or its
+/// matrices fixed.
+/// @param matrices    which P(τ) is never less than the least of, where they are variables
 /// @param parameters  with lambda_t, and mu where the function falls at events
-void minimize_timer_dependent_level(LmiProgram& program, const TimerDependentFunction& function,
+void minimize_timer_dependent_level(LmiProgram& program, const ErrorSystem& system,
+                                    const std::vector<MatrixExpression>& matrices,
                                     const CertificateSubject& subject,
-                                    const Eigen::VectorXd& weights, const Parameters& parameters,
-                                    bool has_free_P);
+                                    const Eigen::VectorXd& weights, const Parameters& parameters);
+
+/// P at all nodes.
+std::vector<MatrixExpression> matrices_of(const TimerDependentFunction& function);
 
 /// The same for any program that has P1, P2 and gamma of ferrante2019 as variables.
 void minimize_ferrante2019_level(LmiProgram& program, const CertificateSubject& subject,

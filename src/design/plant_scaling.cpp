@@ -93,6 +93,7 @@ PlantScaling units_of_file(const CertificateSubject& subject) {
   scaling.continuous_output = Eigen::VectorXd::Ones(mode.C_c.rows());
   scaling.jump_output = Eigen::VectorXd::Ones(mode.C_d.rows());
   scaling.sampled = subject.plant.sampled;
+  if (subject.plant.vertices.empty()) scaling.nonlinearities = subject.plant.G.cols();
   return scaling;
 }
 
@@ -137,6 +138,7 @@ PlantScaling inverse_of(const PlantScaling& scaling) {
   back.nonlinearity = 1.0 / scaling.nonlinearity;
   back.performance = 1.0 / scaling.performance;
   back.sampled = scaling.sampled;
+  back.nonlinearities = scaling.nonlinearities;
   return back;
 }
 

@@ -22,6 +22,7 @@ struct PlantScaling {
   double nonlinearity = 1.0;
   double performance = 1.0;
   std::vector<SampledOutputs> sampled;  ///< whose entries of `output` are whose
+  Eigen::Index nonlinearities = 0;      ///< s, entries of ψ that a constant bounds
 };
 
 /// Those in which nothing changes.

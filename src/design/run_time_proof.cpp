@@ -28,7 +28,10 @@ double figure(const Certificate& certificate, const ErrorAssumptions& assumption
 /// The theorem of timers about the same gains of an observer; null where there is none.
 const Theorem* counterpart(const Design& design) {
   const Certificate& certificate = design.certificate;
-  if (timer_dependent_function(*certificate.theorem, certificate.subject)) return nullptr;
+  if (timer_dependent_function(*certificate.theorem, certificate.subject) ||
+      certificate.theorem->sums_over_timers()) {
+    return nullptr;
+  }
   for (const char* name : {"timer_dependent_constant_gain", "timer_dependent_intersample_injection",
                            "timer_dependent_sample_and_hold", "timer_dependent_synchronized"}) {
     const Theorem* theorem = find_theorem(name);

@@ -36,6 +36,11 @@ class Unscaling {
     if (base == "chi") {
       return value * (level_ / (time * scaling_.nonlinearity * scaling_.nonlinearity));
     }
+    if (base == "flow_part") return form_of_flow(value);
+    if (base == "jump_part" || base == "jump_parts") return form_of_jump(value, output_of(name));
+    if (base == "P_constant" || base == "P_most" || base == "P_after") {
+      return form_of_state(level_, value);
+    }
     if (base == "P" || base == "P1" || base == "Q" || base == "metric" || base == "projection") {
       return form_of_state(level_, value);
     }
@@ -93,6 +98,32 @@ class Unscaling {
     Eigen::VectorXd from(from_x_.size() + from_y_.size());
     from << from_x_, from_y_;
     return factor * (from.asDiagonal() * value * from.asDiagonal());
+  }
+
+  /// Of the error, and of more that is in these units: one over all.
+  Eigen::MatrixXd form_of_error(double factor, const Eigen::MatrixXd& value,
+                                const Eigen::VectorXd& beside) const {
+    const Eigen::Index n = from_x_.size();
+    Eigen::VectorXd from(value.rows());
+    from.head(n) = from_x_;
+    if (value.rows() > n + beside.size()) from.segment(n, from_y_.size()) = from_y_;
+    from.tail(beside.size()) = beside;
+    return factor * (from.asDiagonal() * value * from.asDiagonal());
+  }
+
+  /// In (e, φ, w).
+  Eigen::MatrixXd form_of_flow(const Eigen::MatrixXd& value) const {
+    const bool has_outputs = theorem_.observer_types().front() != "ConstantGainObserver";
+    const Eigen::Index size = from_x_.size() + (has_outputs ? from_y_.size() : 0);
+    Eigen::VectorXd beside =
+        Eigen::VectorXd::Constant(value.rows() - size, 1.0 / scaling_.disturbance);
+    beside.head(scaling_.nonlinearities).setConstant(1.0 / scaling_.nonlinearity);
+    return form_of_error(level_ / scaling_.time, value, beside);
+  }
+
+  /// In (e, η).
+  Eigen::MatrixXd form_of_jump(const Eigen::MatrixXd& value, const Eigen::VectorXd& output) const {
+    return form_of_error(level_, value, output.cwiseInverse());
   }
 
   /// The units of the outputs of the sensor that a name "L/gps" ends in, or has in its middle; of

@@ -9,7 +9,8 @@ namespace sampled_data_observers {
 namespace {
 
 bool depends_on_timers(const DesignMethod& method, const CertificateSubject& subject) {
-  return timer_dependent_function(method.theorem(), subject).has_value();
+  return method.theorem().sums_over_timers() ||
+         timer_dependent_function(method.theorem(), subject).has_value();
 }
 
 Design synthesize_on_grid(const DesignMethod& method, const DesignProblem& problem,

@@ -16,6 +16,8 @@ namespace {
 
 constexpr int kFirstCells = 4;
 constexpr int kFirstCellsOfSeveral = 2;
+/// Of each timer, where the function is a sum.
+constexpr int kCellsOfSum = 4;
 constexpr double kWorthwhile = 0.99;
 /// Entries of P at all nodes of a grid.
 constexpr Eigen::Index kMostEntries = 450;
@@ -121,6 +123,9 @@ class RefinedSearch {
         assumptions_(assumptions),
         solve_(solve),
         refines_(a_function(theorem, next_) && next_.timer_nodes.empty()) {
+    if (theorem.sums_over_timers() && next_.timer_nodes.empty()) {
+      next_ = with_cells(next_, kCellsOfSum);
+    }
     if (!refines_) return;
     const bool has_several = times_of_timers(next_).size() > 1;
     next_ = with_cells(next_, has_several ? kFirstCellsOfSeveral : kFirstCells);

@@ -63,6 +63,8 @@ sensors:
 DENSE = ["  first: {C: [[1, 0]], source: {topic: first}, sampling: {T1: 0, T2: 0.5}}\n",
          "  second: {C: [[0, 1]], source: {topic: second}, sampling: {T1: 0, T2: 0.3}}\n"]
 
+SPARSE = "".join(DENSE).replace("T1: 0,", "T1: 0.1,") + "design: {N: [[0], [1]], C_p: [[1, 0]]}\n"
+
 UNCERTAIN_PLANT = """
 plant:
   states: [x1, x2]
@@ -149,6 +151,7 @@ class ClaimTest(unittest.TestCase):
             gains = os.path.join(folder, "gains.yaml")
             for method, text in (("timer_dependent_constant_gain", DENSE_PLANT + DENSE[0]),
                                  ("timer_dependent_scheduled_gain", DENSE_PLANT + "".join(DENSE)),
+                                 ("timer_dependent_sum_gain", DENSE_PLANT + SPARSE),
                                  ("timer_dependent_constant_gain", UNCERTAIN_PLANT)):
                 with open(plant, "w", encoding="utf-8") as stream:
                     stream.write(text)

@@ -10,7 +10,9 @@ from high_precision import (exponential, identity, inverse, minus, null_space, p
                             product, products, solved, stacked, symmetrized, times, transposed, zeros)
 from timer_dependent import (timer_dependent_constant_gain, timer_dependent_intersample_injection,
                              timer_dependent_sample_and_hold, timer_dependent_scheduled_gain,
-                             timer_dependent_switched, timer_dependent_synchronized)
+                             timer_dependent_sum_constant_gain, timer_dependent_sum_intersample_injection,
+                             timer_dependent_sum_sample_and_hold, timer_dependent_switched,
+                             timer_dependent_synchronized)
 
 
 def root_of(P):
@@ -586,6 +588,9 @@ OBSERVERS = {
     timer_dependent_scheduled_gain: "TimeVaryingGainObserver",
     timer_dependent_intersample_injection: "IntersampleInjectionObserver",
     timer_dependent_sample_and_hold: "SampleAndHoldObserver",
+    timer_dependent_sum_constant_gain: "ConstantGainObserver",
+    timer_dependent_sum_intersample_injection: "IntersampleInjectionObserver",
+    timer_dependent_sum_sample_and_hold: "SampleAndHoldObserver",
     timer_dependent_synchronized: "SynchronizedObserver",
     timer_dependent_switched: "SwitchedObserver",
 }

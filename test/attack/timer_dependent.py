@@ -202,6 +202,114 @@ def timer_dependent(claim, fields, timers, nodes):
                 yield fall_of_measured(name, timer, claim.value("P_measured"), level)
 
 
+def timer_dependent_sum(claim, fields, timers, nodes):
+    """The same with P(tau) = P_constant + sum of P_i(tau_i), in parts that each see the nodes of one timer."""
+    size = len(fields[0])
+    rate = claim.value("lambda_t")
+    is_lipschitz = claim.G is not None and not claim.vertices
+    yield from numbers_of_flow(claim)
+    yield Statement("several timers", len(timers) > 1)
+    constant = claim.value("P_constant")
+    yield Fixed("P_constant > 0", constant)
+    P = {}
+    for timer, of_timer in zip(timers, nodes):
+        yield Statement(f"{timer.name}: 0 < T1 <= T2, nodes from 0 to T2, T1 among them", bool(
+            0 < timer.T1 <= timer.T2 and of_timer == sorted(set(of_timer)) and of_timer[0] == 0
+            and of_timer[-1] == timer.T2 and timer.T1 in of_timer))
+        yield Number(f"nu/{timer.name} > 0", claim.value(f"nu/{timer.name}"))
+        P[timer.name] = [claim.value(f"P/{timer.name}/{node}") for node in range(len(of_timer))]
+        for node, value in enumerate(P[timer.name]):
+            yield Fixed(f"P/{timer.name}/{node} > 0", value)
+
+    def below(rows):
+        return rows + zeros(size - claim.states, len(rows[0]))
+
+    def beside(rows):
+        return [row + [mpf(0)] * (size - claim.states) for row in rows]
+
+    inputs = []
+    if is_lipschitz:
+        inputs.append(("G", below(claim.G)))
+    if claim.N is not None:
+        inputs.append(("N", below(claim.N)))
+
+    def form(matrix, F, first, levels):
+        """(e, phi, w) of what a summand of P has of the flow."""
+        first = plus(plus(symmetrized(product(matrix, F)), times(2 * rate, matrix)), first)
+        rows = [[first]]
+        for name, columns in inputs:
+            across = product(matrix, columns)
+            rows[0].append(across)
+            rows.append([transposed(across)] + [
+                times(levels.get(name, mpf(0)), identity(len(columns[0]))) if other is columns
+                else zeros(len(columns[0]), len(other[0])) for _, other in inputs])
+        return stacked(rows)
+
+    for number, F in enumerate(fields):
+        suffix = f"/{number}" if len(fields) > 1 else ""
+        output = zeros(size, size)
+        if claim.C_p is not None and claim.N is not None:
+            output = product(transposed(beside(claim.C_p)), beside(claim.C_p))
+        levels = {"N": -claim.value("gamma") ** 2} if claim.N is not None else {}
+        whole = form(constant, F, output, levels)
+        for timer, of_timer in zip(timers, nodes):
+            part = claim.value(f"flow_part/{timer.name}{suffix}")
+            whole = plus(whole, part)
+            for low in range(len(of_timer) - 1):
+                ends = P[timer.name][low:low + 2]
+                slope = times(1 / (of_timer[low + 1] - of_timer[low]), minus(ends[1], ends[0]))
+                for node, value in zip((low, low + 1), ends):
+                    first, own = slope, {}
+                    if is_lipschitz:
+                        chi = claim.value(f"chi/{timer.name}/{node}")
+                        weight = chi * mpf(float(claim.lipschitz)) ** 2
+                        first = plus(first, times(weight, product(transposed(beside(claim.S)), beside(claim.S))))
+                        own = {"G": -chi}
+                    yield Fixed(f"flow of {timer.name} in cell {low} at node {node}{suffix}",
+                                minus(part, form(value, F, first, own)))
+        yield Fixed(f"flow{suffix}", times(mpf(-1), whole))
+    for timer, of_timer in zip(timers, nodes):
+        if is_lipschitz:
+            for node in range(len(of_timer)):
+                yield Number(f"chi/{timer.name}/{node} > 0", claim.value(f"chi/{timer.name}/{node}"))
+    yield from falls_of_sum(claim, timers, nodes, constant, P)
+
+
+def falls_of_sum(claim, timers, nodes, constant, P):
+    """V does not grow at samples but by noise, whatever the other timers are."""
+    for timer, of_timer in zip(timers, nodes):
+        K, C = timer.K(0), timer.C
+        m, size = len(C), len(constant)
+        heard = [row + [mpf(int(i == j)) for j in range(m)] for i, row in enumerate(C)]  # C e + noise
+
+        def gained(matrix):
+            """2 (C e + noise)' K' matrix e"""
+            across = product(matrix, K)
+            return stacked([[symmetrized(product(across, C)), across], [transposed(across), zeros(m, m)]])
+
+        most = plus(constant, P[timer.name][0])
+        parts = gained(most)
+        for other in timers:
+            if other is timer:
+                continue
+            most_of_other = claim.value(f"P_most/{other.name}")
+            most = plus(most, most_of_other)
+            part = claim.value(f"jump_part/{timer.name}/{other.name}")
+            parts = plus(parts, part)
+            for node, value in enumerate(P[other.name]):
+                yield Fixed(f"P/{other.name}/{node} < P_most", minus(most_of_other, value))
+                yield Fixed(f"part of {other.name} at node {node} in the jump of {timer.name}",
+                            minus(gained(value), part))
+        lost = products(transposed(heard), transposed(K), most, K, heard)
+        noise = [[mpf(0)] * size + [claim.value(f"nu/{timer.name}") * int(i == j) for j in range(m)]
+                 for i in range(m)]
+        for node, value in enumerate(P[timer.name]):
+            if of_timer[node] < timer.T1:
+                continue
+            fallen = stacked([[minus(value, P[timer.name][0]), zeros(size, m)]]) + noise
+            yield Fixed(f"jump of {timer.name} at node {node}", minus(plus(fallen, parts), lost))
+
+
 def nodes_of(source, key, names):
     by_name = source.get(key)
     if not isinstance(by_name, dict) or sorted(by_name) != sorted(names):
@@ -224,14 +332,21 @@ def names_of(claim):
     return [name for name, _ in claim.sampled]
 
 
-def timer_dependent_constant_gain(claim):
+def corrected_by_constants(claim):
     timers = []
     for name, C in claim.sampled:
         L = of_sensor(claim, "L", name)
         timers.append(Resets(name, *times_of(claim, name), identity(claim.states), C,
                              lambda _, L=L: L))
-    yield from timer_dependent(claim, slopes(claim), timers,
-                               nodes_of(claim.values, "timer_nodes", names_of(claim)))
+    return claim, slopes(claim), timers, nodes_of(claim.values, "timer_nodes", names_of(claim))
+
+
+def timer_dependent_constant_gain(claim):
+    yield from timer_dependent(*corrected_by_constants(claim))
+
+
+def timer_dependent_sum_constant_gain(claim):
+    yield from timer_dependent_sum(*corrected_by_constants(claim))
 
 
 def timer_dependent_scheduled_gain(claim):
@@ -270,16 +385,23 @@ def injected(claim, sign, has_H):
         timers.append(Resets(name, *times_of(claim, name), identity(size), wide, lambda _, K=K: K))
         first += count
     fields = [stacked([[A, L], [zeros(m, n), H]]) for A in slopes(claim)]
-    yield from timer_dependent(claim, fields, timers,
-                               nodes_of(claim.values, "timer_nodes", names_of(claim)))
+    return claim, fields, timers, nodes_of(claim.values, "timer_nodes", names_of(claim))
 
 
 def timer_dependent_intersample_injection(claim):
-    yield from injected(claim, 1, True)
+    yield from timer_dependent(*injected(claim, 1, True))
 
 
 def timer_dependent_sample_and_hold(claim):
-    yield from injected(claim, -1, False)
+    yield from timer_dependent(*injected(claim, -1, False))
+
+
+def timer_dependent_sum_intersample_injection(claim):
+    yield from timer_dependent_sum(*injected(claim, 1, True))
+
+
+def timer_dependent_sum_sample_and_hold(claim):
+    yield from timer_dependent_sum(*injected(claim, -1, False))
 
 
 def timer_dependent_synchronized(claim):

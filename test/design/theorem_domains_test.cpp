@@ -21,6 +21,14 @@ Eigen::MatrixXd two_by_two(double a, double b, double c, double d) {
   return result;
 }
 
+/// The same with other times, of each sensor where there are several.
+CertificateSubject with_times(CertificateSubject subject, double T1, double T2) {
+  subject.T1 = T1;
+  subject.T2 = T2;
+  for (SamplingTimes& times : subject.sensor_times) times = {T1, T2};
+  return subject;
+}
+
 /// A plant with outputs of all timings, jumps, modes, a disturbance and a Lipschitz flow, so far as
 /// the theorem allows.
 CertificateSubject subject_of(const Theorem& theorem) {
@@ -61,6 +69,11 @@ CertificateSubject subject_of(const Theorem& theorem) {
   if (is_average || theorem.times() == TheoremTimes::kReverseAverageDwellTime) {
     const auto kind = is_average ? DwellTime::Kind::kAverage : DwellTime::Kind::kReverseAverage;
     subject.dwell_time = DwellTime{kind, 0.3, 2.0};
+  }
+  if (theorem.sums_over_timers()) {
+    plant.modes.front().C = Eigen::MatrixXd::Identity(2, 2);
+    plant.sampled = {{"first", 0, 0, 1}, {"second", 1, 1, 1}};
+    set_sensor_times(subject, {{0.2, 0.4}, {0.2, 0.4}});
   }
   subject.falls_at_events = theorem.takes_fall_at_events();
   require_subject(theorem, subject);
@@ -145,9 +158,8 @@ TEST(TheoremTimes, EachTheoremRefusesTimesThatItDoesNotSpeakOf) {
     }
     EXPECT_THROW(require_subject(*theorem, other), std::invalid_argument);
     if (theorem->times() == TheoremTimes::kUpToT2) {
-      CertificateSubject without_end = subject_of(*theorem);
-      without_end.T2 = infinity;
-      EXPECT_THROW(require_subject(*theorem, without_end), std::invalid_argument);
+      EXPECT_THROW(require_subject(*theorem, with_times(subject_of(*theorem), 0.2, infinity)),
+                   std::invalid_argument);
     }
   }
 }
@@ -182,10 +194,7 @@ TEST_P(TheoremDomainsTest, AreConditionsForEachNumber) {
 TEST_P(TheoremDomainsTest, AreConditionsForTheTimes) {
   const NamedMatrices values = inside();
   for (const auto& [T1, T2] : {std::pair(-0.1, 0.4), std::pair(0.4, 0.2), std::pair(-0.4, -0.2)}) {
-    CertificateSubject broken = subject_;
-    broken.T1 = T1;
-    broken.T2 = T2;
-    const std::vector<Condition> conditions = domains(theorem_, broken);
+    const std::vector<Condition> conditions = domains(theorem_, with_times(subject_, T1, T2));
     EXPECT_FALSE(all_hold(check(conditions, values)));
     EXPECT_TRUE(has(prove(conditions, values), ProofStatus::kDisproved));
   }

@@ -56,6 +56,16 @@ constexpr char kCrowd[] =
     "  d: {C: [[1, 0]], source: {topic: d}}\n"
     "  e: {C: [[1, -1]], source: {topic: e}}\n";
 
+constexpr char kLargerCrowd[] =
+    "plant: {states: [x1, x2], A: [[0, 1], [-1, 0]]}\n"
+    "sensors:\n"
+    "  a: {C: [[1, 0]], source: {topic: a}}\n"
+    "  b: {C: [[0, 1]], source: {topic: b}}\n"
+    "  c: {C: [[1, 1]], source: {topic: c}}\n"
+    "  d: {C: [[1, 0]], source: {topic: d}}\n"
+    "  e: {C: [[1, -1]], source: {topic: e}}\n"
+    "  f: {C: [[0, 1]], source: {topic: f}}\n";
+
 constexpr char kFormulas[] =
     "plant:\n"
     "  states: [x1, x2]\n"
@@ -85,6 +95,11 @@ const Scene kScenes[] = {
     // Gains found by hand.
     {"two_sensors", kIntegrator, "", {{0.2, 1.0}, {0.05, 0.2}}, 3},
     {"five_sensors", kCrowd, "", {{0.3, 1.0}, {0.2, 0.8}, {0.5, 1.0}, {0.1, 0.5}, {0.4, 0.9}}, 2},
+    {"sum_of_six",
+     kLargerCrowd,
+     "",
+     {{0.3, 1.0}, {0.2, 0.8}, {0.5, 1.0}, {0.1, 0.5}, {0.4, 0.9}, {0.2, 0.6}},
+     2},
     {"two_sensors_scheduled",
      kIntegrator,
      "timer_dependent_scheduled_gain",
@@ -111,6 +126,15 @@ DesignedObserver observer_of(const Scene& scene) {
                             Eigen::MatrixXd::Identity(n, n));
   if (scene.method[0] != '\0') {
     observer.design(scene.method, kRate, scene.cells);
+  } else if (scene.plant == kLargerCrowd) {
+    observer.prove_gains("timer_dependent_sum_constant_gain",
+                         {{"L/a", Eigen::Vector2d(0.4, 0.0)},
+                          {"L/b", Eigen::Vector2d(0.0, 0.4)},
+                          {"L/c", Eigen::Vector2d(0.2, 0.2)},
+                          {"L/d", Eigen::Vector2d(0.4, 0.0)},
+                          {"L/e", Eigen::Vector2d(0.2, -0.2)},
+                          {"L/f", Eigen::Vector2d(0.0, 0.4)}},
+                         kRate, scene.cells);
   } else if (scene.plant == kCrowd) {
     observer.prove_gains("timer_dependent_constant_gain",
                          {{"L/a", Eigen::Vector2d(0.4, 0.0)},
@@ -257,7 +281,7 @@ class SensorRuns {
 
 /// The text with the first number of the P of a node made larger.
 std::string with_other_P(std::string text, const std::string& node) {
-  const std::size_t line = text.find("\n    \"" + node + "\": [[", text.find("  P:"));
+  const std::size_t line = text.find("\"" + node + "\": [[", text.find("  P:"));
   EXPECT_NE(line, std::string::npos) << text;
   text.insert(text.find("[[", line) + 2, "9");
   return text;

@@ -44,6 +44,7 @@ const DesignMethod& timer_dependent_alternating_hold();
 const DesignMethod& timer_dependent_alternating_injection();
 const DesignMethod& timer_dependent_constant_gain_design();
 const DesignMethod& timer_dependent_jump_gain_design();
+const DesignMethod& timer_dependent_sum_gain();
 const DesignMethod& timer_dependent_switched_design();
 const DesignMethod& timer_dependent_scheduled_gain_design();
 

@@ -62,8 +62,8 @@ void require_function(LmiProgram& program, const TimerDependentFunction& functio
   add_gamma(program, subject, parameters, objective);
   for (const Condition& condition : function.conditions()) program.require(condition, 1);
   if (objective == Objective::kMinFinalError) {
-    minimize_timer_dependent_level(program, function, subject, weights_of_design(subject),
-                                   parameters, true);
+    minimize_timer_dependent_level(program, function.system(), matrices_of(function), subject,
+                                   weights_of_design(subject), parameters);
   }
 }
 

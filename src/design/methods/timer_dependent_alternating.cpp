@@ -14,6 +14,7 @@
 #include "design/methods/methods.h"
 #include "design/methods/timer_dependent.h"
 #include "design/methods/timer_dependent_start.h"
+#include "design/methods/timer_dependent_sum_start.h"
 #include "linear_algebra/matrix_functions.h"
 
 namespace sampled_data_observers {
@@ -134,6 +135,8 @@ class AlternatingDesign : public DesignMethod {
     for (const NamedShape& shape : theorem().multipliers(subject)) {
       if (shape.form == NamedShape::Form::kScalar) {
         program.bound_above(shape.name, program.scalar(shape.name), kLargest);
+      } else if (shape.name.rfind("jump_part", 0) == 0) {
+        program.symmetric(shape.name, shape.rows);
       } else {
         program.fix(shape.name, values.at(shape.name));
       }
@@ -143,10 +146,15 @@ class AlternatingDesign : public DesignMethod {
     add_gamma(program, subject, parameters, objective);
     for (const Condition& condition : theorem().conditions(subject)) program.require(condition, 1);
     if (objective == Objective::kMinFinalError) {
-      minimize_timer_dependent_level(program, *timer_dependent_function(theorem(), subject),
-                                     subject, weights_of_design(subject), parameters, false);
+      minimize_timer_dependent_level(program, error_system(subject), {}, subject,
+                                     weights_of_design(subject), parameters);
     }
     return program;
+  }
+
+  ErrorSystem error_system(const CertificateSubject& subject) const {
+    const auto function = timer_dependent_function(theorem(), subject);
+    return function ? function->system() : timer_dependent_sum(theorem(), subject)->system();
   }
 
   /// Of noise levels, in the units of the attempt.
@@ -194,6 +202,26 @@ class AlternatingJumpGains : public AlternatingDesign {
       means[gain_of_sensor("L", subject, i)] = sum / static_cast<double>(nodes);
     }
     return {means};
+  }
+};
+
+/// Constant gains of any number of sensors.
+class AlternatingGainsOfSum : public AlternatingDesign {
+ public:
+  std::string name() const override { return "timer_dependent_sum_gain"; }
+  std::string summary() const override {
+    return "constant gains L of any number of sensors, by a sum of functions of one timer each, "
+           "improved by alternating between gains and Lyapunov matrices";
+  }
+  const Theorem& theorem() const override {
+    return *find_theorem("timer_dependent_sum_constant_gain");
+  }
+
+ protected:
+  std::vector<NamedMatrices> starts(const CertificateSubject& subject, const Parameters& parameters,
+                                    Objective objective) const override {
+    const NamedMatrices gains = gains_for_constant_products(subject, parameters, objective);
+    return gains.empty() ? std::vector<NamedMatrices>() : std::vector<NamedMatrices>{gains};
   }
 };
 
@@ -264,6 +292,11 @@ class AlternatingInjection : public AlternatingDesign {
 
 const DesignMethod& timer_dependent_alternating_gain() {
   static const AlternatingJumpGains method;
+  return method;
+}
+
+const DesignMethod& timer_dependent_sum_gain() {
+  static const AlternatingGainsOfSum method;
   return method;
 }
 

@@ -25,6 +25,8 @@ CertificateSubject with_readable_cells(const CertificateSubject& subject, unsign
   std::size_t nodes = cells;
   if (nodes <= kMostTimerNodes) {
     CertificateSubject on_grid = with_cells(subject, static_cast<int>(cells));
+    // The nodes of more timers make no grid.
+    if (on_grid.timer_nodes.size() > TensorGrid::kMaxDimensions) return on_grid;
     nodes = 1;
     for (const std::vector<double>& of_timer : on_grid.timer_nodes) nodes *= of_timer.size();
     if (nodes <= kMostTimerNodes) return on_grid;
