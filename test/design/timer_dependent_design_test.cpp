@@ -227,8 +227,9 @@ TEST(TimerDependentDesign, CorrectsAtSwitchesBetweenThreeModes) {
   third.label = 7;
   third.A << 0, 0, 1, 0, 0, 0, -1, 0, 0;
   subject.plant.modes.push_back(third);
+  for (ModeMatrices& mode : subject.plant.modes) mode.C_d = Eigen::MatrixXd::Identity(2, 3);
   const Design found = design_by("timer_dependent_switched_gain", with_cells(subject, 6),
-                                 {{"lambda_t", 0.005}}, Objective::kFeasible);
+                                 {{"lambda_t", 0.001}}, Objective::kFeasible);
   EXPECT_EQ(found.proved_conditions,
             found.certificate.theorem->conditions(found.certificate.subject).size());
   EXPECT_EQ(found.certificate.values.count("L_d/7"), 1u);

@@ -34,14 +34,14 @@ CertificateSubject chain(Eigen::Index n) {
   return with_cells(subject, 2);
 }
 
-DesignCandidate designed(const std::string& method, const CertificateSubject& subject) {
+DesignCandidate designed_for_gamma(const std::string& method, const CertificateSubject& subject) {
   return find_design_method(method)->attempt(subject, {{"lambda_t", 0.05}}, Objective::kMinGamma);
 }
 
 TEST(TimerDependentSum, DesignsNearlyWhatAGridDoes) {
   const CertificateSubject subject = chain(2);
-  const DesignCandidate sum = designed("timer_dependent_sum_gain", subject);
-  const DesignCandidate grid = designed("timer_dependent_alternating_gain", subject);
+  const DesignCandidate sum = designed_for_gamma("timer_dependent_sum_gain", subject);
+  const DesignCandidate grid = designed_for_gamma("timer_dependent_alternating_gain", subject);
   ASSERT_TRUE(sum.is_verified()) << sum.message;
   ASSERT_TRUE(grid.is_verified()) << grid.message;
   EXPECT_LE(sum.cost, 0.9);
