@@ -117,10 +117,9 @@ Timeline::InsertReport Timeline::take_in(const Event& event, const Event* compan
 /// Whether there is a state at a stamp, and the position of the newest event up to it.
 Timeline::Query Timeline::find(Stamp at, std::size_t& position) const {
   position = last_where(size_, [&](std::size_t candidate) { return stamp(candidate) <= at; });
-  if (position > 0) return Query::kOk;
-  if (base_ == Base::kInitial) return size_ == 0 ? Query::kNoEvent : Query::kBeforeStart;
-  if (stamp(0) <= at) return Query::kOk;
-  return base_ == Base::kForgotten ? Query::kBeforeWindow : Query::kBeforeStart;
+  if (slot(position).begun && stamp(position) <= at) return Query::kOk;
+  if (!slot(size_).begun) return Query::kNoEvent;
+  return base_ == Base::kForgotten && slot(0).begun ? Query::kBeforeWindow : Query::kBeforeStart;
 }
 
 Timeline::Query Timeline::begin_flow(Stamp at, SplitFlow& flow, EventCounts& counts) const {
@@ -196,14 +195,15 @@ void Timeline::set_base(Base base, Stamp stamp, bool held) {
   slot(0).event.stamp = stamp;
   slot(0).counts = EventCounts{};
   slot(0).held = held;
+  slot(0).begun = base != Base::kInitial;
   newest_.col(static_cast<Eigen::Index>(order(0))).setConstant(kNever);
   cursor_.origin.reset();
 }
 
 std::optional<Stamp> Timeline::earliest() const {
-  if (base_ != Base::kInitial) return stamp(0);
-  if (size_ > 0) return stamp(1);
-  return std::nullopt;
+  if (slot(0).begun) return stamp(0);
+  if (!slot(size_).begun) return std::nullopt;
+  return stamp(last_where(size_, [&](std::size_t position) { return !slot(position).begun; }) + 1);
 }
 
 std::optional<Stamp> Timeline::newest() const {
@@ -292,6 +292,14 @@ void Timeline::flow_to(std::size_t position, Duration whole, const ConstStateRef
   cursor_.reached = whole;
 }
 
+/// Whether there are states from an event on, if not before it: not for a number alone.
+bool Timeline::begins_states(const Event& event) const {
+  if (event.kind != EventKind::kRejected) return true;
+  Event without_number = event;
+  without_number.index = 0;
+  return system_->accepts(without_number);
+}
+
 /// Computes the state after the event at `position`, and what it rests on, from what stands before
 /// it.
 void Timeline::apply(std::size_t position) {
@@ -302,6 +310,13 @@ void Timeline::apply(std::size_t position) {
   };
   current.counts = slot(position - 1).counts;
   column(position) = column(position - 1);
+  current.begun = slot(position - 1).begun || begins_states(event);
+  if (!current.begun) {
+    state_after(position) = state_after(position - 1);
+    current.effect = Effect::kApplied;
+    current.held = false;
+    return;
+  }
   if (event.kind != EventKind::kRejected) ++current.counts.events;
   current.counts.digest += digest(event);
   current.effect = reset(position);
@@ -318,7 +333,7 @@ Effect Timeline::reset(std::size_t position) {
   const Event& event = slot(position).event;
   if (cursor_.origin == order(position)) cursor_.origin.reset();
   auto state = state_after(position);
-  const bool begins = position == 1 && base_ == Base::kInitial;
+  const bool begins = !slot(position - 1).begun;
   const Duration duration = begins ? 0 : event.stamp - stamp(position - 1);
   const auto flow = [&] {
     state = state_after(position - 1);

@@ -266,9 +266,6 @@ bool Estimator::lacks_an_input() const {
 /// Where the law minds.
 void Estimator::insert_rejected(EventKind kind, std::uint32_t index, Stamp stamp) {
   if (!law_->accepts(rejection(kind, index, stamp))) return;
-  // A number begins no estimate.
-  const bool has_begun = timeline_.earliest().has_value();
-  if (!has_begun && !law_->accepts(rejection(kind, 0, stamp))) return;
   stamp = std::max(stamp, timeline_.earliest_insertion().value_or(stamp));
   timeline_.insert(rejection(kind, index, stamp));
 }

@@ -317,7 +317,6 @@ class ArrivalOrderTest : public ::testing::TestWithParam<std::string> {
       Stamp newest = 0;
       for (const OwnedEvent& event : events) {
         const std::optional<Stamp> before = forgotten_until(*estimator);
-        const bool has_begun = estimator->earliest().has_value();
         const EventOutcome outcome = take_and_ask(*estimator, event).outcome;
         tally_.add(outcome);
         if (outcome == EventOutcome::kDuplicate) continue;
@@ -329,7 +328,7 @@ class ArrivalOrderTest : public ::testing::TestWithParam<std::string> {
           const bool is_of_jump =
               event.kind == EventKind::kJump || event.kind == EventKind::kWithdrawal;
           if (event.kind != EventKind::kInput && !is_of_jump) continue;
-          if (!minds_rejection_of(refused, has_begun)) continue;
+          if (!minds_rejection_of(refused)) continue;
           newest = std::max(newest, refused.stamp);
           continue;
         }
@@ -358,16 +357,14 @@ class ArrivalOrderTest : public ::testing::TestWithParam<std::string> {
   Tally tally_;
 
  private:
-  /// Whether the law looks at what was refused: else it does not come into the log. A number begins
-  /// none.
-  bool minds_rejection_of(const Event& refused, bool has_begun) const {
+  /// Whether the law looks at what was refused: else it does not come into the log.
+  bool minds_rejection_of(const Event& refused) const {
     Event rejection;
     rejection.stamp = refused.stamp;
     rejection.kind = EventKind::kRejected;
     rejection.rejected = refused.kind == EventKind::kInput ? EventKind::kInput : EventKind::kJump;
-    const bool minds_without_number = law_->accepts(rejection);
     rejection.index = refused.index;
-    return law_->accepts(rejection) && (has_begun || minds_without_number);
+    return law_->accepts(rejection);
   }
 
   /// Stamp of the newest event forgotten.

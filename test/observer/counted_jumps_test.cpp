@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -199,6 +201,24 @@ TEST_F(CountedJumpsTest, ARejectedNumberBeginsNoEstimate) {
   runtime.set_enabled(false, kStart);
   runtime.receive(jump(1.0, 7).view(), kStart + 2 * kSecond);
   EXPECT_FALSE(runtime.estimator().earliest().has_value());
+}
+
+TEST_F(CountedJumpsTest, ARejectedNumberCountsInWhateverOrderItComes) {
+  OwnedEvent rejected = jump(2.0, 2);
+  rejected.values = {std::numeric_limits<double>::quiet_NaN()};
+  OwnedEvent of_before = jump(0.5, 7);
+  of_before.values = rejected.values;
+  std::vector<OwnedEvent> events = {of_before, rejected, jump(1.0, 1), jump(3.0, 3)};
+  std::vector<std::size_t> order = {0, 1, 2, 3};
+  std::optional<std::uint64_t> digest;
+  do {
+    Run run(configure());
+    for (const std::size_t i : order) run.take(events[i]);
+    EXPECT_EQ(0.0, run.lost_at(3.0));  // 2 was told; 7, of before the estimate, plays no part
+    const std::uint64_t found = run.at(3.0).counts.digest;
+    EXPECT_EQ(digest.value_or(found), found);
+    digest = found;
+  } while (std::next_permutation(order.begin(), order.end()));
 }
 
 TEST_F(CountedJumpsTest, ALowerNumberThatIsNotMissingBeginsANewCount) {

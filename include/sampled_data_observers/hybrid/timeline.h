@@ -37,8 +37,10 @@ struct EventCounts {
 ///
 /// Before its first event the system is in its initial state; the first event's stamp is therefore
 /// the earliest time at which there is a state, unless the timeline begins at a stated one
-/// (begin()). The window reaches `history` back from the newest
-/// event, or less when more than `max_events` events lie in it.
+/// (begin()). The number of a rejected jump begins no state where that is all that the system minds
+/// of it: until another event begins one at an earlier stamp, it is kept without effect. The window
+/// reaches `history` back from the newest event, or less when more than `max_events` events lie in
+/// it.
 ///
 /// A flow or reset whose result is not finite, or beyond 1e150, is skipped: the last good state is
 /// held, and only its timers go on. A state counts as held until a flow over some time succeeds
@@ -176,6 +178,8 @@ class Timeline {
     Effect effect = Effect::kApplied;
     /// Whether the state was held and not flowed to the event.
     bool held = false;
+    /// Whether there is a state: not for the numbers of rejected jumps before all other events.
+    bool begun = false;
   };
 
   /// What the base is.
@@ -207,6 +211,7 @@ class Timeline {
   std::size_t position_after(const Event& event) const;
   bool is_before_window(Stamp stamp) const;
   void open_position(std::size_t position, const Event& event);
+  bool begins_states(const Event& event) const;
   void apply(std::size_t position);
   Effect reset(std::size_t position);
   bool is_withdrawn(std::size_t position) const;
