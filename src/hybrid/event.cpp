@@ -50,15 +50,20 @@ int compare(const Event& a, const Event& b) {
 }
 
 std::uint64_t digest(const Event& event) {
+  constexpr unsigned kByte = 8;
+  constexpr unsigned kWord = 32;
+  const auto kind = static_cast<std::uint64_t>(event.kind);
+  const auto rejected = static_cast<std::uint64_t>(event.rejected);
+  const auto sensor = static_cast<std::uint64_t>(event.sensor);
+  const auto index = static_cast<std::uint64_t>(event.index);
+  const auto size = static_cast<std::uint64_t>(event.size);
+  const auto covariance = static_cast<std::uint64_t>(event.covariance);
   std::uint64_t sum = mixed(0, static_cast<std::uint64_t>(event.stamp));
-  for (const auto number :
-       {static_cast<std::uint64_t>(event.kind), static_cast<std::uint64_t>(event.sensor),
-        static_cast<std::uint64_t>(event.rejected), static_cast<std::uint64_t>(event.index),
-        static_cast<std::uint64_t>(event.size), static_cast<std::uint64_t>(event.covariance),
-        static_cast<std::uint64_t>(event.delay), std::uint64_t{event.mode ? 1U : 0U},
-        bits_of(event.mode.value_or(0.0))}) {
-    sum = mixed(sum, number);
-  }
+  sum = mixed(sum, (sensor << kWord) | (rejected << kByte) | kind);
+  sum = mixed(sum, (index << kWord) ^ (size << (2 * kByte)) ^ covariance);
+  // Few events have these.
+  if (event.delay != 0) sum = mixed(sum + 1, static_cast<std::uint64_t>(event.delay));
+  if (event.mode) sum = mixed(sum + 2, bits_of(*event.mode));
   for (Eigen::Index i = 0; i < event.size + event.covariance; ++i) {
     sum = mixed(sum, bits_of(event.values[i]));
   }

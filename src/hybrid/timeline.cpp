@@ -264,6 +264,7 @@ void Timeline::open_position(std::size_t position, const Event& event) {
       event.numbers().array() + 0.0;
   own = event;
   own.values = values;
+  slots_[free_slot].digest = digest(own);
 }
 
 /// Carries `state`, which holds after the event at `position`, over `duration`.
@@ -318,7 +319,7 @@ void Timeline::apply(std::size_t position) {
     return;
   }
   if (event.kind != EventKind::kRejected) ++current.counts.events;
-  current.counts.digest += digest(event);
+  current.counts.digest += current.digest;
   current.effect = reset(position);
   if (!took_effect(current.effect)) return;
   if (const auto family = family_of(event)) column(position)(*family) = event.stamp;

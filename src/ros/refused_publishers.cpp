@@ -6,7 +6,9 @@
 #include <ros/topic_manager.h>
 #include <ros/xmlrpc_manager.h>
 
+#include <algorithm>
 #include <boost/make_shared.hpp>
+#include <iterator>
 #include <memory>
 #include <utility>
 
@@ -23,10 +25,12 @@ constexpr char kAny[] = "*";
 /// The nodes that publish a topic, of what the master says of all.
 std::vector<std::string> nodes_of(const std::string& topic, XmlRpc::XmlRpcValue& publishers) {
   std::vector<std::string> nodes;
-  for (int i = 0; i < publishers.size(); ++i) {
+  const int topics = publishers.size();
+  for (int i = 0; i < topics; ++i) {
     if (static_cast<std::string>(publishers[i][0]) != topic) continue;
     XmlRpc::XmlRpcValue& names = publishers[i][1];
-    for (int j = 0; j < names.size(); ++j) nodes.push_back(static_cast<std::string>(names[j]));
+    const int count = names.size();
+    for (int j = 0; j < count; ++j) nodes.push_back(static_cast<std::string>(names[j]));
   }
   return nodes;
 }
@@ -39,7 +43,8 @@ std::set<std::string> connected(const std::string& topic) {
     return addresses;
   }
   XmlRpc::XmlRpcValue& connections = answer[2];
-  for (int i = 0; i < connections.size(); ++i) {
+  const int count = connections.size();
+  for (int i = 0; i < count; ++i) {
     const bool is_inbound = static_cast<std::string>(connections[i][2]) == "i";
     const bool is_of_topic = static_cast<std::string>(connections[i][4]) == topic;
     if (is_inbound && is_of_topic) addresses.insert(static_cast<std::string>(connections[i][1]));
@@ -72,7 +77,10 @@ struct Told {
 }  // namespace
 
 RefusedPublishers::RefusedPublishers(std::vector<ExpectedDefinition> topics, Receiver receive)
-    : topics_(std::move(topics)), receive_(std::move(receive)), connections_(topics_.size()) {}
+    : topics_(std::move(topics)),
+      receive_(std::move(receive)),
+      unconnected_(topics_.size()),
+      connections_(topics_.size()) {}
 
 RefusedPublishers::~RefusedPublishers() {
   for (const auto& of_topic : connections_) {
@@ -90,8 +98,16 @@ void RefusedPublishers::check() {
     const std::string& topic = topics_[i].topic;
     const std::vector<std::string> nodes = nodes_of(topic, state[0]);
     const bool are_all = nodes.size() == ros::TopicManager::instance()->getNumPublishers(topic);
-    if (are_all && connections_[i].empty()) continue;
-    listen(i, unconnected(nodes, connected(topic)));
+    if (are_all && connections_[i].empty()) {
+      unconnected_[i].clear();
+      continue;
+    }
+    const std::set<std::string> now = unconnected(nodes, connected(topic));
+    std::set<std::string> still;  // others may be about to connect
+    std::set_intersection(now.begin(), now.end(), unconnected_[i].begin(), unconnected_[i].end(),
+                          std::inserter(still, still.end()));
+    unconnected_[i] = now;
+    listen(i, still);
   }
 }
 

@@ -174,6 +174,7 @@ class Timeline {
  private:
   struct Slot {
     Event event;
+    std::uint64_t digest = 0;  ///< of the event
     EventCounts counts;
     Effect effect = Effect::kApplied;
     /// Whether the state was held and not flowed to the event.

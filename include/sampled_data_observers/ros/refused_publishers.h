@@ -24,7 +24,8 @@ struct ExpectedDefinition {
 /// Publishers with which roscpp makes no connection, since their type is another one than what this
 /// process expects, or their definition of it. All that they send would be lost, and nobody but
 /// they would be told. So the master is to be asked every few seconds who publishes; who is not
-/// connected with is listened to apart, by a subscription of any type, as long as that is so.
+/// connected with twice in turn is listened to apart, by a subscription of any type, as long as
+/// that is so.
 class RefusedPublishers {
  public:
   /// What is said of such a publisher (describe_other_definition()).
@@ -58,6 +59,8 @@ class RefusedPublishers {
   const std::vector<ExpectedDefinition> topics_;
   const Receiver receive_;
   AtOnce at_once_;
+  /// For each topic, the addresses of publishers without a connection at the last check.
+  std::vector<std::set<std::string>> unconnected_;
   /// For each topic, by the address of the publisher's node.
   std::vector<std::map<std::string, Connection>> connections_;
 };
