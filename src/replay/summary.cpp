@@ -60,6 +60,10 @@ void print_bounds(const ReplaySummary& summary, std::ostream& out) {
 void print_comparison(const ReplaySummary& summary, std::ostream& out) {
   if (summary.compared.empty()) return;
   out << "\nagainst the truth at " << summary.compared_stamps << " stamps\n";
+  if (summary.compared_stamps == 0) {
+    out << "  " << describe_no_comparison() << "\n";
+    return;
+  }
   // What no sensor measures as it is, cannot be held.
   const bool is_held = std::any_of(summary.hold_rmse.begin(), summary.hold_rmse.end(),
                                    [](const auto& value) { return value.has_value(); });
@@ -228,6 +232,11 @@ ReplaySummary::StateBound ReplaySummary::all_bounds() const {
     all.share = std::max(all.share, bound.share);
   }
   return all;
+}
+
+std::string describe_no_comparison() {
+  return "no stamp of the truth was compared, which begins when each compared state that a sensor "
+         "measures was measured once, by a sample that was used, and --from is over";
 }
 
 std::string describe_bound_outside(const ReplaySummary& summary) {

@@ -156,6 +156,9 @@ struct ReplaySummary {
   double wall_seconds = 0.0;
 };
 
+/// Why there are no errors although there is a truth.
+std::string describe_no_comparison();
+
 /// What the bound makes of times between samples outside of [T1, T2]; empty where there are none,
 /// or there is no bound.
 std::string describe_bound_outside(const ReplaySummary& summary);

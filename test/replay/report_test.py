@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """The page of `replay --report`: report_test.py SIMULATE REPLAY"""
 import csv
+import json
 import math
 import os
 import re
@@ -255,6 +256,13 @@ class ReportTest(FolderTest):
         self.assertIn("default-src 'none'", page)
         # A picture saved as SVG names its language, and parts of itself.
         self.assertIsNone(re.search(r"https?://(?!www\.w3\.org/2000/svg)|<link|<img|@import|url\((?!#)|innerHTML", page))
+
+    def test_nothing_to_compare_is_told_from_no_truth(self):
+        self.simulate(CART)
+        self.write("scenario.yaml", CART.replace("source: {topic: position}", "source: {topic: position, stamp_offset: 100}"))
+        text = self.replay(OBSERVER, "--truth", "truth")
+        self.assertIn("against the truth at 0 stamps\n  no stamp of the truth was compared", text)
+        self.assertIn("no stamp of the truth was compared", json.dumps(self.report()["verdict"]))
 
     def test_a_report_is_no_input(self):
         self.simulate(CART)

@@ -86,7 +86,9 @@ BesideHold beside_hold(const ReplaySummary& summary) {
 
 ReportFinding of_errors(const ReplaySummary& summary, const ErrorFigures& norm) {
   if (summary.compared_stamps == 0) {
-    return {FindingLevel::kOpen, "No truth: errors are not known (--truth, --thin)"};
+    return {FindingLevel::kOpen, summary.compared.empty()
+                                     ? "No truth: errors are not known (--truth, --thin)"
+                                     : "Errors are not known: " + describe_no_comparison()};
   }
   std::string what = sentence("RMSE ", *summary.rmse_norm, ", largest error ", *norm.largest,
                               " (norm, ", summary.compared_stamps, " stamps)");
