@@ -26,6 +26,12 @@ int compare(const Arguments& arguments) {
               result.common);
   std::printf("identical bit for bit on %zu of %zu that rest on the same events: %.1f %% of all\n",
               result.identical, result.same_events, share);
+  if (result.common == 0) {
+    std::printf(
+        "nothing to compare. Live, estimates have stamps of the clock: play bags with --clock and\n"
+        "/use_sim_time true, or replay what was recorded beside the estimates.\n");
+    return 1;
+  }
   if (result.repeated_stamps) std::printf("a bag has estimates with repeated stamps\n");
   if (result.identical != result.same_events || result.repeated_stamps) {
     std::printf("they do not agree\n");

@@ -595,6 +595,18 @@ class ToolsTest(FolderTest):
         self.assertIn("publish_delay above the latency", text)
         self.succeed("compare_estimates", *bags, "--at-least", "1")
 
+    def test_estimates_of_other_times_are_nothing_to_compare(self):
+        bags = []
+        for start in ("1000", "5000"):
+            self.scenario = self.write("scenario.yaml", SCENARIO.replace("  duration:", "  start: %s\n  duration:" % start))
+            self.observer = self.write("observer.yaml", OBSERVER.replace("DELAY", "0"))
+            self.simulate()
+            bags.append(self.path("from_%s.bag" % start))
+            self.succeed("replay", *self.replay("-o", bags[-1]))
+        text = self.fault("compare_estimates", *bags)
+        self.assertIn(" 0 stamps in both", text)
+        self.assertIn("nothing to compare. Live,", text)
+
     def test_as_many_events_that_are_others_are_not_the_same(self):
         self.observer = self.write("observer.yaml", OBSERVER.replace("DELAY", "0.06"))
         bags = []
