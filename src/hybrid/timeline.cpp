@@ -184,6 +184,13 @@ void Timeline::clear() {
   system_->initialize(state_after(0).data());
 }
 
+void Timeline::take_unbegun(const Timeline& other) {
+  for (std::size_t position = 1; position <= other.size_; ++position) {
+    const Event& event = other.slot(position).event;
+    if (!other.slot(position).begun && system_->accepts(event)) insert(event);
+  }
+}
+
 void Timeline::begin(Stamp stamp) {
   clear();
   set_base(Base::kStart, stamp, false);

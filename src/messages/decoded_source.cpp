@@ -106,8 +106,7 @@ ros::Subscriber DecodedSource::subscribe(ros::NodeHandle& handle, std::uint32_t 
     receive(message.getConstMessage(), to_stamp(message.getReceiptTime()));
   });
   // So that roscpp refuses publishers of another definition, which RefusedPublishers listens to.
-  // With
-  // "*" it would take on that of the first publisher, and refuse the right ones.
+  // With "*" it would take on that of the first publisher, and refuse the right ones.
   options.datatype = definition_->type();
   options.md5sum = definition_->md5sum();
   options.transport_hints.tcpNoDelay();

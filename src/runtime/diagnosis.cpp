@@ -54,9 +54,8 @@ std::string describe_stamps_ahead(Duration latency) {
   const Duration rounded = (latency - kMillisecond / 2) / kMillisecond * kMillisecond;
   return seconds(-latency) +
          " ahead of the clock in the median: stamp_offset: " + shown(to_seconds(rounded)) +
-         " in the source takes that off (its clock is ahead by the messages' latency more), NTP on "
-         "its "
-         "host mends it";
+         " in the source takes that off (its clock is ahead by the messages' latency more), "
+         "NTP on its host mends it";
 }
 
 std::string describe_old_stamps(const std::string& topic, Duration behind) {

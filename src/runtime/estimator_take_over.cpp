@@ -75,6 +75,7 @@ void Estimator::take_over(Estimator& other, Stamp stamp) {
   earlier_ = std::make_unique<Estimator>(std::move(other));
   const bool begins = prepare_take_over();
   if (begins) timeline_.restart(*taken_over_at_, restart_state_, earlier_->before_restart_.held);
+  if (!begins) timeline_.take_unbegun(earlier_->timeline_);
   if (!begins || awaits_sample_) {
     taken_over_at_.reset();
     other.earlier_ = std::move(earlier_);  // NOLINT(bugprone-use-after-move): it is assigned to

@@ -221,6 +221,21 @@ TEST_F(CountedJumpsTest, ARejectedNumberCountsInWhateverOrderItComes) {
   } while (std::next_permutation(order.begin(), order.end()));
 }
 
+TEST_F(CountedJumpsTest, ARejectedNumberOfBeforeOtherGainsCountsThere) {
+  const ObserverConfig config = configure();
+  Estimator former(config.law, config.options);
+  OwnedEvent rejected = jump(2.0, 2);
+  rejected.values = {std::numeric_limits<double>::quiet_NaN()};
+  const Stamp now = kStart + 50 * kSecond;
+  former.submit(rejected.view(), now);
+  Estimator estimator(config.law, config.options);
+  estimator.take_over(former, now);
+  for (const std::uint32_t k : {1, 3}) estimator.submit(jump(k, k).view(), now);
+  Estimate estimate = estimator.make_estimate();
+  ASSERT_EQ(Timeline::Query::kOk, estimator.estimate_at(kStart + 3 * kSecond, estimate));
+  EXPECT_EQ(0.0, estimator.law().skipped_jumps(estimate.state.data()));
+}
+
 TEST_F(CountedJumpsTest, ALowerNumberThatIsNotMissingBeginsANewCount) {
   Run restarted(configure());
   restarted.take(jump(1.0, 57));

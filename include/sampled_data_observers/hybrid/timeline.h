@@ -143,6 +143,10 @@ class Timeline {
   /// They are counted from `stamp` on. The state may be one that was `held`.
   void rebase(Stamp stamp, ConstStateRef state, bool held = false);
 
+  /// Takes in what another timeline keeps without a state yet, as far as this one's system minds
+  /// it.
+  void take_unbegun(const Timeline& other);
+
   /// Forgets everything: as new.
   void clear();
 
